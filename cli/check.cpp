@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "core/statics.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/keys.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// A number with its name, unit and meaning, as `check` lists it.
+struct Quantity {
+  std::string name, unit, meaning;
+  double value;
+};
+
+template <class Parameters>
+void list_fields(const Parameters& parameters, const std::string& path, Axis axis, std::vector<Quantity>& list) {
+  for_each_field<Parameters>([&](const auto& field) {
+    const std::optional<double> value = parameters.*field.member;
+    if (!value || !std::isfinite(*value)) return;  // unlimited: nothing to show
+    const Spelling s = spellings(field.name, field.unit, axis).front();
+    list.push_back({path + "." + s.key, std::string(s.unit.symbol), std::string(field.meaning), *value / s.unit.si});
+  });
+}
+
+std::vector<Quantity> parameters(const Scenario& scenario) {
+  std::vector<Quantity> list;
+  const auto fields = [&](const auto& p, const std::string& path) { list_fields(p, path, scenario.axis, list); };
+  const auto signal = [&](const Signal& s, const std::string& path) {
+    for (std::size_t k = 0; k < s.terms.size(); ++k)
+      std::visit(
+          [&](const auto& term) {
+            const std::string name = s.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
+            if constexpr (requires { term.times; })
+              list.push_back({name, "1", "samples", static_cast<double>(term.times.size())});
+            else
+              fields(term, name);
+          },
+          s.terms[k]);
+  };
+  std::visit([&](const auto& mesh) { fields(mesh, "mesh"); }, scenario.mesh);
+  signal(scenario.motor, "motor.torque");
+  if (const auto* timed = std::get_if<Signal>(&scenario.load)) signal(*timed, "load");
+  if (const auto* arm = std::get_if<GravityArm>(&scenario.load)) fields(*arm, "load");
+  if (const auto* table = std::get_if<AngleTable>(&scenario.load))
+    list.push_back({"load", "1", "points of the table", static_cast<double>(table->angles.size())});
+  scenario.effects.for_each([&](const auto& effect) {
+    if (effect) fields(*effect, fmt::format("effect.{}", effect->id));
+  });
+  fields(scenario.initial, "initial");
+  if (scenario.run.duration > 0.0) fields(scenario.run, "run");
+  return list;
+}
+
+std::vector<Quantity> derived(const Scenario& scenario) {
+  const GearMesh<double> mesh = make_mesh(scenario);
+  const double Jg = total_gear_inertia(scenario);
+  if (!mesh.has_teeth) return {};
+  return {{"C1", "1", "C(+mu), gear torque ratio where friction helps the worm", mesh.C1()},
+          {"C2", "1", "C(-mu), gear torque ratio where friction hinders the worm", mesh.C2()},
+          {"H", "1", "slope of the static surface tau_m = H tau_l", mesh.H()},
+          {"mu_w", "1", "friction from which the gear cannot drive the worm", mesh.mu_w()},
+          {"mu_g", "1", "friction from which the worm cannot drive the gear", mesh.mu_g()},
+          {"Jg", "kg m^2", "inertia of the gear side with the load", Jg},
+          {"Jw i/Jg", "1", "slope of the switching surface tau_m = (Jw i/Jg) tau_l", mesh.Jw * mesh.i / Jg},
+          {"C1 + Jw i/Jg", "1", "eq. 17 holds while it is positive", mesh.C1() + mesh.Jw * mesh.i / Jg},
+          {"efficiency forward", "1", "1/(i C2), worm drives", forward_efficiency(mesh)},
+          {"efficiency backward", "1", "i C1, gear drives; negative when self-locking", backward_efficiency(mesh)}};
+}
+
+void print(const std::vector<Quantity>& list) {
+  for (const Quantity& q : list)
+    fmt::print("  {:<36} {:>14.6g} {:<10} {}\n", q.name, q.value, q.unit == "1" ? "" : q.unit, q.meaning);
+}
+
+nlohmann::json as_json(const std::vector<Quantity>& list) {
+  nlohmann::json result;
+  for (const Quantity& q : list)
+    result[q.name] = {{"value", q.value}, {"unit", q.unit}, {"meaning", q.meaning}};
+  return result;
+}
+
+}  // namespace
+
+int check_command(const ScenarioOptions& options) {
+  const Scenario scenario = load_scenario(options.file, options.overrides, Purpose::look);
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::json{{"title", scenario.title},
+                                      {"parameters", as_json(parameters(scenario))},
+                                      {"derived", as_json(derived(scenario))},
+                                      {"regime", describe_mesh(scenario)},
+                                      {"warnings", warnings(scenario)},
+                                      {"scenario", to_toml(scenario)}}
+                           .dump(2));
+    return 0;
+  }
+  if (options.quiet) return 0;
+  fmt::print("{}\n\nparameters\n", scenario.title);
+  print(parameters(scenario));
+  if (const auto list = derived(scenario); !list.empty()) {
+    fmt::print("\nwhat follows\n");
+    print(list);
+    fmt::print("\n");
+    print_item("regime", describe_mesh(scenario));
+  }
+  for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
+  return 0;
+}
+
+}  // namespace wormdrive

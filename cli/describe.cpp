@@ -1,0 +1,98 @@
+#include "cli/describe.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/energy.hpp"
+#include "events/halt.hpp"
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr double closing_tolerance = 1e-3;  ///< data sheets round; beyond this the power balance suffers visibly
+
+std::string plural(long count, const std::string& singular) {
+  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string name(LockingRegime regime) {
+  switch (regime) {
+    case LockingRegime::back_drivable: return "back-drivable";
+    case LockingRegime::gear_self_locking: return "gear self-locking";
+    case LockingRegime::worm_self_locking: return "worm self-locking";
+  }
+  return "";
+}
+
+std::string describe_mesh(const Scenario& scenario) {
+  const GearMesh<double> mesh = make_mesh(scenario);
+  if (!mesh.has_teeth) return "";
+  const double surface = mesh.Jw * mesh.i / total_gear_inertia(scenario);
+  std::string motion = fmt::format("eq. 17 holds ({:.3g} times)", surface / -mesh.C1());
+  if (mesh.C1() >= 0.0) motion = "eq. 17 holds (C1 >= 0)";
+  if (mesh.C1() <= -surface) motion = "eq. 17 is violated: it would jam";
+  if (mesh.regime() == LockingRegime::worm_self_locking) motion = "no motion without load";
+  return fmt::format("{}; C1 {:.4f}, C2 {:.4f}, H {:.4f}; {}", name(mesh.regime()), mesh.C1(), mesh.C2(), mesh.H(),
+                     motion);
+}
+
+std::vector<std::string> warnings(const Scenario& scenario) {
+  std::vector<std::string> list;
+  const GearMesh<double> mesh = make_mesh(scenario);
+  if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
+    list.push_back(fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
+                               "{:.4f} would close it",
+                               mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree));
+  if (scenario.motor.terms.empty()) list.push_back("no [motor.torque]: the motor torque is 0 throughout");
+  return list;
+}
+
+std::string describe_events(const RunSummary& summary) {
+  if (summary.total_events() == 0) return "no events";
+  std::vector<std::string> parts;
+  for (const auto& [kind, singular] :
+       {std::pair{EventKind::break_away, "break-away"}, {EventKind::flank_change, "flank change"},
+        {EventKind::reversal, "reversal"}, {EventKind::stop, "stop"}})
+    if (const long count = summary.events[static_cast<std::size_t>(kind)]; count > 0)
+      parts.push_back(plural(count, singular));
+  return fmt::format("{}: {}", plural(summary.total_events(), "event"), fmt::join(parts, ", "));
+}
+
+std::string describe_audit(const AuditReport& report, const Scenario& scenario) {
+  const bool linear = scenario.axis == Axis::linear;
+  std::string text = fmt::format("{}, {}, {} missed", plural(report.guards, "guard"), plural(report.events, "guard event"),
+                                 report.missed());
+  for (const AuditFinding& finding : report.findings)
+    text += fmt::format("; {} at {:.9g} s: {}, {}", finding.missed ? "missed" : "not confirmed", finding.t,
+                        finding.guard, describe(finding.mode));
+  const Graze& speed = report.closest[0];
+  if (std::isfinite(speed.distance))
+    text += fmt::format("; closest graze {:.3g} {} at {:.5g} s", speed.distance, linear ? "m/s" : "rad/s", speed.t);
+  else
+    text += "; no graze";
+  text += fmt::format("; event times agree within {:.1e} s, segments within {:.1e} {}", report.largest_time_error,
+                      report.largest_angle_error, linear ? "m" : "rad");
+  if (report.work > 0.0 && std::abs(closing_error(make_mesh(scenario))) < 1e-9)
+    text += fmt::format("; energy closes within {:.1e} of the work done", std::abs(report.energy_error) / report.work);
+  return text;
+}
+
+std::string describe_solver(const RunSettings& run) {
+  return fmt::format("cvode ({}, rtol {:g})", run.method == Method::bdf ? "BDF" : "Adams", run.relative_tolerance);
+}
+
+void print_item(const std::string& label, const std::string& text) { fmt::print("  {:<8} {}\n", label, text); }
+
+std::string default_output(const std::string& scenario_file, const std::string& suffix) {
+  const std::filesystem::path file(scenario_file);
+  const bool stored = file.extension() == ".h5";
+  return file.stem().string() + (stored ? "_again" : "") + suffix;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cli/commands.hpp"
+#include "scenarios/keys.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/table_reader.hpp"
+
+namespace wormdrive {
+namespace {
+
+template <class Parameters>
+void print_fields() {
+  const Parameters defaults{};
+  for_each_field<Parameters>([&](const auto& field) {
+    const Spelling s = spellings(field.name, field.unit, Axis::rotary).front();
+    const std::optional<double> value = defaults.*field.member;
+    std::string note = field.presence == Presence::required ? ", required" : "";
+    if (field.presence == Presence::optional && value && std::isfinite(*value)) note = fmt::format(", default {:g}", *value / s.unit.si);
+    const bool bounded = std::isfinite(field.bounds.low) || std::isfinite(field.bounds.high);
+    fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note, bounded ? "; " + rule(field.bounds, s.unit) : "");
+  });
+}
+
+void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<14} {}\n", kind, meaning); }
+
+template <class Term>
+void print_torque() {
+  print_kind(Term::kind, Term::meaning);
+  if constexpr (requires { Term::fields(); })
+    print_fields<Term>();
+  else
+    fmt::print("      file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"\n");
+}
+
+template <std::size_t... K>
+void print_torques(std::index_sequence<K...>) {
+  (print_torque<std::variant_alternative_t<K, SignalTerm>>(), ...);
+}
+
+void list_effects() {
+  fmt::print("effects: [effect.ID] in a scenario; on = false keeps one without using it\n");
+  Effects<double>{}.for_each([](const auto& effect) {
+    using Effect = typename std::decay_t<decltype(effect)>::value_type;
+    print_kind(Effect::id, fmt::format("{}: {}", name(Effect::place), Effect::cause));
+    print_fields<Effect>();
+  });
+}
+
+void list_torques() {
+  fmt::print("torques: [motor.torque] kind = \"...\", or several as [[motor.torque]], which add up\n");
+  print_torques(std::make_index_sequence<std::variant_size_v<SignalTerm>>());
+}
+
+void list_loads() {
+  fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
+  print_kind(GravityArm::kind, GravityArm::meaning);
+  print_fields<GravityArm>();
+  print_kind(AngleTable::kind, AngleTable::meaning);
+  fmt::print("      file (with x_column, y_column), or angles_deg and torques_Nm\n");
+}
+
+/// The installed scenarios, or those of the source tree that built this program.
+void list_scenarios() {
+  const std::filesystem::path installed = WORMDRIVE_SCENARIOS_INSTALLED, source = WORMDRIVE_SCENARIOS_SOURCE;
+  const auto& folder = std::filesystem::exists(installed) ? installed : source;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  fmt::print("scenarios in {}\n", folder.string());
+  for (const auto& file : files)
+    fmt::print("  {:<32} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
+}
+
+}  // namespace
+
+int list_command(const std::string& what) {
+  if (what == "effects") list_effects();
+  if (what == "torques") list_torques();
+  if (what == "loads") list_loads();
+  if (what == "scenarios") list_scenarios();
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,117 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <csignal>
+#include <functional>
+#include <iostream>
+
+#include "cli/commands.hpp"
+#include "events/halt.hpp"
+#include "output/part_file.hpp"
+#include "scenarios/faults.hpp"
+
+namespace {
+
+using namespace wormdrive;
+
+constexpr int bad_input = 2, cannot_go_on = 3, cannot_write = 4;
+
+/// "wormdrive run 'my arm.toml'", as one could type it again.
+std::string command_line(int argc, char** argv) {
+  std::vector<std::string> words{"wormdrive"};
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"$&|;<>()*?[]#~`\\") == std::string::npos;
+    words.push_back(plain ? word : fmt::format("'{}'", word));
+  }
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("scenario", options.file, "scenario (.toml), or a result file that carries one (.h5)")->required();
+  command.add_option("--set", options.overrides, "override a key: --set motor.torque.amplitude_Nm=0.06")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_flag("-q,--quiet", options.quiet, "print faults only");
+  command.add_flag("--json", options.json, "print the result as JSON");
+}
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputFault& fault) {
+    std::cerr << fault.what() << '\n';
+    return bad_input;
+  } catch (const Halt& halt) {
+    std::cerr << "wormdrive: " << halt.what() << '\n';
+    return cannot_go_on;
+  } catch (const OutputFault& fault) {
+    std::cerr << "wormdrive: " << fault.what() << '\n';
+    return cannot_write;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error that write() tells, not a death
+
+  CLI::App app{"wormdrive: worm-gear drives, simulated exactly"};
+  app.set_version_flag("--version", build_description());
+  app.require_subcommand(1);
+  const std::string typed = command_line(argc, argv);
+
+  RunOptions run;
+  CLI::App* const run_app = app.add_subcommand("run", "simulate a scenario and write an HDF5 file");
+  add_scenario_options(*run_app, run.scenario);
+  run_app->add_option("-o,--output", run.output, "result file; default: the scenario's name with .h5");
+  run_app->add_flag("--audit", run.audit, "integrate again with another method and look for missed events");
+
+  ScenarioOptions check;
+  CLI::App* const check_app = app.add_subcommand("check", "show resolved parameters, what follows from them, and warnings");
+  add_scenario_options(*check_app, check);
+
+  StaticsOptions statics;
+  CLI::App* const statics_app = app.add_subcommand("statics", "locking regime and break-in torques over the load torque");
+  add_scenario_options(*statics_app, statics.scenario);
+  statics_app->add_option("-o,--output", statics.output, "also write the map as HDF5");
+  statics_app->add_option("--max-load", statics.max_load, "largest load torque [N m]")->check(CLI::PositiveNumber);
+  statics_app->add_option("--points", statics.points, "loads from -max to +max")->check(CLI::Range(3, 100000));
+
+  SteadyOptions steady;
+  CLI::App* const steady_app = app.add_subcommand("steady", "motor torque needed to run at constant speed");
+  add_scenario_options(*steady_app, steady.scenario);
+  steady_app->add_option("-o,--output", steady.output, "also write curve and records as HDF5");
+  steady_app->add_option("--data", steady.data, "CSV: record, worm_speed_rad_per_s, motor_torque_Nm; compared with the model");
+  steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(CLI::PositiveNumber);
+  steady_app->add_option("--points", steady.points, "speeds in each direction")->check(CLI::Range(1, 100000));
+
+  PlotOptions plot;
+  CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
+  plot_app->add_option("file", plot.file, "result of run, statics or steady (.h5)")->required();
+  plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
+
+  std::string what;
+  CLI::App* const list_app = app.add_subcommand("list", "list effects, loads, torques or scenarios");
+  list_app->add_option("what", what, "effects, loads, torques or scenarios")
+      ->required()
+      ->check(CLI::IsMember({"effects", "loads", "torques", "scenarios"}));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  }
+  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario})
+    options->command_line = typed;
+  return guarded([&] {
+    if (run_app->parsed()) return run_command(run);
+    if (check_app->parsed()) return check_command(check);
+    if (statics_app->parsed()) return statics_command(statics);
+    if (steady_app->parsed()) return steady_command(steady);
+    if (plot_app->parsed()) return plot_command(plot);
+    return list_command(what);
+  });
+}

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "cli/commands.hpp"
+#include "output/run_file.hpp"
+#include "scenarios/faults.hpp"
+
+extern char** environ;
+
+namespace wormdrive {
+namespace {
+
+/// The installed script, or the one of the source tree that built this program.
+std::string script() {
+  const std::string installed = WORMDRIVE_PLOTS_INSTALLED "/plot.py";
+  return std::filesystem::exists(installed) ? installed : WORMDRIVE_PLOTS_SOURCE "/plot.py";
+}
+
+}  // namespace
+
+int plot_command(const PlotOptions& options) {
+  if (!std::filesystem::exists(options.file)) throw InputFault(options.file + ": error: cannot be read: no such file");
+  if (!is_hdf5(options.file)) throw InputFault(options.file + ": error: not an HDF5 file; wormdrive run writes one");
+  const std::string output =
+      options.output.empty() ? std::filesystem::path(options.file).replace_extension(".png").string() : options.output;
+  std::vector<std::string> words{WORMDRIVE_PYTHON, script(), options.file, "-o", output};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ); error != 0)
+    throw OutputFault(fmt::format("cannot start {}: {}", words[0], std::strerror(error)));
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace wormdrive

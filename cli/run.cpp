@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "cli/progress.hpp"
+#include "events/halt.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, const std::string& output) {
+  nlohmann::json result{{"title", scenario.title},
+                        {"output", output},
+                        {"warnings", warnings(scenario)},
+                        {"solver", describe_solver(scenario.run)},
+                        {"steps", summary.statistics.steps},
+                        {"evaluations", summary.statistics.evaluations},
+                        {"gear_angle", summary.end.theta_g},
+                        {"gear_speed", summary.end.omega_g}};
+  for (const EventKind kind : {EventKind::break_away, EventKind::stop, EventKind::reversal, EventKind::flank_change})
+    result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
+  if (summary.audit)
+    result["audit"] = {{"guards", summary.audit->guards},
+                       {"events", summary.audit->events},
+                       {"missed", summary.audit->missed()},
+                       {"not_confirmed", static_cast<long>(summary.audit->findings.size()) - summary.audit->missed()},
+                       {"largest_time_error_s", summary.audit->largest_time_error},
+                       {"largest_angle_error", summary.audit->largest_angle_error},
+                       {"largest_speed_error", summary.audit->largest_speed_error}};
+  return result;
+}
+
+RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& options) {
+  Progress progress(scenario.run.duration, options.scenario.quiet || options.scenario.json);
+  try {
+    RunSummary summary = run_scenario(scenario, {.rows = [&](const Trajectory& part) { file.append(part); },
+                                                 .time = [&](double t) { progress.at(t); },
+                                                 .audit = options.audit});
+    file.finish(describe_solver(scenario.run), summary.statistics);
+    return summary;
+  } catch (const Halt& halt) {
+    throw Halt(fmt::format("{}; the run up to there is in {}", halt.what(), file.file().part_path()));
+  } catch (...) {
+    file.file().discard();
+    throw;
+  }
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
+  const bool talk = !options.scenario.quiet && !options.scenario.json;
+  if (talk) {
+    fmt::print("{}\n", scenario.title);
+    if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
+    for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
+  }
+  const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
+  if (std::error_code none; std::filesystem::equivalent(output, options.scenario.file, none))
+    throw InputFault(fmt::format("{}: error: the result would overwrite the scenario; choose another --output", output));
+  RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis);
+  if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth)
+    write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
+  const RunSummary summary = run_into(file, scenario, options);
+  if (options.scenario.json) fmt::print("{}\n", as_json(scenario, summary, output).dump(2));
+  if (!talk) return 0;
+  print_item("run", fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration,
+                                describe_solver(scenario.run), summary.statistics.evaluations,
+                                describe_events(summary)));
+  if (summary.audit) print_item("audit", describe_audit(*summary.audit, scenario));
+  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, output));
+  return 0;
+}
+
+}  // namespace wormdrive

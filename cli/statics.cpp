@@ -1,0 +1,112 @@
+#include "core/statics.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "output/table.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// The break-in map: stick region and static surface over the load torque [N m].
+struct StaticsMap {
+  std::vector<double> load, low, high, surface;
+};
+
+StaticsMap make_map(const GearMesh<double>& mesh, double max_load, int points) {
+  StaticsMap map;
+  for (int k = 0; k < points; ++k) {
+    const double tau_l = max_load * (2.0 * k - (points - 1)) / (points - 1);
+    const StickRegion region = stick_region(mesh, tau_l);
+    map.load.push_back(tau_l);
+    map.low.push_back(region.low);
+    map.high.push_back(region.high);
+    map.surface.push_back(mesh.H() * tau_l);
+  }
+  return map;
+}
+
+/// A range that shows the scenario's own load with room around it.
+double sensible_load(const Scenario& scenario) {
+  const auto* arm = std::get_if<GravityArm>(&scenario.load);
+  const double amplitude = arm ? std::abs(arm->torque_amplitude()) : 0.0;
+  return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
+}
+
+void write(const std::string& output, const Scenario& scenario, const StaticsMap& map, const ScenarioOptions& options) {
+  const GearMesh<double> mesh = make_mesh(scenario);
+  PartFile file(output);
+  try {
+    write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.command_line});
+    write_attribute(file.file(), "regime", name(mesh.regime()));
+    for (const auto& [key, value] : {std::pair{"C1", mesh.C1()}, {"C2", mesh.C2()}, {"H", mesh.H()}, {"mu", mesh.mu},
+                                     {"mu_w", mesh.mu_w()}, {"mu_g", mesh.mu_g()}})
+      write_attribute(file.file(), key, value);
+    write_attribute(file.file(), "stuck_outside",
+                    std::int64_t{mesh.regime() == LockingRegime::worm_self_locking ? 1 : 0});
+    GrowingTable(file.file(), "statics",
+                 {{"load_torque", "N m", "load torque tau_l"},
+                  {"stick_low", "N m", "lower limit of the motor torques that hold the gear, or of the moving wedge"},
+                  {"stick_high", "N m", "upper limit of the motor torques that hold the gear, or of the moving wedge"},
+                  {"static_surface", "N m", "motor torque H tau_l at which the tooth changes its flank at rest"}})
+        .append({map.load, map.low, map.high, map.surface});
+    file.finish();
+  } catch (const OutputFault&) {
+    file.discard();
+    throw;
+  }
+}
+
+void print_table(const StaticsMap& map, bool outside) {
+  fmt::print("\n  {:>14} {:>18} {:>18} {:>16}\n", "load [N m]", outside ? "moves from [N m]" : "backward [N m]",
+             outside ? "to [N m]" : "forward [N m]", "H tau_l [N m]");
+  constexpr std::size_t rows = 11;  // what fits on a screen; the file has them all
+  const std::size_t stride = std::max<std::size_t>(1, (map.load.size() - 1) / (rows - 1));
+  for (std::size_t k = 0; k < map.load.size(); k += stride)
+    fmt::print("  {:>14.6g} {:>18.6g} {:>18.6g} {:>16.6g}\n", map.load[k], map.low[k], map.high[k], map.surface[k]);
+}
+
+}  // namespace
+
+int statics_command(const StaticsOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
+  const GearMesh<double> mesh = make_mesh(scenario);
+  if (!mesh.has_teeth)
+    throw InputFault(options.scenario.file + ": error: mesh.kind = \"none\" has no statics; only teeth lock");
+  const StaticsMap map = make_map(mesh, options.max_load.value_or(sensible_load(scenario)), options.points);
+  const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
+  if (!options.output.empty()) write(options.output, scenario, map, options.scenario);
+  if (options.scenario.json) {
+    fmt::print("{}\n", nlohmann::json{{"title", scenario.title},
+                                      {"regime", name(mesh.regime())},
+                                      {"C1", mesh.C1()},
+                                      {"C2", mesh.C2()},
+                                      {"H", mesh.H()},
+                                      {"stuck_outside", outside},
+                                      {"load_torque_Nm", map.load},
+                                      {"stick_low_Nm", map.low},
+                                      {"stick_high_Nm", map.high}}
+                           .dump(2));
+    return 0;
+  }
+  if (options.scenario.quiet) return 0;
+  fmt::print("{}\n", scenario.title);
+  print_item("regime", describe_mesh(scenario));
+  print_item("break-in", outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
+                                 : "motor torque at which the gear starts to turn, over the load torque:");
+  for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
+  print_table(map, outside);
+  if (!options.output.empty())
+    print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,181 @@
+#include "core/steady.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "diagnosis/speed_torque_records.hpp"
+#include "output/table.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// Model torques beside measured ones.
+struct Comparison {
+  std::vector<SpeedTorqueRecord> records;
+  std::vector<double> model;  ///< [N m], as many as records
+  double rms_error = 0.0;     ///< [N m]
+  double rms_torque = 0.0;    ///< [N m]
+};
+
+double torque_at(const Scenario& scenario, double omega_w) {
+  return with_drive(scenario, [&](auto& drive) {
+    drive.enter(0.0);
+    return steady_torque(drive.mesh(), drive.effects(), drive.load(), omega_w, scenario.initial.theta_g, 0.0);
+  });
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+Comparison compare(const Scenario& scenario, std::vector<SpeedTorqueRecord> records) {
+  Comparison comparison{std::move(records), {}, 0.0, 0.0};
+  std::vector<double> errors, torques;
+  for (const SpeedTorqueRecord& record : comparison.records) {
+    comparison.model.push_back(torque_at(scenario, record.worm_speed));
+    errors.push_back(record.motor_torque - comparison.model.back());
+    torques.push_back(record.motor_torque);
+  }
+  comparison.rms_error = rms(errors);
+  comparison.rms_torque = rms(torques);
+  return comparison;
+}
+
+struct Curve {
+  std::vector<double> speed, torque;
+};
+
+/// From -max to max without standstill, where the torque is not a number but an interval.
+Curve make_curve(const Scenario& scenario, double max_speed, int points) {
+  Curve curve;
+  for (const double direction : {-1.0, 1.0})
+    for (int k = 0; k < points; ++k) {
+      const double share = (k + 0.5) / points;
+      curve.speed.push_back(max_speed * (direction < 0.0 ? share - 1.0 : share));
+      curve.torque.push_back(torque_at(scenario, curve.speed.back()));
+    }
+  return curve;
+}
+
+void write(const std::string& output, const Scenario& scenario, const Curve& curve,
+           const std::optional<Comparison>& comparison, const ScenarioOptions& options) {
+  PartFile file(output);
+  try {
+    write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
+    GrowingTable(file.file(), "model",
+                 {{"worm_speed", "rad/s", "worm speed"}, {"motor_torque", "N m", "motor torque of the model"}})
+        .append({curve.speed, curve.torque});
+    if (comparison) {
+      write_attribute(file.file(), "rms_error", comparison->rms_error);
+      write_attribute(file.file(), "rms_torque", comparison->rms_torque);
+      std::vector<std::vector<double>> columns(5);
+      std::vector<std::string> names;
+      for (std::size_t k = 0; k < comparison->records.size(); ++k) {
+        const SpeedTorqueRecord& record = comparison->records[k];
+        names.push_back(record.name);
+        columns[0].push_back(record.worm_speed);
+        columns[1].push_back(record.motor_torque);
+        columns[2].push_back(comparison->model[k]);
+        columns[3].push_back(static_cast<double>(record.samples));
+        columns[4].push_back(static_cast<double>(record.left_out.size()));
+      }
+      GrowingTable(file.file(), "records",
+                   {{"worm_speed", "rad/s", "mean worm speed"},
+                    {"motor_torque", "N m", "mean measured motor torque"},
+                    {"motor_torque_model", "N m", "motor torque of the model"},
+                    {"samples", "1", "samples in the means"},
+                    {"left_out", "1", "implausible samples left out"}})
+          .append(columns);
+      const Hdf5Handle group(H5Gopen2(file.file(), "records", H5P_DEFAULT), H5Gclose, "cannot write records");
+      write_texts(group, "record", "name of the record", names);
+    }
+    file.finish();
+  } catch (const OutputFault&) {
+    file.discard();
+    throw;
+  }
+}
+
+nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::optional<Comparison>& comparison) {
+  nlohmann::json result{{"title", scenario.title},
+                        {"worm_speed_rad_per_s", curve.speed},
+                        {"motor_torque_Nm", curve.torque}};
+  if (!comparison) return result;
+  result["rms_error_Nm"] = comparison->rms_error;
+  result["rms_torque_Nm"] = comparison->rms_torque;
+  for (std::size_t k = 0; k < comparison->records.size(); ++k) {
+    const SpeedTorqueRecord& record = comparison->records[k];
+    nlohmann::json left_out = nlohmann::json::array();
+    for (const ImplausibleSample& s : record.left_out)
+      left_out.push_back({{"line", s.line}, {"torque_Nm", s.torque}, {"deviations", s.deviations}});
+    result["records"].push_back({{"record", record.name},
+                                 {"worm_speed_rad_per_s", record.worm_speed},
+                                 {"motor_torque_Nm", record.motor_torque},
+                                 {"motor_torque_model_Nm", comparison->model[k]},
+                                 {"samples", record.samples},
+                                 {"left_out", left_out}});
+  }
+  return result;
+}
+
+void print_curve(const Curve& curve) {
+  fmt::print("\n  {:>20} {:>20}\n", "worm speed [rad/s]", "motor torque [N m]");
+  const std::size_t stride = std::max<std::size_t>(1, curve.speed.size() / 10);
+  for (std::size_t k = stride / 2; k < curve.speed.size(); k += stride)
+    fmt::print("  {:>20.6g} {:>20.6g}\n", curve.speed[k], curve.torque[k]);
+}
+
+void print_comparison(const Comparison& comparison, const std::string& data) {
+  for (const SpeedTorqueRecord& record : comparison.records)
+    for (const ImplausibleSample& s : record.left_out)
+      print_item("left out", fmt::format("{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations "
+                                         "from its record's median (limit {:.0f})",
+                                         data, s.line, record.name, s.torque, s.deviations, implausible_deviations));
+  print_item("compared", fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m",
+                                     1e3 * comparison.rms_error, comparison.records.size(),
+                                     1e3 * comparison.rms_torque));
+}
+
+}  // namespace
+
+int steady_command(const SteadyOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
+  std::optional<Comparison> comparison;
+  if (!options.data.empty()) comparison = compare(scenario, read_speed_torque_records(options.data));
+  double max_speed = 100.0;
+  if (comparison) {
+    max_speed = 0.0;
+    for (const SpeedTorqueRecord& record : comparison->records)
+      max_speed = std::max(max_speed, 1.05 * std::abs(record.worm_speed));
+  }
+  const Curve curve = make_curve(scenario, options.max_speed.value_or(max_speed), options.points);
+  if (!options.output.empty()) write(options.output, scenario, curve, comparison, options.scenario);
+  if (options.scenario.json) {
+    fmt::print("{}\n", as_json(scenario, curve, comparison).dump(2));
+    return 0;
+  }
+  if (options.scenario.quiet) return 0;
+  fmt::print("{}\n", scenario.title);
+  if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
+  for (const std::string& warning : warnings(scenario))
+    if (!warning.starts_with("no [motor.torque]")) print_item("warning", warning);
+  if (comparison)
+    print_comparison(*comparison, options.data);
+  else
+    print_curve(curve);
+  if (!options.output.empty())
+    print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace wormdrive {
+
+/// A cos(omega t + phase), t in absolute time.
+struct Cosine {
+  double amplitude, omega, phase;
+};
+
+/// A signal between two of its knots: constant + slope (t - start) + sum of cosines. Smooth, and valid past its end,
+/// so that an integrator may look ahead without seeing the next piece.
+struct Piece {
+  double start = 0.0;
+  double constant = 0.0;
+  double slope = 0.0;
+  std::vector<Cosine> cosines;
+
+  template <class S>
+  S operator()(const S& t) const {
+    using std::cos;
+    S value = constant + slope * (t - start);
+    for (const Cosine& c : cosines) value += c.amplitude * cos(c.omega * t + c.phase);
+    return value;
+  }
+
+  /// Highest angular frequency in the piece [rad/s], 0 without cosines.
+  double fastest() const {
+    double omega = 0.0;
+    for (const Cosine& c : cosines) omega = std::max(omega, std::abs(c.omega));
+    return omega;
+  }
+};
+
+}  // namespace wormdrive

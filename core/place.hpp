@@ -1,0 +1,21 @@
+#pragma once
+#include <string_view>
+
+namespace wormdrive {
+
+/// Where in the drive an effect acts.
+enum class Place { actuator, worm_shaft, mesh, gear_shaft, load, sensor };
+
+constexpr std::string_view name(Place place) {
+  switch (place) {
+    case Place::actuator: return "actuator";
+    case Place::worm_shaft: return "worm shaft";
+    case Place::mesh: return "mesh";
+    case Place::gear_shaft: return "gear shaft";
+    case Place::load: return "load";
+    case Place::sensor: return "sensor";
+  }
+  return "";
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,105 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+namespace wormdrive {
+
+/// Truncated power series sum of c[k] s^k, k = 0..N, around the present moment: a scalar that carries the future.
+///
+/// The equations of core/ are instantiated with it unchanged to obtain derivatives along the motion.
+template <class T, int N>
+struct Series {
+  std::array<T, N + 1> c{};
+
+  Series() = default;
+  Series(T constant) { c[0] = constant; }  // NOLINT(google-explicit-constructor): constants mix freely
+
+  /// The series of the variable itself, value + s.
+  static Series variable(T value) {
+    Series x(value);
+    if constexpr (N > 0) x.c[1] = T(1);
+    return x;
+  }
+
+  T& operator[](int k) { return c[k]; }
+  const T& operator[](int k) const { return c[k]; }
+
+  Series& operator+=(const Series& b) {
+    for (int k = 0; k <= N; ++k) c[k] += b.c[k];
+    return *this;
+  }
+  Series& operator-=(const Series& b) {
+    for (int k = 0; k <= N; ++k) c[k] -= b.c[k];
+    return *this;
+  }
+  Series operator-() const {
+    Series r;
+    for (int k = 0; k <= N; ++k) r.c[k] = -c[k];
+    return r;
+  }
+  friend Series operator+(Series a, const Series& b) { return a += b; }
+  friend Series operator-(Series a, const Series& b) { return a -= b; }
+  friend Series operator*(const Series& a, const Series& b) {
+    Series r;
+    for (int k = 0; k <= N; ++k)
+      for (int j = 0; j <= k; ++j) r.c[k] += a.c[j] * b.c[k - j];
+    return r;
+  }
+  friend Series operator/(const Series& a, const Series& b) {
+    Series r;
+    for (int k = 0; k <= N; ++k) {
+      T rest = a.c[k];
+      for (int j = 0; j < k; ++j) rest -= r.c[j] * b.c[k - j];
+      r.c[k] = rest / b.c[0];
+    }
+    return r;
+  }
+  friend bool operator<=(const Series& a, const Series& b) { return a.c[0] <= b.c[0]; }
+  friend bool operator<(const Series& a, const Series& b) { return a.c[0] < b.c[0]; }
+  friend bool operator>=(const Series& a, const Series& b) { return b <= a; }
+  friend bool operator>(const Series& a, const Series& b) { return b < a; }
+};
+
+/// Sine and cosine of one series, which need each other.
+template <class T, int N>
+struct SineCosine {
+  Series<T, N> sine, cosine;
+
+  explicit SineCosine(const Series<T, N>& x) {
+    using std::cos;
+    using std::sin;
+    sine[0] = sin(x[0]);
+    cosine[0] = cos(x[0]);
+    for (int k = 1; k <= N; ++k) {
+      for (int j = 1; j <= k; ++j) {
+        sine[k] += T(j) * x[j] * cosine[k - j];
+        cosine[k] -= T(j) * x[j] * sine[k - j];
+      }
+      sine[k] = sine[k] / T(k);
+      cosine[k] = cosine[k] / T(k);
+    }
+  }
+};
+
+template <class T, int N>
+Series<T, N> sin(const Series<T, N>& x) {
+  return SineCosine<T, N>(x).sine;
+}
+template <class T, int N>
+Series<T, N> cos(const Series<T, N>& x) {
+  return SineCosine<T, N>(x).cosine;
+}
+
+/// Sign of the series just after the present moment: that of the first coefficient that matters for longer than
+/// `instant` seconds; 0 if none does.
+template <class T, int N>
+int sign_just_after(const Series<T, N>& x, double instant) {
+  using std::abs;
+  for (int k = 0; k <= N; ++k) {
+    const T next = k < N ? abs(x[k + 1]) * T(k + 1) * instant : T(0);
+    if (abs(x[k]) > next) return x[k] > T(0) ? 1 : -1;
+  }
+  return 0;
+}
+
+}  // namespace wormdrive

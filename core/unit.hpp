@@ -1,0 +1,32 @@
+#pragma once
+#include <numbers>
+#include <string_view>
+
+namespace wormdrive {
+
+/// A unit at the edge of the program: how a key ends, how it is printed, and its size in SI.
+struct Unit {
+  std::string_view suffix;  ///< end of a TOML key or CSV column, "Nm" in torque_Nm; empty for pure numbers
+  std::string_view symbol;  ///< as printed, "N m"
+  double si = 1.0;          ///< one of this unit in SI
+};
+
+namespace unit {
+inline constexpr double degree = std::numbers::pi / 180.0;
+
+inline constexpr Unit none{"", "1"};
+inline constexpr Unit second{"s", "s"};
+inline constexpr Unit hertz{"Hz", "Hz"};
+inline constexpr Unit metre{"m", "m"};
+inline constexpr Unit kilogram{"kg", "kg"};
+inline constexpr Unit newton{"N", "N"};
+inline constexpr Unit radian{"rad", "rad"};
+inline constexpr Unit degrees{"deg", "deg", degree};
+inline constexpr Unit radian_per_second{"rad_per_s", "rad/s"};
+inline constexpr Unit newton_metre{"Nm", "N m"};
+inline constexpr Unit newton_metre_per_second{"Nm_per_s", "N m/s"};
+inline constexpr Unit newton_metre_second_per_radian{"Nms_per_rad", "N m s/rad"};
+inline constexpr Unit kilogram_square_metre{"kgm2", "kg m^2"};
+}  // namespace unit
+
+}  // namespace wormdrive

@@ -1,0 +1,264 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <ceres/jet.h>
+
+#include "core/effects.hpp"
+#include "core/mesh.hpp"
+#include "core/moment.hpp"
+#include "core/observation.hpp"
+#include "core/series.hpp"
+#include "core/signal.hpp"
+
+namespace wormdrive {
+
+/// The rigid worm drive as a hybrid system: in every mode one linear equation [YehWu2009, eq. 18-19], between modes
+/// guards and a jump. Inputs (motor torque and a load over time) are frozen to the smooth piece that holds now.
+///
+/// T is the scalar of the parameters, the scalar S of a moment may differ (derivatives along the motion).
+template <class T, class Load>
+class WormDrive {
+ public:
+  static constexpr int state_size = 2;
+  using State = Eigen::Matrix<T, 2, 1>;     ///< theta_g [rad], theta_g' [rad/s]
+  using Jacobian = Eigen::Matrix<T, 2, 2>;  ///< d(theta_g', theta_g'')/d(theta_g, theta_g')
+  using Mode = wormdrive::Mode;
+
+  static constexpr int guard_count = 2;
+  static constexpr int speed_guard = 0, flank_guard = 1;      ///< while moving
+  static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
+
+  /// Time [s], state and mode: all that changes while a drive runs.
+  struct Instant {
+    double t{};
+    State x = State::Zero();
+    Mode mode{};
+  };
+
+  WormDrive(GearMesh<T> mesh, Load load, Effects<T> effects, Signal motor)
+      : mesh_(std::move(mesh)), load_(std::move(load)), effects_(std::move(effects)), motor_(std::move(motor)) {
+    Jw_i_ = mesh_.Jw * mesh_.i;
+    Jg_ = mesh_.Jg + load_.inertia();
+  }
+
+  const GearMesh<T>& mesh() const { return mesh_; }
+  const Load& load() const { return load_; }
+  const Effects<T>& effects() const { return effects_; }
+  /// Inertia of the gear side with the load's own [kg m^2].
+  T Jg() const { return Jg_; }
+  /// Slope of the switching surface, Jw i / Jg [YehWu2009, eq. 17].
+  T surface() const { return Jw_i_ / Jg_; }
+
+  // ---- inputs -------------------------------------------------------------------------------------------------
+
+  /// Freezes the inputs to the pieces that hold from t on.
+  void enter(double t) {
+    motor_piece_ = motor_.piece(t);
+    load_.enter(t);
+  }
+  /// First time after t at which an input jumps or bends.
+  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
+  /// Highest angular frequency of the present inputs [rad/s].
+  double fastest_input() const { return std::max(motor_piece_.fastest(), load_.fastest()); }
+
+  // ---- continuous motion --------------------------------------------------------------------------------------
+
+  template <class S>
+  Moment<S> moment(const S& t, const S& theta_g, const S& omega_g) const {
+    return {t, theta_g, omega_g, mesh_.i * omega_g};
+  }
+  Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1]); }
+
+  /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
+  template <class S>
+  struct SideTorques {
+    S worm, gear;
+  };
+  template <class S>
+  SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
+    return {motor_piece_(at.t) + effects_.worm_torque(at, motion),
+            load_.torque(at) + effects_.gear_torque(at, motion)};
+  }
+
+  /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
+  template <class S>
+  S beyond_surface(const Moment<S>& at, Motion motion) const {
+    const SideTorques<S> tau = side_torques(at, motion);
+    return tau.worm - surface() * tau.gear;
+  }
+
+  /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
+  template <class S>
+  S acceleration(const Moment<S>& at, Mode mode) const {
+    if (mode.motion == Motion::stuck) return S(T(0));
+    const SideTorques<S> tau = side_torques(at, mode.motion);
+    const S C = mesh_.C(S(T(mode.product()) * mesh_.mu));
+    return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+  }
+
+  State derivative(double t, const State& x, Mode mode) const {
+    if (mode.motion == Motion::stuck) return State::Zero();
+    return {x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
+  }
+
+  /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
+  Jacobian jacobian(double t, const State& x, Mode mode) const
+    requires std::same_as<T, double>
+  {
+    using Jet = ceres::Jet<double, 2>;
+    const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
+    Jacobian J = Jacobian::Zero();
+    if (mode.motion == Motion::stuck) return J;
+    J << 0.0, 1.0, a.v[0], a.v[1];
+    return J;
+  }
+
+  /// Time, angle and speed along the motion in the present mode, as power series to order N.
+  template <int N>
+  Moment<Series<T, N>> ahead(const Instant& now) const {
+    using Flow = Series<T, N>;
+    Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]));
+    for (int k = 0; k < N; ++k) {
+      const Flow a = acceleration(at, now.mode);
+      at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
+      at.omega_g[k + 1] = a[k] / T(k + 1);
+      at.omega_w = mesh_.i * at.omega_g;
+    }
+    return at;
+  }
+
+  // ---- events -------------------------------------------------------------------------------------------------
+
+  static bool at_rest(Mode mode) { return mode.motion == Motion::stuck; }
+
+  /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in
+  /// its direction and the distance to the switching surface, while stuck the margins to break-in, in rad/s^2.
+  template <class S>
+  std::array<S, guard_count> guards(const Moment<S>& at, Mode mode) const {
+    if (mode.motion == Motion::stuck)
+      return {-release_acceleration(at, Motion::forward), release_acceleration(at, Motion::backward)};
+    const S speed = T(sign(mode.motion)) * at.omega_g;
+    if (mode.flank == Flank::none) return {speed, S(T(1))};
+    return {speed, -T(sign(mode.flank)) * beyond_surface(at, mode.motion)};
+  }
+
+  std::array<T, guard_count> guards(double t, const State& x, Mode mode) const {
+    return guards(moment(T(t), x[0], x[1]), mode);
+  }
+  /// Values and rates of the guards along the motion.
+  std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
+    return guards(ahead<1>(now), now.mode);
+  }
+
+  static std::string_view guard_name(Mode mode, int guard) {
+    if (mode.motion == Motion::stuck) return guard == forward_guard ? "forward break-in" : "backward break-in";
+    return guard == speed_guard ? "gear speed" : "switching surface";
+  }
+
+  /// The state after a guard has fired. The crossing itself is trusted: its condition is not tested again.
+  Instant jump(Instant now, int guard) const {
+    if (now.mode.motion == Motion::stuck) {
+      now.mode = moving(now, guard == forward_guard ? Motion::forward : Motion::backward);
+    } else if (guard == speed_guard) {
+      now.x[1] = T(0);
+      const Motion reversed = now.mode.motion == Motion::forward ? Motion::backward : Motion::forward;
+      now.mode = starts(now, reversed) ? moving(now, reversed) : Mode{};
+    } else {
+      now.mode.flank = flank_after_crossing(now);
+    }
+    return now;
+  }
+
+  /// The mode in which the drive goes on after inputs or state were set from outside; ties mean stick.
+  Mode settle(const Instant& now) const {
+    if (now.x[1] != T(0)) return moving(now, now.x[1] > T(0) ? Motion::forward : Motion::backward);
+    for (const Motion motion : {Motion::forward, Motion::backward})
+      if (starts(now, motion)) return moving(now, motion);
+    return {};
+  }
+
+  // ---- what is reported ---------------------------------------------------------------------------------------
+
+  /// Wn [N] >= 0: from the gear's balance while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
+  T normal_force(const Instant& now) const {
+    using std::abs;
+    if (!mesh_.has_teeth) return T(0);
+    const Moment<T> at = moment(now);
+    const SideTorques<T> tau = side_torques(at, now.mode.motion);
+    if (now.mode.motion == Motion::stuck) {
+      using std::cos;
+      using std::sin;
+      const T N = tau.gear / mesh_.lg * cos(mesh_.lambda) - tau.worm / mesh_.lw * sin(mesh_.lambda);
+      return abs(N) / cos(mesh_.phi_n);
+    }
+    const T m = T(now.mode.product()) * mesh_.mu;
+    return T(sign(now.mode.flank)) * (tau.gear - Jg_ * acceleration(at, now.mode)) / mesh_.gear_arm(m);
+  }
+
+  Observation observe(const Instant& now) const
+    requires std::same_as<T, double>
+  {
+    const Moment<double> at = moment(now);
+    return {.theta_g = now.x[0],
+            .omega_g = now.x[1],
+            .alpha_g = acceleration(at, now.mode),
+            .tau_m = motor_piece_(now.t),
+            .tau_l = load_.torque(at),
+            .normal_force = normal_force(now),
+            .mode = now.mode};
+  }
+
+ private:
+  /// Events closer than this are one event [s]: far above rounding, far below anything mechanical.
+  static constexpr double instant = 1e-11;
+  static constexpr int order = 3;  ///< of the series that decide what happens just after an event
+
+  /// The acceleration that motion from rest would have, on the flank that this motion would load.
+  template <class S>
+  S release_acceleration(const Moment<S>& at, Motion motion) const {
+    return acceleration(at, Mode{motion, flank_at(beyond_surface(at, motion))});
+  }
+  template <class S>
+  Flank flank_at(const S& beyond) const {
+    if (!mesh_.has_teeth) return Flank::none;
+    return beyond <= S(T(0)) ? Flank::left : Flank::right;
+  }
+
+  /// Whether the gear starts from rest in this direction: the acceleration it would have points that way, now or,
+  /// where it is zero, just after now.
+  bool starts(const Instant& now, Motion motion) const {
+    const auto a = release_acceleration(ahead<order>({now.t, {now.x[0], T(0)}, {}}), motion);
+    return a[0] != T(0) && sign_just_after(a, instant) == sign(motion);
+  }
+
+  /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
+  Mode moving(const Instant& now, Motion motion) const {
+    if (!mesh_.has_teeth) return {motion, Flank::none};
+    const Flank now_on = flank_at(beyond_surface(moment(now), motion));
+    const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}}), motion);
+    return {motion, sign_just_after(beyond, instant) > 0 ? Flank::right : Flank::left};
+  }
+
+  /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
+  Flank flank_after_crossing(const Instant& now) const {
+    auto beyond = beyond_surface(ahead<order>(now), now.mode.motion);
+    beyond[0] = T(0);
+    const int side = sign_just_after(beyond, instant);
+    if (side == 0) return now.mode.flank == Flank::left ? Flank::right : Flank::left;
+    return side > 0 ? Flank::right : Flank::left;
+  }
+
+  GearMesh<T> mesh_;
+  Load load_;
+  Effects<T> effects_;
+  Signal motor_;
+  Piece motor_piece_{};
+  T Jw_i_{}, Jg_{};
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,180 @@
+#pragma once
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <cvodes/cvodes.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.hpp>
+#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "events/halt.hpp"
+#include "events/solver_settings.hpp"
+#include "events/timetable.hpp"
+
+namespace wormdrive {
+
+/// SUNDIALS CVODE with a root function per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
+template <class System>
+class CvodeSolver {
+ public:
+  using Instant = typename System::Instant;
+  using State = typename System::State;
+
+  /// The system must outlive the solver; its inputs and parameters may change between restarts.
+  CvodeSolver(const System& system, const SolverSettings& settings)
+      : system_(system), y_(N_VNew_Serial(System::state_size, context_)) {
+    memory_.reset(CVodeCreate(settings.method == Method::bdf ? CV_BDF : CV_ADAMS, context_));
+    if (!memory_ || !y_) throw std::bad_alloc();
+    check(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
+    check(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
+    check(CVodeSetUserData(memory(), this));
+    check(CVodeSetMaxNumSteps(memory(), max_steps));
+    check(CVodeSetMaxStep(memory(), std::isfinite(settings.max_step) ? settings.max_step : 0.0));
+    if (settings.method == Method::bdf) {
+      matrix_.reset(SUNDenseMatrix(System::state_size, System::state_size, context_));
+      linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+      check(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()));
+      check(CVodeSetJacFn(memory(), jacobian));
+    } else {
+      fixed_point_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
+      check(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
+    }
+    check(CVodeRootInit(memory(), System::guard_count, guards));
+    int falling[System::guard_count];
+    for (int& direction : falling) direction = -1;
+    check(CVodeSetRootDirection(memory(), falling));
+    check(CVodeSetNoInactiveRootWarn(memory()));
+    silence();
+  }
+  CvodeSolver(const CvodeSolver&) = delete;
+  CvodeSolver& operator=(const CvodeSolver&) = delete;
+
+  /// Takes up a new state; what the solver counted so far is kept, for CVODE forgets it here.
+  void restart(const Instant& now) {
+    total_ = statistics();
+    ++total_.restarts;
+    mode_ = now.mode;
+    state() = now.x;
+    check(CVodeReInit(memory(), now.t, y_.get()));
+    limit_ = std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier.
+  std::optional<int> advance(Instant& now, double next, double limit) {
+    if (already_there(now.t, next)) {
+      now.t = next;
+      return std::nullopt;
+    }
+    if (limit != limit_) check(CVodeSetStopTime(memory(), limit_ = limit));
+    double reached = now.t;
+    const int flag = CVode(memory(), next, y_.get(), &reached, CV_NORMAL);
+    if (flag < 0) throw SolverFault(reason(flag));
+    now.x = state();
+    if (flag != CV_ROOT_RETURN) {
+      now.t = next;
+      return std::nullopt;
+    }
+    now.t = reached;
+    int fired[System::guard_count];
+    check(CVodeGetRootInfo(memory(), fired));
+    for (int g = 0; g < System::guard_count; ++g)
+      if (fired[g] != 0) return g;
+    return std::nullopt;
+  }
+
+  /// What the solver did since it was made.
+  SolverStatistics statistics() const {
+    SolverStatistics sum = total_;
+    long steps = 0, evaluations = 0, jacobians = 0, failures = 0, roots = 0;
+    check(CVodeGetNumSteps(memory(), &steps));
+    check(CVodeGetNumRhsEvals(memory(), &evaluations));
+    check(CVodeGetNumErrTestFails(memory(), &failures));
+    check(CVodeGetNumGEvals(memory(), &roots));
+    if (linear_) check(CVodeGetNumJacEvals(memory(), &jacobians));
+    sum.steps += steps;
+    sum.evaluations += evaluations;
+    sum.jacobians += jacobians;
+    sum.error_test_failures += failures;
+    sum.guard_evaluations += roots;
+    return sum;
+  }
+
+ private:
+  static constexpr long max_steps = 10'000'000;  ///< between two stops; a stalled run fails earlier for its step size
+
+  struct Free {
+    void operator()(void* memory) const { CVodeFree(&memory); }
+    void operator()(N_Vector v) const { N_VDestroy(v); }
+    void operator()(SUNMatrix A) const { SUNMatDestroy(A); }
+    void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
+    void operator()(SUNNonlinearSolver s) const { SUNNonlinSolFree(s); }
+  };
+  template <class Handle>
+  using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
+
+  static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
+    const auto& solver = *static_cast<const CvodeSolver*>(self);
+    const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
+    Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
+    return dx.allFinite() ? 0 : -1;
+  }
+  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
+    const auto& solver = *static_cast<const CvodeSolver*>(self);
+    Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) =
+        solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
+    return 0;
+  }
+  static int guards(sunrealtype t, N_Vector y, sunrealtype* values, void* self) {
+    const auto& solver = *static_cast<const CvodeSolver*>(self);
+    const auto g = solver.system_.guards(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
+    for (int k = 0; k < System::guard_count; ++k) values[k] = g[k];
+    return 0;
+  }
+
+  void* memory() const { return memory_.get(); }
+  Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
+
+  static std::string reason(int flag) {
+    switch (flag) {
+      case CV_TOO_MUCH_WORK: return "CVODE took 10 million steps without getting there";
+      case CV_TOO_MUCH_ACC: return "the tolerance is finer than the arithmetic; raise run.relative_tolerance";
+      case CV_ERR_FAILURE: return "CVODE's error test failed repeatedly at the smallest step";
+      case CV_CONV_FAILURE: return "CVODE's nonlinear solver does not converge at the smallest step";
+      case CV_RHSFUNC_FAIL: return "the acceleration is not a finite number";
+    }
+    const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
+    return std::string("CVODE stopped with ") + name.get();
+  }
+  static void check(int flag) {
+    if (flag < 0) throw SolverFault(reason(flag));
+  }
+  /// Faults are told once, by the exception.
+  void silence() {
+#if SUNDIALS_VERSION_MAJOR >= 7
+    SUNContext_ClearErrHandlers(context_);
+    SUNContext_PushErrHandler(
+        context_, [](int, const char*, const char*, const char*, SUNErrCode, void*, SUNContext) {}, nullptr);
+#else
+    check(CVodeSetErrHandlerFn(memory(), [](int, const char*, const char*, char*, void*) {}, nullptr));
+#endif
+  }
+
+  const System& system_;
+  sundials::Context context_;
+  Owned<N_Vector> y_;
+  Owned<SUNMatrix> matrix_;
+  Owned<SUNLinearSolver> linear_;
+  Owned<SUNNonlinearSolver> fixed_point_;
+  std::unique_ptr<void, Free> memory_;
+  typename System::Mode mode_{};
+  double limit_ = std::numeric_limits<double>::quiet_NaN();
+  SolverStatistics total_{};
+};
+
+}  // namespace wormdrive

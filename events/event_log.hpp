@@ -1,0 +1,39 @@
+#pragma once
+#include <deque>
+#include <string>
+
+#include "events/halt.hpp"
+
+namespace wormdrive {
+
+/// When events come too fast to be mechanics.
+struct ChatterLimit {
+  int events = 100;      ///< this many guard events ...
+  double window = 1e-6;  ///< ... within this time [s] stop the run
+};
+
+/// Remembers the latest guard events of a run, stops it when they pile up, and tells what led to a halt.
+class EventLog {
+ public:
+  explicit EventLog(ChatterLimit limit = {}) : limit_(limit) {}
+
+  /// Notes an event; throws Halt when there were more than the limit allows within its window.
+  void count(double t, const std::string& guard, Mode before, Mode after);
+
+  /// A Halt with time, mode, the latest events and the reason.
+  Halt halt(double t, Mode mode, const std::string& reason) const;
+
+ private:
+  struct Entry {
+    double t;
+    std::string guard;
+    Mode before, after;
+  };
+  Halt chatter() const;
+
+  ChatterLimit limit_;
+  long total_ = 0;
+  std::deque<Entry> latest_;
+};
+
+}  // namespace wormdrive

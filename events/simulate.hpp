@@ -1,0 +1,59 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "events/event_log.hpp"
+#include "events/rest.hpp"
+#include "events/timetable.hpp"
+
+namespace wormdrive {
+
+/// Runs a hybrid system to the end of its timetable and returns its last instant.
+///
+/// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
+/// returns the guard at which it stopped, if any. record(system, now) sees every report and both sides of every event,
+/// in order. Throws Halt when the run cannot go on.
+template <class System, class Solver, class Recorder>
+typename System::Instant simulate(System& system, Solver& solver, Timetable timetable,
+                                  typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
+  EventLog log(chatter);
+  std::optional<int> guard;
+  for (Reason reason = timetable.pop();;) {
+    const auto before = now;
+    switch (reason) {
+      case Reason::knot:
+        system.enter(now.t);
+        timetable.schedule_knot(system.next_knot(now.t));
+        now.mode = system.settle(now);
+        break;
+      case Reason::guard:
+        now = system.jump(now, *guard);
+        log.count(now.t, std::string(System::guard_name(before.mode, *guard)), before.mode, now.mode);
+        break;
+      case Reason::report: break;
+      case Reason::end: return now;
+    }
+    if (reason != Reason::report) {
+      record(system, now);
+      if (!System::at_rest(now.mode)) solver.restart(now);
+    }
+    const double next = timetable.next_time();
+    try {
+      guard = System::at_rest(now.mode) ? rest(system, now, next) : solver.advance(now, next, timetable.next_stop());
+    } catch (const SolverFault& fault) {
+      throw log.halt(now.t, now.mode, fault.what());
+    }
+    record(system, now);
+    reason = guard ? Reason::guard : timetable.pop();
+  }
+}
+
+/// Stays at rest until next or until a guard releases the system, which is returned.
+template <class System>
+std::optional<int> rest(const System& system, typename System::Instant& now, double next) {
+  const auto released = RestWatch<System>(system, now).first_crossing(next);
+  now.t = released ? released->t : next;
+  return released ? std::optional(released->guard) : std::nullopt;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,101 @@
+#include "output/hdf5.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+namespace wormdrive {
+namespace {
+
+std::string with_reason(const std::string& action) {
+  return errno != 0 ? action + ": " + std::strerror(errno) : action;
+}
+
+template <class Value>
+void write_scalar(hid_t object, const std::string& name, hid_t type, const Value& value) {
+  errno = 0;
+  const std::string action = "cannot write attribute " + name;
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, action);
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+  check_hdf5(H5Awrite(attribute, type, &value), action);
+}
+
+Hdf5Handle text_type() {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "cannot describe text");
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+}  // namespace
+
+Hdf5Handle::Hdf5Handle(hid_t id, Close closer, const std::string& action) : id_(id), close_(closer) {
+  if (id < 0) throw OutputFault(with_reason(action));
+}
+
+void Hdf5Handle::close(const std::string& action) {
+  if (id_ < 0) return;
+  errno = 0;
+  check_hdf5(close_(std::exchange(id_, -1)), action);
+}
+
+void check_hdf5(herr_t status, const std::string& action) {
+  if (status < 0) throw OutputFault(with_reason(action));
+}
+
+Hdf5Handle create_hdf5(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // faults are told once, by the exception
+  errno = 0;
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "cannot create " + path};
+}
+
+Hdf5Handle open_hdf5(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  errno = 0;
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "cannot read " + path + " as HDF5"};
+}
+
+Hdf5Handle create_group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+          "cannot create group " + name};
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  write_scalar(object, name, text_type(), text.c_str());
+}
+void write_attribute(hid_t object, const std::string& name, double value) {
+  write_scalar(object, name, H5T_NATIVE_DOUBLE, value);
+}
+void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
+  write_scalar(object, name, H5T_NATIVE_INT64, value);
+}
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values) {
+  const std::string action = "cannot write attribute " + name;
+  const hsize_t size = values.size();
+  const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, action);
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_INT8, space, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose, action);
+  check_hdf5(H5Awrite(attribute, H5T_NATIVE_INT8, values.data()), action);
+}
+
+std::string read_text_attribute(hid_t object, const std::string& name) {
+  const std::string action = "it has no attribute '" + name + "'";
+  errno = 0;
+  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, action);
+  char* text = nullptr;
+  check_hdf5(H5Aread(attribute, text_type(), &text), action);
+  std::string copy(text ? text : "");
+  H5free_memory(text);
+  return copy;
+}
+
+std::vector<double> read_column(hid_t file, const std::string& path) {
+  const std::string action = "it has no dataset '" + path + "'";
+  errno = 0;
+  const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, action);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, action);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), action);
+  return values;
+}
+
+}  // namespace wormdrive

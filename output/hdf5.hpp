@@ -1,0 +1,61 @@
+#pragma once
+#include <hdf5.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wormdrive {
+
+/// A result that could not be written or read; what() names the file and the reason.
+struct OutputFault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// An HDF5 identifier that closes itself.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+
+  Hdf5Handle() = default;
+  /// Takes over an identifier; throws OutputFault naming the action if HDF5 refused.
+  Hdf5Handle(hid_t id, Close closer, const std::string& action);
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Hdf5Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): made to be passed to HDF5
+
+  /// Closes now, so that a failure can be told; throws OutputFault naming the action.
+  void close(const std::string& action);
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// Throws OutputFault naming the action, with the system's reason, if an HDF5 call failed.
+void check_hdf5(herr_t status, const std::string& action);
+
+Hdf5Handle create_hdf5(const std::string& path);
+Hdf5Handle open_hdf5(const std::string& path);
+Hdf5Handle create_group(hid_t parent, const std::string& name);
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, double value);
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values);
+
+/// Text of a string attribute of an object; throws OutputFault if it is absent.
+std::string read_text_attribute(hid_t object, const std::string& name);
+/// All values of a one-dimensional dataset, converted to double.
+std::vector<double> read_column(hid_t file, const std::string& path);
+
+}  // namespace wormdrive

@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+
+#include "output/hdf5.hpp"
+
+namespace wormdrive {
+
+/// An HDF5 file that exists as NAME.part until it is complete: the final name never holds a partial file.
+class PartFile {
+ public:
+  /// Creates NAME.part; throws OutputFault if the place cannot be written or the name is not that of a plain file.
+  explicit PartFile(std::string path);
+
+  hid_t file() const { return file_; }
+  const std::string& part_path() const { return part_path_; }
+  const std::string& path() const { return path_; }
+
+  /// Makes all that was written so far readable even if the program dies.
+  void flush();
+  /// Closes the file and gives it its final name. Every other handle into it must be closed before.
+  void finish();
+  /// Closes and deletes the part.
+  void discard() noexcept;
+
+ private:
+  std::string path_, part_path_;
+  Hdf5Handle file_;
+};
+
+/// Title, kind and provenance that every result file carries as root attributes.
+struct Provenance {
+  std::string kind;  ///< "run", "statics" or "steady"
+  std::string title;
+  std::string scenario;      ///< the resolved scenario as TOML text
+  std::string command_line;  ///< as typed
+};
+void write_provenance(hid_t file, const Provenance& provenance);
+
+/// "wormdrive 0.1.0 (commit), SUNDIALS 6.4.1, HDF5 1.10.8, Eigen 3.4.0"
+std::string build_description();
+
+}  // namespace wormdrive

@@ -1,0 +1,132 @@
+#include "output/run_file.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+namespace wormdrive {
+namespace {
+
+const std::vector<std::int8_t> signs{-1, 0, 1};
+constexpr const char* motions = "backward stuck forward";
+constexpr const char* flanks = "right none left";
+
+std::string in_axis(Axis axis, const std::string& rotary) {
+  if (axis == Axis::rotary) return rotary;
+  if (rotary == "N m") return "N";
+  return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
+}
+
+/// A column and where its value comes from.
+template <class Source>
+struct Column {
+  ColumnDescription description;
+  std::function<double(const Source&)> value;
+};
+
+template <class Source>
+std::vector<ColumnDescription> descriptions(const std::vector<Column<Source>>& columns, Axis axis) {
+  std::vector<ColumnDescription> list;
+  for (const auto& column : columns) {
+    list.push_back(column.description);
+    list.back().units = in_axis(axis, list.back().units);
+  }
+  return list;
+}
+
+template <class Source>
+std::vector<std::vector<double>> values(const std::vector<Column<Source>>& columns, const std::vector<Source>& rows) {
+  std::vector<std::vector<double>> table;
+  for (const auto& column : columns) {
+    std::vector<double>& list = table.emplace_back();
+    list.reserve(rows.size());
+    for (const Source& row : rows) list.push_back(column.value(row));
+  }
+  return table;
+}
+
+const std::vector<Column<Row>>& trajectory_columns() {
+  static const std::vector<Column<Row>> columns{
+      {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
+      {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
+      {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Row& r) { return r.at.omega_g; }},
+      {{"gear_acceleration", "rad/s^2", "gear acceleration theta_g''"}, [](const Row& r) { return r.at.alpha_g; }},
+      {{"motor_torque", "N m", "motor torque tau_m on the worm"}, [](const Row& r) { return r.at.tau_m; }},
+      {{"load_torque", "N m", "load torque tau_l on the gear"}, [](const Row& r) { return r.at.tau_l; }},
+      {{"normal_force", "N", "normal force Wn between the teeth"}, [](const Row& r) { return r.at.normal_force; }},
+      {{"motion", "", "sign of the gear speed", motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
+      {{"flank", "", "flank that carries the load", flanks, signs}, [](const Row& r) { return sign(r.at.mode.flank); }}};
+  return columns;
+}
+
+const std::vector<Column<Event>>& event_columns() {
+  static const std::vector<Column<Event>> columns{
+      {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
+      {{"kind", "", "what happened", "break_away stop reversal flank_change", {0, 1, 2, 3}},
+       [](const Event& e) { return static_cast<double>(e.kind()); }},
+      {{"motion_before", "", "sign of the gear speed before", motions, signs},
+       [](const Event& e) { return sign(e.before.mode.motion); }},
+      {{"motion_after", "", "sign of the gear speed after", motions, signs},
+       [](const Event& e) { return sign(e.after.mode.motion); }},
+      {{"flank_before", "", "flank that carried the load before", flanks, signs},
+       [](const Event& e) { return sign(e.before.mode.flank); }},
+      {{"flank_after", "", "flank that carries the load after", flanks, signs},
+       [](const Event& e) { return sign(e.after.mode.flank); }},
+      {{"gear_angle", "rad", "gear angle theta_g"}, [](const Event& e) { return e.after.theta_g; }},
+      {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Event& e) { return e.after.omega_g; }},
+      {{"acceleration_before", "rad/s^2", "gear acceleration just before"},
+       [](const Event& e) { return e.before.alpha_g; }},
+      {{"acceleration_after", "rad/s^2", "gear acceleration just after"},
+       [](const Event& e) { return e.after.alpha_g; }},
+      {{"motor_torque_before", "N m", "motor torque just before"}, [](const Event& e) { return e.before.tau_m; }},
+      {{"motor_torque_after", "N m", "motor torque just after"}, [](const Event& e) { return e.after.tau_m; }},
+      {{"load_torque_before", "N m", "load torque just before"}, [](const Event& e) { return e.before.tau_l; }},
+      {{"load_torque_after", "N m", "load torque just after"}, [](const Event& e) { return e.after.tau_l; }}};
+  return columns;
+}
+
+}  // namespace
+
+RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis) : file_(path) {
+  write_provenance(file_.file(), provenance);
+  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(), axis));
+  events_.emplace(file_.file(), "events", descriptions(event_columns(), axis));
+  file_.flush();
+}
+
+void RunFile::append(const Trajectory& part) {
+  trajectory_->append(values(trajectory_columns(), part.rows));
+  events_->append(values(event_columns(), part.events));
+  file_.flush();
+}
+
+void RunFile::finish(const std::string& solver, const SolverStatistics& statistics) {
+  const hid_t file = file_.file();
+  write_attribute(file, "solver", solver);
+  write_attribute(file, "solver_steps", std::int64_t{statistics.steps});
+  write_attribute(file, "solver_evaluations", std::int64_t{statistics.evaluations});
+  write_attribute(file, "solver_jacobians", std::int64_t{statistics.jacobians});
+  write_attribute(file, "solver_error_test_failures", std::int64_t{statistics.error_test_failures});
+  write_attribute(file, "solver_guard_evaluations", std::int64_t{statistics.guard_evaluations});
+  write_attribute(file, "solver_restarts", std::int64_t{statistics.restarts});
+  trajectory_.reset();
+  events_.reset();
+  file_.finish();
+}
+
+StoredRun read_stored_run(const std::string& path) {
+  const Hdf5Handle file = open_hdf5(path);
+  try {
+    return {read_text_attribute(file, "title"), read_text_attribute(file, "kind"),
+            read_text_attribute(file, "scenario")};
+  } catch (const OutputFault& fault) {
+    throw OutputFault(path + " is not a wormdrive result: " + fault.what());
+  }
+}
+
+bool is_hdf5(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return H5Fis_hdf5(path.c_str()) > 0;
+}
+
+}  // namespace wormdrive

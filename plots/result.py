@@ -1,0 +1,65 @@
+"""Reading wormdrive result files."""
+
+import h5py
+import numpy as np
+
+
+class NotAResult(Exception):
+    """The file lacks what a wormdrive result has; the text says what."""
+
+
+def text(value):
+    """Returns an HDF5 string, stored as bytes or text, as text."""
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def attribute(node, name):
+    """Returns an attribute that has to be there."""
+    if name not in node.attrs:
+        raise NotAResult(f"it has no attribute '{name}'")
+    return node.attrs[name]
+
+
+def group(file, name):
+    """Returns a group that has to be there."""
+    if not isinstance(file.get(name), h5py.Group):
+        raise NotAResult(f"it has no group '{name}'")
+    return file[name]
+
+
+def dataset(table, name):
+    """Returns a one-dimensional dataset that has to be there."""
+    column = table.get(name)
+    if not isinstance(column, h5py.Dataset) or column.ndim != 1:
+        raise NotAResult(f"it has no column '{table.name}/{name}'")
+    return column
+
+
+def column(table, name):
+    """Returns the values of a numeric column."""
+    values = dataset(table, name)
+    if values.dtype.kind not in "iuf":
+        raise NotAResult(f"column '{values.name}' holds no numbers")
+    return values[:]
+
+
+def columns(table, *names):
+    """Returns several numeric columns, which must be equally long and not empty."""
+    values = [column(table, name) for name in names]
+    if len({v.size for v in values}) > 1:
+        raise NotAResult(f"the columns of '{table.name}' differ in length")
+    if values[0].size == 0:
+        raise NotAResult(f"'{table.name}' has no rows")
+    return values
+
+
+def units(table, name):
+    """Returns the units of a column."""
+    return text(attribute(dataset(table, name), "units"))
+
+
+def flags(table, name):
+    """Returns what the values of a flag column mean, as {value: meaning}."""
+    column = dataset(table, name)
+    meanings = text(attribute(column, "flag_meanings")).split()
+    return dict(zip(np.atleast_1d(attribute(column, "flag_values")).tolist(), meanings))

@@ -1,0 +1,145 @@
+"""The picture of a run: gear angle, gear speed with its modes, torques with the switching surface."""
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+import style
+from result import NotAResult, column, columns, flags, group, units
+
+MOST_EVENTS = 200  # drawn one by one
+LARGEST = 6  # times the motor torque: beyond it the switching surface no longer sets the limits of its axis
+NARROWEST = 1 / 700  # band that is drawn when there are more events, as part of the time axis
+
+MODES = {  # (motion, flank): label, colour
+    ("forward", "left"): ("forward, left flank", style.PALE_BLUE),
+    ("forward", "right"): ("forward, right flank", style.MID_BLUE),
+    ("forward", "none"): ("forward", style.PALE_BLUE),
+    ("backward", "left"): ("backward, left flank", style.PALE_ORANGE),
+    ("backward", "right"): ("backward, right flank", style.MID_ORANGE),
+    ("backward", "none"): ("backward", style.PALE_ORANGE),
+    ("stuck", "none"): ("stuck", style.STUCK),
+}
+EVENTS = {  # kind: label, marker, colour
+    "break_away": ("break-away", "^", style.GREEN),
+    "stop": ("stop", "s", style.INK),
+    "reversal": ("reversal", "D", style.PURPLE),
+    "flank_change": ("flank change", "o", "white"),
+}
+
+
+def mode_bands(trajectory, time):
+    """Returns the bands of every mode that occurs, as {mode: (starts, widths)}."""
+    (motion, flank), meanings = columns(trajectory, "motion", "flank"), flags(trajectory, "flank")
+    code = 10 * motion.astype(int) + flank
+    start = np.flatnonzero(np.diff(code, prepend=code[0] - 1))
+    stop = np.append(start[1:], time.size - 1)
+    motions, bands = flags(trajectory, "motion"), {}
+    for value in np.unique(code[start]):
+        chosen = start[code[start] == value], stop[code[start] == value]
+        now_motion = motions.get(int(motion[chosen[0][0]]))
+        now_flank = "none" if now_motion == "stuck" else meanings.get(int(flank[chosen[0][0]]))
+        if (now_motion, now_flank) not in MODES:
+            raise NotAResult("its modes are unknown")
+        bands[now_motion, now_flank] = time[chosen[0]], time[chosen[1]] - time[chosen[0]]
+    return bands
+
+
+def draw_bands(axes, bands, narrowest):
+    """Draws the modes as bands; returns their legend and whether some were too narrow to draw."""
+    handles, skipped = [], False
+    for mode in MODES:
+        if mode not in bands:
+            continue
+        label, colour = MODES[mode]
+        start, width = bands[mode]
+        wide = width >= narrowest
+        skipped |= not wide.all()
+        axes.broken_barh(np.column_stack([start, width])[wide], (0, 1), color=colour, linewidth=0, zorder=0,
+                         transform=axes.get_xaxis_transform())
+        handles.append(Patch(facecolor=colour, edgecolor=style.GREY, linewidth=0.5, label=label))
+    return handles, skipped
+
+
+def event_kinds(events):
+    """Returns the rows of every kind of event that occurs, as {kind: rows}."""
+    kind = column(events, "kind")
+    found = {name: np.flatnonzero(kind == value) for value, name in flags(events, "kind").items() if name in EVENTS}
+    return {name: found[name] for name in EVENTS if name in found and found[name].size}
+
+
+def draw_events(panels, curves, time, kinds):
+    """Draws a thin line for every event, a marker by its kind on the curves, and returns their legend."""
+    size, width, handles = (7.5, 0.8, []) if time.size <= 60 else (4.5, 0.4, [])
+    for panel in panels:
+        panel.vlines(time, 0, 1, transform=panel.get_xaxis_transform(), color=style.EVENT, linewidth=width, zorder=1)
+    for kind, rows in kinds.items():
+        label, marker, colour = EVENTS[kind]
+        look = {"marker": marker, "color": colour, "markeredgecolor": style.INK, "linestyle": "none"}
+        for panel, values in curves:
+            panel.plot(time[rows], values[rows], **look, markersize=size, markeredgewidth=0.9, clip_on=False, zorder=5)
+        handles.append(Line2D([], [], **look, markersize=8, label=f"{label} ({rows.size})"))
+    return handles
+
+
+def draw(result):
+    """Returns the figure of a run."""
+    trajectory, events = group(result, "trajectory"), group(result, "events")
+    names = "time", "gear_angle", "gear_speed", "motor_torque", "load_torque"
+    time, angle, speed, motor, load = columns(trajectory, *names)
+    linear = units(trajectory, "gear_angle") == "m"
+    surface = result.attrs.get("surface")
+
+    figure = style.new_figure(result.attrs["title"])
+    panels = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [1.0, 1.25, 1.25]})
+
+    dot = "o" if time.size == 1 else None
+
+    def curve(panel, values, factor, colour, **look):
+        return panel.plot(*style.decimate(time, factor * values), color=colour, zorder=3, marker=dot, **look)[0]
+
+    angle_factor, angle_unit = style.scale(units(trajectory, "gear_angle"), angle)
+    curve(panels[0], angle, angle_factor, style.INK)
+    panels[0].set(ylabel=f"{'position' if linear else 'gear angle'} [{angle_unit}]",
+                  ylim=style.limits(angle_factor * angle))
+
+    speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
+    curve(panels[1], speed, speed_factor, style.INK)
+    panels[1].axhline(0.0, color=style.GREY, linewidth=0.8, zorder=2)
+    panels[1].set(ylabel=f"{'' if linear else 'gear '}speed [{speed_unit}]", ylim=style.limits(speed_factor * speed))
+
+    word = "force" if linear else "torque"
+    other = load if surface is None else surface * load
+    unit, other_label = units(trajectory, "motor_torque"), f"load {word}"
+    if surface is not None:
+        other_label = r"switching surface $(J_w i/J_g)\,\tau_l$"
+    shown = np.concatenate([motor, other])
+    if 0.0 < LARGEST * np.abs(motor).max() < np.abs(other).max():
+        shown = motor
+        low, high = f"{other.min():.3g}", f"{other.max():.3g}"
+        other_label += f" (at {low} {unit})" if low == high else f" (from {low} to {high} {unit})"
+    torque_factor, torque_unit = style.scale(unit, shown)
+    handles = [curve(panels[2], motor, torque_factor, style.BLUE, label=f"motor {word}"),
+               curve(panels[2], other, torque_factor, style.VERMILLION, linestyle=(0, (5, 2)), label=other_label)]
+    panels[2].set(xlabel="time [s]", ylabel=f"{word} [{torque_unit}]",
+                  ylim=style.limits(torque_factor * shown))
+    style.header(panels[2], handles, handlelength=2.6)
+
+    event_time, kinds = column(events, "time"), event_kinds(events)
+    few = event_time.size <= MOST_EVENTS
+    span = time[-1] - time[0]
+    bands, skipped = draw_bands(panels[1], mode_bands(trajectory, time), 0.0 if few else NARROWEST * span)
+    style.header(panels[1], bands)
+    if few and event_time.size:
+        curves = [(panels[1], speed_factor * column(events, "gear_speed")),
+                  (panels[2], torque_factor * column(events, "motor_torque_after"))]
+        style.header(panels[0], draw_events(panels, curves, event_time, kinds))
+    elif not few:
+        counts = ", ".join(f"{rows.size} × {EVENTS[kind][0]}" for kind, rows in kinds.items())
+        note = f"{event_time.size} events, not drawn: {counts}" + ("; white: modes too brief" if skipped else "")
+        style.header(panels[0], [Line2D([], [], linestyle="none", label=note)], handlelength=0.0, handletextpad=0.0)
+    panels[0].set_xlim((time[0], time[-1]) if span > 0.0 else (time[0] - 0.5, time[0] + 0.5))
+    for panel in panels:
+        style.few_ticks(panel.yaxis)
+    figure.align_ylabels()
+    return figure

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# From a fresh checkout to the first pictures: installs packages, builds, runs two examples, writes to out/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+tools/install_packages.sh
+cmake --preset release
+cmake --build --preset release
+
+wormdrive=build/release/wormdrive
+mkdir -p out
+"$wormdrive" run scenarios/fig09_switching.toml --audit -o out/fig09_switching.h5
+"$wormdrive" run scenarios/measured_worm_drive.toml -o out/measured_worm_drive.h5
+for name in fig09_switching measured_worm_drive; do
+  "$wormdrive" plot "out/$name.h5" -o "out/$name.png"
+done
+
+cat <<END
+
+In $PWD/out:
+$(find out -type f -printf '  %-32P %9s bytes\n' | sort)
+
+What next, from $PWD:
+  $wormdrive --help                        all commands
+  cp scenarios/fig09_switching.toml my_drive.toml       a drive of your own: edit it, then run it
+  ./run_tests.sh                                        check this build
+END

@@ -1,0 +1,157 @@
+#include "scenarios/load_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "scenarios/build.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/read_signal.hpp"
+#include "scenarios/table_reader.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// Where a table ought to stand when it is missing: the file itself.
+const toml::table no_table;
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const toml::table& root, std::string name, Faults& faults)
+      : name_(std::move(name)), root_(root, "", Axis::rotary, faults, {name_}), faults_(faults) {}
+
+  Scenario read(Purpose purpose) {
+    scenario_.title = root_.text("title").value_or(std::filesystem::path(name_).stem().string());
+    read_mesh();
+    scenario_.motor = read_motor();
+    read_load();
+    read_effects();
+    section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
+    read_run(purpose);
+    root_.refuse_unknown_keys();
+    if (purpose == Purpose::run) refuse_what_does_not_move();
+    return std::move(scenario_);
+  }
+
+ private:
+  template <class Read>
+  void section(const std::string& key, Read&& read) {
+    const toml::table* table = root_.table(key);
+    TableReader reader(table ? *table : no_table, key, scenario_.axis, faults_, {name_});
+    read(reader);
+    reader.refuse_unknown_keys();
+  }
+
+  std::string folder() const { return std::filesystem::path(name_).parent_path().string(); }
+
+  void read_mesh() {
+    section("mesh", [&](TableReader& mesh) {
+      if (mesh.choice("kind", {"worm", "none"}, Presence::optional) != "none") {
+        MeshParameters<double> parameters;
+        mesh.read_fields(parameters);
+        scenario_.mesh = parameters;
+        friction_at_ = mesh.where("friction");
+        return;
+      }
+      scenario_.axis =
+          mesh.choice("axis", {"rotary", "linear"}, Presence::optional) == "linear" ? Axis::linear : Axis::rotary;
+      TableReader inertia(*root_.table("mesh"), "mesh", scenario_.axis, faults_, {name_});
+      scenario_.mesh = SingleInertia{};
+      inertia.read_fields(std::get<SingleInertia>(scenario_.mesh));
+      for (const Spelling& s : spellings("inertia", unit::kilogram_square_metre, scenario_.axis)) mesh.allow(s.key);
+    });
+  }
+
+  Signal read_motor() {
+    Signal signal;
+    section("motor", [&](TableReader& motor) {
+      signal = read_signal(motor.tables("torque"), "motor.torque", motor, folder());
+    });
+    return signal;
+  }
+
+  void read_load() {
+    const std::vector<const toml::table*> tables = root_.tables("load");
+    if (tables.size() == 1) {
+      TableReader load(*tables.front(), "load", scenario_.axis, faults_, {name_});
+      if (const auto special = read_special_load(load, folder())) {
+        scenario_.load = *special;
+        return;
+      }
+    }
+    scenario_.load = read_signal(tables, "load", root_, folder());
+  }
+
+  void read_effects() {
+    section("effect", [&](TableReader& effects) {
+      scenario_.effects.for_each([&](auto& effect) {
+        using Effect = typename std::decay_t<decltype(effect)>::value_type;
+        const toml::table* table = effects.table(std::string(Effect::id));
+        if (!table) return;
+        TableReader reader(*table, fmt::format("effect.{}", Effect::id), scenario_.axis, faults_, effects.where());
+        const bool on = reader.truth("on").value_or(true);
+        Effect parameters;
+        reader.read_fields(parameters);
+        reader.refuse_unknown_keys();
+        if (on) effect = parameters;
+      });
+    });
+  }
+
+  void read_run(Purpose purpose) {
+    if (purpose == Purpose::look && !root_.has("run")) return;
+    section("run", [&](TableReader& run) {
+      run.read_fields(scenario_.run);
+      scenario_.run.method = run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
+      if (scenario_.run.report_interval > scenario_.run.duration)
+        run.fault("report_interval_s", fmt::format("run.report_interval_s = {} s must be at most the duration, {} s",
+                                                   *scenario_.run.report_interval, scenario_.run.duration));
+    });
+  }
+
+  /// The rigid model has no unique motion for these two; both are told by name.
+  void refuse_what_does_not_move() {
+    const auto* const parameters = std::get_if<MeshParameters<double>>(&scenario_.mesh);
+    if (!parameters || !faults_.empty()) return;
+    const GearMesh<double> mesh(*parameters);
+    if (mesh.mu >= mesh.mu_g()) {
+      faults_.add(friction_at_,
+                  fmt::format("mesh.friction = {} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would "
+                              "lock itself",
+                              mesh.mu, mesh.mu_g()));
+      return;
+    }
+    const double Jg = total_gear_inertia(scenario_), surface = mesh.Jw * mesh.i / Jg;
+    if (mesh.C1() <= -surface)
+      faults_.add(friction_at_,
+                  fmt::format("mesh.friction = {} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
+                              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia "
+                              "or lower the gear-side inertia below {:.6g} kg m^2",
+                              mesh.mu, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
+  }
+
+  std::string name_;
+  TableReader root_;
+  Faults& faults_;
+  Scenario scenario_;
+  Location friction_at_;
+};
+
+}  // namespace
+
+Scenario parse_scenario(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+                        Purpose purpose) {
+  const toml::table root = parse_document(text, name, overrides);
+  Faults faults;
+  Scenario scenario = ScenarioReader(root, name, faults).read(purpose);
+  faults.raise();
+  return scenario;
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<std::string>& overrides, Purpose purpose) {
+  const std::string text = std::filesystem::is_regular_file(path) && is_hdf5(path) ? read_stored_run(path).scenario
+                                                                                  : read_text(path);
+  return parse_scenario(text, path, overrides, purpose);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "events/audit.hpp"
+#include "output/trajectory.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace wormdrive {
+
+/// Who wants to see a run while it goes on; either may be empty.
+struct RunListeners {
+  std::function<void(Trajectory)> rows{};  ///< takes rows and events in portions, in order
+  std::function<void(double)> time{};      ///< called with the simulated time [s] at every row
+  bool audit = false;                      ///< re-integrate and re-scan the run afterwards
+};
+
+/// What a run amounts to.
+struct RunSummary {
+  SolverStatistics statistics;
+  std::array<long, 4> events{};  ///< by EventKind
+  Observation end{};
+  std::optional<AuditReport> audit;
+
+  long total_events() const { return events[0] + events[1] + events[2] + events[3]; }
+};
+
+/// Simulates a scenario with CVODE. Throws Halt if it cannot go on, after handing over what there is.
+RunSummary run_scenario(const Scenario& scenario, const RunListeners& listeners = {});
+
+/// The whole run in memory.
+Trajectory simulate_scenario(const Scenario& scenario);
+
+}  // namespace wormdrive

@@ -1,0 +1,81 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <tuple>
+#include <variant>
+
+#include "core/effects.hpp"
+#include "core/field.hpp"
+#include "core/load.hpp"
+#include "core/mesh.hpp"
+#include "core/signal.hpp"
+#include "events/solver_settings.hpp"
+#include "output/run_file.hpp"
+
+namespace wormdrive {
+
+/// A drive without a gear, `[mesh] kind = "none"`.
+struct SingleInertia {
+  double J{};  ///< [kg m^2], or [kg] for a linear axis
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{&SingleInertia::J, "inertia", unit::kilogram_square_metre, bounds::positive, "inertia that moves"}};
+  }
+};
+
+/// Where a run starts.
+struct InitialState {
+  double theta_g{0.0};  ///< [rad]
+  double omega_g{0.0};  ///< [rad/s]
+  static constexpr auto fields() {
+    using P = InitialState;
+    return std::tuple{
+        Field{&P::theta_g, "gear_angle", unit::radian, bounds::any, "gear angle at the start", Presence::optional},
+        Field{&P::omega_g, "gear_speed", unit::radian_per_second, bounds::any, "gear speed at the start",
+              Presence::optional}};
+  }
+};
+
+/// How long and how exactly a scenario is simulated, and how often a row is written.
+struct RunSettings {
+  double duration{};                         ///< [s]
+  std::optional<double> report_interval{};   ///< [s]; a thousandth of the duration if not stated
+  double relative_tolerance{1e-10};
+  std::optional<double> absolute_tolerance{};  ///< [rad and rad/s]; a hundredth of the relative one if not stated
+  double max_step{std::numeric_limits<double>::infinity()};  ///< [s]
+  Method method = Method::bdf;
+
+  static constexpr auto fields() {
+    using P = RunSettings;
+    return std::tuple{
+        Field{&P::duration, "duration", unit::second, bounds::positive, "simulated time"},
+        Field{&P::report_interval, "report_interval", unit::second, bounds::positive,
+              "time between two rows of the result; duration / 1000 if not stated", Presence::optional},
+        Field{&P::relative_tolerance, "relative_tolerance", unit::none, bounds::between(1e-14, 1e-2),
+              "relative error allowed in one step", Presence::optional},
+        Field{&P::absolute_tolerance, "absolute_tolerance", unit::none, bounds::positive,
+              "absolute error allowed in one step, in rad and rad/s; relative_tolerance / 100 if not stated",
+              Presence::optional},
+        Field{&P::max_step, "max_step", unit::second, bounds::positive, "longest step of the solver",
+              Presence::optional}};
+  }
+
+  double rows_every() const { return report_interval.value_or(duration / 1000.0); }
+  SolverSettings solver() const {
+    return {method, relative_tolerance, absolute_tolerance.value_or(0.01 * relative_tolerance), max_step};
+  }
+};
+
+/// Everything that defines a run, in SI; plain data.
+struct Scenario {
+  std::string title;
+  Axis axis = Axis::rotary;
+  std::variant<MeshParameters<double>, SingleInertia> mesh;
+  LoadParameters load = Signal{};
+  Effects<double> effects;
+  Signal motor;
+  InitialState initial;
+  RunSettings run;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,79 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "core/field.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
+
+namespace wormdrive {
+
+/// Reads one table of a document, notes every fault and remembers which keys may stand in it.
+class TableReader {
+ public:
+  /// path: how the table is called in messages, "mesh"; empty for the root.
+  TableReader(const toml::table& table, std::string path, Axis axis, Faults& faults, Location missing_at);
+
+  /// Reads all fields of a parameter struct; missing ones keep their value, faulty ones too.
+  template <class Parameters>
+  void read_fields(Parameters& parameters) {
+    for_each_field<Parameters>([&](const auto& field) {
+      if (const auto value = number(field.name, field.unit, field.bounds, field.presence, field.meaning))
+        parameters.*field.member = *value;
+    });
+  }
+
+  /// A number in SI, from any of its spellings.
+  std::optional<double> number(std::string_view name, const Unit& unit, const Bounds& bounds, Presence presence,
+                               std::string_view meaning);
+  /// A list of numbers in SI.
+  std::optional<std::vector<double>> numbers(std::string_view name, const Unit& unit);
+  std::optional<std::string> text(const std::string& key);
+  std::optional<bool> truth(const std::string& key);
+  /// One of several words; the first is the default, or, if required, there is none.
+  std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words, Presence presence);
+  /// A sub-table, or null; another type is a fault.
+  const toml::table* table(const std::string& key);
+  /// The tables of an array of tables, or the one table; another type is a fault.
+  std::vector<const toml::table*> tables(const std::string& key);
+
+  /// The text of a key that another call will read and check.
+  std::optional<std::string> peek(const std::string& key) const { return table_[key].value<std::string>(); }
+  /// Lets a key stand that another reader of the same table reads.
+  void allow(const std::string& key) { find(key); }
+  bool has(const std::string& key) const { return table_.contains(key); }
+  /// Where the value of a key stands; the table itself if it is absent.
+  Location where(const std::string& key) const;
+  Location where() const { return here_; }
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  /// Notes a fault at a key.
+  void fault(const std::string& key, std::string what) { faults_.add(where(key), std::move(what)); }
+  /// Notes every key that no call has asked for.
+  void refuse_unknown_keys();
+
+  Axis axis() const { return axis_; }
+  Faults& faults() { return faults_; }
+
+ private:
+  const toml::node* find(const std::string& key);
+  void wrong_type(const std::string& key, const toml::node& node, std::string_view wanted);
+  std::string table_name() const { return path_.empty() ? "the scenario" : "[" + path_ + "]"; }
+
+  const toml::table& table_;
+  std::string path_;
+  Axis axis_;
+  Faults& faults_;
+  Location here_;
+  std::vector<std::string> valid_;
+};
+
+/// "must be greater than 0 kg m^2": the rule that a field's bounds state, in its unit.
+std::string rule(const Bounds& bounds, const Unit& unit);
+/// "0.25 N m", a pure number without its unit.
+std::string quantity(double si, const Unit& unit);
+
+}  // namespace wormdrive

@@ -1,0 +1,123 @@
+#include "scenarios/write_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "scenarios/keys.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// Shortest text that reads back as the same double, and as a float to TOML.
+std::string number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+/// The unit in which a value is written: the preferred one if it gives the same bits when read, SI otherwise.
+Spelling exact_spelling(const std::vector<Spelling>& accepted, double si) {
+  for (const Spelling& s : accepted)
+    if (std::strtod(number(si / s.unit.si).c_str(), nullptr) * s.unit.si == si) return s;
+  return accepted.back();
+}
+
+class Writer {
+ public:
+  explicit Writer(Axis axis) : axis_(axis) {}
+
+  void table(const std::string& header) { text_ += fmt::format("\n{}\n", header); }
+  void text(const std::string& key, const std::string& value) {
+    std::ostringstream quoted;  // toml++ knows how to quote
+    quoted << toml::node_view<const toml::node>(toml::value<std::string>(value));
+    text_ += fmt::format("{} = {}\n", key, quoted.str());
+  }
+  template <class Parameters>
+  void fields(const Parameters& parameters) {
+    for_each_field<Parameters>([&](const auto& field) {
+      value(field.name, field.unit, parameters.*field.member);
+    });
+  }
+  void value(std::string_view name, const Unit& unit, const std::optional<double>& si) {
+    if (!si || !std::isfinite(*si)) return;  // an infinite default is stated by absence
+    const Spelling s = exact_spelling(spellings(name, unit, axis_), *si);
+    text_ += fmt::format("{} = {}\n", s.key, number(*si / s.unit.si));
+  }
+  void values(std::string_view name, const Unit& unit, const std::vector<double>& si) {
+    const Spelling s = spellings(name, unit, axis_).front();
+    text_ += fmt::format("{} = [", s.key);
+    for (std::size_t k = 0; k < si.size(); ++k) text_ += fmt::format("{}{}", k == 0 ? "" : ", ", number(si[k]));
+    text_ += "]\n";
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  Axis axis_;
+  std::string text_;
+};
+
+void write_term(Writer& out, const Samples& samples) {
+  out.text("interpolation", samples.interpolation == Interpolation::linear ? "linear" : "hold");
+  out.values("times", unit::second, samples.times);
+  out.values("torques", unit::newton_metre, samples.values);
+}
+template <class Term>
+void write_term(Writer& out, const Term& term) {
+  out.fields(term);
+}
+
+void write_signal(Writer& out, const std::string& path, const Signal& signal) {
+  for (const SignalTerm& term : signal.terms)
+    std::visit(
+        [&](const auto& t) {
+          out.table(fmt::format("[[{}]]", path));
+          out.text("kind", std::string(t.kind));
+          write_term(out, t);
+        },
+        term);
+}
+
+void write_load(Writer& out, const Signal& signal) { write_signal(out, "load", signal); }
+void write_load(Writer& out, const GravityArm& arm) {
+  out.table("[load]");
+  out.text("kind", std::string(GravityArm::kind));
+  out.fields(arm);
+}
+void write_load(Writer& out, const AngleTable& table) {
+  out.table("[load]");
+  out.text("kind", std::string(AngleTable::kind));
+  out.values("angles", unit::radian, table.angles);
+  out.values("torques", unit::newton_metre, table.torques);
+}
+
+}  // namespace
+
+std::string to_toml(const Scenario& scenario) {
+  Writer out(scenario.axis);
+  out.text("title", scenario.title);
+  out.table("[mesh]");
+  const bool worm = std::holds_alternative<MeshParameters<double>>(scenario.mesh);
+  out.text("kind", worm ? "worm" : "none");
+  if (!worm) out.text("axis", scenario.axis == Axis::linear ? "linear" : "rotary");
+  std::visit([&](const auto& parameters) { out.fields(parameters); }, scenario.mesh);
+  write_signal(out, "motor.torque", scenario.motor);
+  std::visit([&](const auto& load) { write_load(out, load); }, scenario.load);
+  scenario.effects.for_each([&](const auto& effect) {
+    if (!effect) return;
+    out.table(fmt::format("[effect.{}]", effect->id));
+    out.fields(*effect);
+  });
+  out.table("[initial]");
+  out.fields(scenario.initial);
+  out.table("[run]");
+  out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
+  out.fields(scenario.run);
+  return out.take();
+}
+
+}  // namespace wormdrive

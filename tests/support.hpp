@@ -1,0 +1,181 @@
+#pragma once
+// What the tests share: the paper's drive, one way to run a drive that keeps everything, and the reference data.
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/load.hpp"
+#include "core/unit.hpp"
+#include "core/worm_drive.hpp"
+#include "events/cvode_solver.hpp"
+#include "events/simulate.hpp"
+
+namespace wormdrive::test {
+
+/// The largest of many deviations. Unlike std::max it does not lose a NaN, and a failed test prints it in full.
+struct Deviation {
+  double size = 0.0;
+
+  void add(double deviation) {
+    if (!(std::abs(deviation) <= size)) size = std::abs(deviation);
+  }
+  friend bool operator<=(const Deviation& worst, double tolerance) { return worst.size <= tolerance; }
+  friend std::ostream& operator<<(std::ostream& out, const Deviation& worst) {
+    return out << std::scientific << std::setprecision(3) << worst.size;
+  }
+};
+
+// ---- drives -----------------------------------------------------------------------------------------------------
+
+/// The worm gear of the paper's Table 1 with its identified friction.
+inline MeshParameters<double> table1(double mu = 0.25) {
+  return {.i = 60, .lambda = 4 * unit::degree, .phi_n = 20 * unit::degree, .lw = 0.011, .lg = 0.045, .mu = mu,
+          .Jw = 2.53e-5, .Jg = 7.39e-4};
+}
+
+/// The same gear with the lead angle that its ratio needs: only then is the mesh free of energy errors.
+inline MeshParameters<double> closing(MeshParameters<double> p) {
+  p.lambda = GearMesh<double>(p).closing_lead_angle();
+  return p;
+}
+
+inline Signal constant(double torque) { return {{Constant{torque}}}; }
+
+/// The paper's fig. 9: a motor torque 0.05 cos(3 pi t + pi/2) against an almost balanced arm.
+inline Signal fig9_motor() { return {{Sinusoid{.amplitude = 0.05, .frequency = 1.5, .phase = 90 * unit::degree}}}; }
+inline GravityArm fig9_load() {
+  GravityArm arm;
+  arm.amplitude = 0.0196;
+  return arm;
+}
+
+/// The stated effects on, all others absent.
+template <class... Effect>
+Effects<double> effects(const Effect&... effect) {
+  Effects<double> all;
+  ((std::get<std::optional<Effect>>(all.list) = effect), ...);
+  return all;
+}
+
+template <class Load>
+auto drive(const MeshParameters<double>& p, const Load& load, const Signal& motor, Effects<double> on = {}) {
+  using Made = decltype(make_load(load));
+  return WormDrive<double, Made>(GearMesh<double>(p), make_load(load), std::move(on), motor);
+}
+
+/// A drive with its inputs frozen at t, ready to be asked for accelerations.
+template <class Load>
+auto entered(const MeshParameters<double>& p, const Load& load, const Signal& motor, Effects<double> on = {},
+             double t = 0.0) {
+  auto d = drive(p, load, motor, std::move(on));
+  d.enter(t);
+  return d;
+}
+
+/// The four moving modes of a drive with teeth.
+inline constexpr Mode moving_modes[] = {{Motion::forward, Flank::left},
+                                        {Motion::forward, Flank::right},
+                                        {Motion::backward, Flank::left},
+                                        {Motion::backward, Flank::right}};
+
+/// Inertia M and torque ratio C of M theta_g'' = tau_m + C tau_l in a mode.
+struct Branch {
+  double M, C;
+
+  Branch(const MeshParameters<double>& p, Mode mode) {
+    const GearMesh<double> mesh(p);
+    C = mesh.C(mode.product() * mesh.mu);
+    M = mesh.Jw * mesh.i + C * mesh.Jg;
+  }
+  double acceleration(double tau_m, double tau_l) const { return (tau_m + C * tau_l) / M; }
+};
+
+// ---- runs -------------------------------------------------------------------------------------------------------
+
+template <class System>
+struct Run {
+  using Instant = typename System::Instant;
+  struct Row {
+    Instant now;
+    Observation seen;
+  };
+  struct Event {
+    Instant before, after;  ///< left and right limit, at one time
+  };
+  std::vector<Row> rows;      ///< everything that was recorded, both sides of events included
+  std::vector<Event> events;  ///< every change of the mode
+  Instant end;
+  SolverStatistics statistics;
+
+  std::vector<Mode> modes() const {
+    std::vector<Mode> sequence{rows.front().now.mode};
+    for (const Event& e : events) sequence.push_back(e.after.mode);
+    return sequence;
+  }
+};
+
+inline SolverSettings tight(Method method = Method::bdf, double relative = 1e-13) {
+  return {.method = method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
+}
+
+template <class System>
+Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
+                const SolverSettings& settings = tight()) {
+  CvodeSolver<System> solver(system, settings);
+  Run<System> result;
+  result.end = simulate(system, solver, timetable, from, [&](const System& s, const typename System::Instant& now) {
+    if (!result.rows.empty()) {
+      const auto& last = result.rows.back().now;
+      if (last.t == now.t && last.mode != now.mode) result.events.push_back({last, now});
+    }
+    result.rows.push_back({now, s.observe(now)});
+  });
+  result.statistics = solver.statistics();
+  return result;
+}
+
+// ---- reference data ---------------------------------------------------------------------------------------------
+
+/// A CSV file with a header: text by column name and row.
+struct Table {
+  std::map<std::string, std::vector<std::string>> columns;
+
+  std::size_t size() const { return columns.begin()->second.size(); }
+  const std::string& text(const std::string& column, std::size_t row) const { return columns.at(column).at(row); }
+  double number(const std::string& column, std::size_t row) const { return std::stod(text(column, row)); }
+};
+
+/// A file of the reference data; without the data it says so in the words by which ctest knows a skipped test.
+inline std::optional<Table> reference(const std::string& path) {
+  std::ifstream file(std::string(WORMDRIVE_REFERENCE_DATA) + "/" + path);
+  if (!file) {
+    std::cout << "skipped: reference data not found\n";
+    return std::nullopt;
+  }
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> found;
+    std::istringstream rest(line);
+    for (std::string cell; std::getline(rest, cell, ',');) {
+      std::erase_if(cell, [](char c) { return c == '"' || c == '\r'; });
+      found.push_back(cell);
+    }
+    return found;
+  };
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> names = cells(line);
+  Table table;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> values = cells(line);
+    for (std::size_t k = 0; k < names.size(); ++k) table.columns[names[k]].push_back(values.at(k));
+  }
+  return table;
+}
+
+}  // namespace wormdrive::test

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Style and static analysis, with the tools that are present (Debian: clang-format, clang-tidy; the rules are
+# written for version 14). clang-tidy needs the compile commands of the release preset. Takes no arguments.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+status=0
+mapfile -d '' sources < <(find . \( -path ./build -o -path ./out -o -path ./.git \) -prune \
+                               -o -type f -name '*.[ch]pp' -print0 | sort -z)
+
+if ! command -v clang-format >/dev/null; then
+  echo "lint: no clang-format, style not checked"
+elif ((${#sources[@]})); then
+  clang-format --dry-run -Werror "${sources[@]}" || status=1
+fi
+
+commands=build/release/compile_commands.json
+if ! command -v run-clang-tidy >/dev/null; then
+  echo "lint: no clang-tidy, no static analysis"
+elif [[ ! -f $commands ]]; then
+  echo "lint: no $commands, no static analysis: run cmake --preset release first"
+else
+  run-clang-tidy -quiet -p build/release "^$PWD/(?!build/)" || status=1  # not what the build itself generated
+fi
+
+if ((status == 0)); then echo "lint: ${#sources[@]} files, no findings"; fi
+exit "$status"
