@@ -1,6 +1,5 @@
 // Fig. 9 of the paper as one would program it for this case alone: constants worked out once, one switch per
 // question, CVODE called directly. Equation numbers are those of Yeh & Wu 2009.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -26,10 +25,11 @@ constexpr double pi = std::numbers::pi, degree = pi / 180.0;
 constexpr double lambda = 4 * degree, phi_n = 20 * degree, lw = 0.011, lg = 0.045, mu = 0.25;
 constexpr double Jw_i = 2.53e-5 * 60, Jg = 7.39e-4, surface = Jw_i / Jg;
 
-// 1: friction helps the flank's push on the gear, 2: it works against it
-const double push_1 = cos(phi_n) * cos(lambda) + mu * sin(lambda), push_2 = cos(phi_n) * cos(lambda) - mu * sin(lambda);
-const double C1 = lw / lg * (cos(phi_n) * sin(lambda) - mu * cos(lambda)) / push_1;
-const double C2 = lw / lg * (cos(phi_n) * sin(lambda) + mu * cos(lambda)) / push_2;
+// 1 where motion and flank have one sign (forward left, backward right), 2 where they differ
+const double lever_1 = cos(phi_n) * cos(lambda) + mu * sin(lambda);
+const double lever_2 = cos(phi_n) * cos(lambda) - mu * sin(lambda);
+const double C1 = lw / lg * (cos(phi_n) * sin(lambda) - mu * cos(lambda)) / lever_1;
+const double C2 = lw / lg * (cos(phi_n) * sin(lambda) + mu * cos(lambda)) / lever_2;
 const double J1 = Jw_i + C1 * Jg, J2 = Jw_i + C2 * Jg;
 
 double motor_torque(double t) { return 0.05 * cos(3 * pi * t + pi / 2); }
@@ -41,16 +41,20 @@ enum class Mode { stuck, forward_left, forward_right, backward_left, backward_ri
 int motion(Mode mode) {
   switch (mode) {
     case Mode::stuck: return 0;
-    case Mode::forward_left: case Mode::forward_right: return 1;
-    case Mode::backward_left: case Mode::backward_right: return -1;
+    case Mode::forward_left:
+    case Mode::forward_right: return 1;
+    case Mode::backward_left:
+    case Mode::backward_right: return -1;
   }
   return 0;
 }
 int flank(Mode mode) {
   switch (mode) {
     case Mode::stuck: return 0;
-    case Mode::forward_left: case Mode::backward_left: return 1;
-    case Mode::forward_right: case Mode::backward_right: return -1;
+    case Mode::forward_left:
+    case Mode::backward_left: return 1;
+    case Mode::forward_right:
+    case Mode::backward_right: return -1;
   }
   return 0;
 }
@@ -59,8 +63,10 @@ int flank(Mode mode) {
 double acceleration(Mode mode, double tau_m, double tau_l) {
   switch (mode) {
     case Mode::stuck: return 0.0;
-    case Mode::forward_left: case Mode::backward_right: return (tau_m + C1 * tau_l) / J1;
-    case Mode::forward_right: case Mode::backward_left: return (tau_m + C2 * tau_l) / J2;
+    case Mode::forward_left:
+    case Mode::backward_right: return (tau_m + C1 * tau_l) / J1;
+    case Mode::forward_right:
+    case Mode::backward_left: return (tau_m + C2 * tau_l) / J2;
   }
   return 0.0;
 }
@@ -70,10 +76,10 @@ double normal_force(Mode mode, double tau_m, double tau_l, double alpha) {
   const double gear_torque = tau_l - Jg * alpha;
   switch (mode) {
     case Mode::stuck: return std::abs(tau_l / lg * cos(lambda) - tau_m / lw * sin(lambda)) / cos(phi_n);
-    case Mode::forward_left: return gear_torque / (push_1 * lg);
-    case Mode::backward_right: return -gear_torque / (push_1 * lg);
-    case Mode::forward_right: return -gear_torque / (push_2 * lg);
-    case Mode::backward_left: return gear_torque / (push_2 * lg);
+    case Mode::forward_left: return gear_torque / (lever_1 * lg);
+    case Mode::backward_right: return -gear_torque / (lever_1 * lg);
+    case Mode::forward_right: return -gear_torque / (lever_2 * lg);
+    case Mode::backward_left: return gear_torque / (lever_2 * lg);
   }
   return 0.0;
 }
@@ -188,31 +194,30 @@ Run by_hand(const Settings& settings) {
   store();
   for (int k = 1; k <= outputs;) {
     const double output = k * output_interval;
-    Mode next = Mode::stuck;
+    bool event = false;
     if (mode == Mode::stuck) {
       const double theta = NV_Ith_S(y, 0);
-      const bool stays = from_rest(output, theta) == Mode::stuck;
-      t = stays ? output : break_away(t, output, theta);
-      store();
-      if (stays) {
-        ++k;
-        continue;
-      }
-      next = from_rest(t, theta);
+      event = from_rest(output, theta) != Mode::stuck;
+      t = event ? break_away(t, output, theta) : output;
     } else {
       const int flag = CVode(cvode, output, y, &t, CV_NORMAL);
       check(flag, "CVode");
-      store();
-      if (flag != CV_ROOT_RETURN) {
-        ++k;
-        continue;
-      }
-      int fired[2];
-      check(CVodeGetRootInfo(cvode, fired), "CVodeGetRootInfo");
-      if (fired[0] != 0) NV_Ith_S(y, 1) = 0.0;
-      next = fired[0] != 0 ? from_rest(t, NV_Ith_S(y, 0)) : other_flank(mode);
+      event = flag == CV_ROOT_RETURN;
     }
-    mode = next;
+    store();
+    if (!event) {
+      ++k;
+      continue;
+    }
+
+    int fired[2] = {};
+    if (mode != Mode::stuck) check(CVodeGetRootInfo(cvode, fired), "CVodeGetRootInfo");
+    if (fired[1] != 0) {
+      mode = other_flank(mode);
+    } else {  // reversal or break-away
+      NV_Ith_S(y, 1) = 0.0;
+      mode = from_rest(t, NV_Ith_S(y, 0));
+    }
     store();
     count();
     check(CVodeReInit(cvode, t, y), "CVodeReInit");

@@ -41,7 +41,7 @@ inline StickRegion stick_region(const GearMesh<double>& mesh, double tau_l) {
   return {std::min(a, b), std::max(a, b), mesh.regime() == LockingRegime::worm_self_locking};
 }
 
-/// Motor torques at which the gear starts to turn at load torque tau_l [N m]; empty where no torque moves it.
+/// Motor torques at which the gear starts to turn [N m]; empty for a worm that locks itself: it has only the wedge.
 struct BreakInTorques {
   std::optional<double> forward, backward;
 };

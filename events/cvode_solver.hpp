@@ -1,5 +1,10 @@
 #pragma once
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -19,7 +24,10 @@
 
 namespace wormdrive {
 
-/// SUNDIALS CVODE with a root function per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
+/// SUNDIALS CVODE with two root functions per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
+///
+/// A guard that dips below zero and comes back within one step changes no sign at the step's ends. So the guard's rate
+/// is watched too: at every minimum the guard is looked at, and a dip is traced back to where it began.
 template <class System>
 class CvodeSolver {
  public:
@@ -45,10 +53,10 @@ class CvodeSolver {
       fixed_point_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
       check(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
     }
-    check(CVodeRootInit(memory(), System::guard_count, guards));
-    int falling[System::guard_count];
-    for (int& direction : falling) direction = -1;
-    check(CVodeSetRootDirection(memory(), falling));
+    check(CVodeRootInit(memory(), root_count, roots));
+    std::array<int, root_count> directions;
+    for (int k = 0; k < root_count; ++k) directions[k] = k < System::guard_count ? -1 : 1;  // guards fall, rates rise
+    check(CVodeSetRootDirection(memory(), directions.data()));
     check(CVodeSetNoInactiveRootWarn(memory()));
     silence();
   }
@@ -60,6 +68,7 @@ class CvodeSolver {
     total_ = statistics();
     ++total_.restarts;
     mode_ = now.mode;
+    began_ = now.t;
     state() = now.x;
     check(CVodeReInit(memory(), now.t, y_.get()));
     limit_ = std::numeric_limits<double>::quiet_NaN();
@@ -72,20 +81,15 @@ class CvodeSolver {
       return std::nullopt;
     }
     if (limit != limit_) check(CVodeSetStopTime(memory(), limit_ = limit));
-    double reached = now.t;
-    const int flag = CVode(memory(), next, y_.get(), &reached, CV_NORMAL);
-    if (flag < 0) throw SolverFault(reason(flag));
-    now.x = state();
-    if (flag != CV_ROOT_RETURN) {
-      now.t = next;
-      return std::nullopt;
+    while (true) {
+      double reached = now.t;
+      const int flag = CVode(memory(), next, y_.get(), &reached, CV_NORMAL);
+      if (flag < 0) throw SolverFault(reason(flag));
+      now.t = flag == CV_ROOT_RETURN ? reached : next;
+      now.x = state();
+      if (flag != CV_ROOT_RETURN) return std::nullopt;
+      if (const auto guard = fired(now)) return guard;
     }
-    now.t = reached;
-    int fired[System::guard_count];
-    check(CVodeGetRootInfo(memory(), fired));
-    for (int g = 0; g < System::guard_count; ++g)
-      if (fired[g] != 0) return g;
-    return std::nullopt;
   }
 
   /// What the solver did since it was made.
@@ -106,6 +110,7 @@ class CvodeSolver {
   }
 
  private:
+  static constexpr int root_count = 2 * System::guard_count;  ///< every guard and its rate
   static constexpr long max_steps = 10'000'000;  ///< between two stops; a stalled run fails earlier for its step size
 
   struct Free {
@@ -130,11 +135,47 @@ class CvodeSolver {
         solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
     return 0;
   }
-  static int guards(sunrealtype t, N_Vector y, sunrealtype* values, void* self) {
+  static int roots(sunrealtype t, N_Vector y, sunrealtype* values, void* self) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
-    const auto g = solver.system_.guards(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
-    for (int k = 0; k < System::guard_count; ++k) values[k] = g[k];
+    const auto g = solver.system_.guards_ahead({t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_});
+    for (int k = 0; k < System::guard_count; ++k) {
+      values[k] = g[k][0];
+      values[System::guard_count + k] = g[k][1];
+    }
     return 0;
+  }
+
+  /// The guard whose crossing CVODE stopped at, or one that was below zero at the minimum it stopped at.
+  std::optional<int> fired(Instant& now) {
+    std::array<int, root_count> found;
+    check(CVodeGetRootInfo(memory(), found.data()));
+    for (int k = 0; k < System::guard_count; ++k)
+      if (found[k] != 0) return k;
+    const auto values = system_.guards_ahead(now);
+    for (int k = 0; k < System::guard_count; ++k)
+      if (values[k][0] < 0.0 && trace_back(now, k)) return k;
+    return std::nullopt;
+  }
+
+  /// Moves from a minimum below zero back to where the guard fell through zero in the latest step; false if it was
+  /// not positive before.
+  bool trace_back(Instant& now, int guard) {
+    double h = 0.0, t = 0.0;
+    check(CVodeGetLastStep(memory(), &h));
+    check(CVodeGetCurrentTime(memory(), &t));
+    const auto value = [&](double at) {
+      check(CVodeGetDky(memory(), at, 0, y_.get()));
+      return system_.guards_ahead({at, state(), mode_})[guard][0];
+    };
+    const double begin = std::max(t - h, began_), low = value(now.t), high = value(begin);
+    if (high <= 0.0 || low >= 0.0) return false;
+    std::uintmax_t iterations = 100;
+    now.t = boost::math::tools::toms748_solve(value, begin, now.t, high, low,
+                                              boost::math::tools::eps_tolerance<double>(), iterations)
+                .second;
+    check(CVodeGetDky(memory(), now.t, 0, y_.get()));
+    now.x = state();
+    return true;
   }
 
   void* memory() const { return memory_.get(); }
@@ -173,6 +214,7 @@ class CvodeSolver {
   Owned<SUNNonlinearSolver> fixed_point_;
   std::unique_ptr<void, Free> memory_;
   typename System::Mode mode_{};
+  double began_ = 0.0;  ///< time of the latest restart [s]
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};
 };

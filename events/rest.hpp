@@ -64,7 +64,7 @@ class RestWatch {
   }
 
   std::optional<double> crossing_in(int g, double a, const Guard& left, double b, const Guard& right) const {
-    if (right[0] <= 0.0) return root(a, left[0], b, right[0], [&](double t) { return guards_at(t)[g][0]; });
+    if (right[0] < 0.0) return root(a, left[0], b, right[0], [&](double t) { return guards_at(t)[g][0]; });
     if (left[1] >= 0.0 || right[1] <= 0.0) return std::nullopt;
     // falls at a, rises at b: the lowest point lies between
     const double lowest = root(a, left[1], b, right[1], [&](double t) { return guards_at(t)[g][1]; });

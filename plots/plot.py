@@ -30,6 +30,8 @@ def reason(error):
 def picture(path):
     """Returns the figure that shows a result file."""
     try:
+        if os.path.isfile(path) and not h5py.is_hdf5(path):
+            raise NotAResult("it is not an HDF5 file")
         with h5py.File(path, "r") as result:
             kind = text(attribute(result, "kind"))
             if kind not in PICTURES:

@@ -20,6 +20,14 @@ def attribute(node, name):
     return node.attrs[name]
 
 
+def number(node, name):
+    """Returns an attribute that has to be one number."""
+    value = attribute(node, name)
+    if np.ndim(value) or not np.issubdtype(np.asarray(value).dtype, np.number):
+        raise NotAResult(f"its attribute '{name}' is not a number")
+    return float(value)
+
+
 def group(file, name):
     """Returns a group that has to be there."""
     if not isinstance(file.get(name), h5py.Group):

@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import style
-from result import NotAResult, column, columns, flags, group, units
+from result import NotAResult, attribute, column, columns, flags, group, number, text, units
 
 MOST_EVENTS = 200  # drawn one by one
 LARGEST = 6  # times the motor torque: beyond it the switching surface no longer sets the limits of its axis
@@ -88,9 +88,9 @@ def draw(result):
     names = "time", "gear_angle", "gear_speed", "motor_torque", "load_torque"
     time, angle, speed, motor, load = columns(trajectory, *names)
     linear = units(trajectory, "gear_angle") == "m"
-    surface = result.attrs.get("surface")
+    surface = number(result, "surface") if "surface" in result.attrs else None
 
-    figure = style.new_figure(result.attrs["title"])
+    figure = style.new_figure(text(attribute(result, "title")))
     panels = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [1.0, 1.25, 1.25]})
 
     dot = "o" if time.size == 1 else None

@@ -36,11 +36,16 @@ def new_figure(title):
 
 def scale(unit, *values):
     """Returns a factor and a unit with prefix in which the values have readable sizes."""
-    peak = max((np.max(np.abs(v), initial=0.0, where=np.isfinite(v)) for v in values), default=0.0)
+    peak = max(np.max(np.abs(v), initial=0.0, where=np.isfinite(v)) for v in values)
     for factor, prefix in ((1.0, ""), (1e3, "m"), (1e6, "µ")):
-        if peak == 0.0 or peak * factor >= 0.3:
-            return (factor, prefix + unit) if peak else (1.0, unit)
+        if peak * factor >= 0.3:
+            return factor, prefix + unit
     return 1.0, unit
+
+
+def number(value):
+    """Returns a number as a label shows it: four digits, a true minus sign, no rounding noise."""
+    return f"{value if abs(value) > 1e-12 else 0.0:.4g}".replace("-", "−")
 
 
 def few_ticks(axis):
@@ -50,7 +55,10 @@ def few_ticks(axis):
 
 def limits(values, margin=0.07):
     """Returns axis limits around the values, of sensible width where they are constant."""
-    low, high = np.min(values), np.max(values)
+    values = values[np.isfinite(values)]
+    low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
+    if low > high:
+        return -1.0, 1.0
     width = high - low
     if width <= 1e-9 * max(abs(low), abs(high)) or width == 0.0:
         width = 2.0 * max(abs(low), abs(high)) or 1.0

@@ -109,7 +109,7 @@ class ScenarioReader {
     });
   }
 
-  /// The rigid model has no unique motion for these two; both are told by name.
+  /// Beyond mu_g the worm brakes itself, for C2 has passed through infinity; without eq. 17 no motion is unique.
   void refuse_what_does_not_move() {
     const auto* const parameters = std::get_if<MeshParameters<double>>(&scenario_.mesh);
     if (!parameters || !faults_.empty()) return;
