@@ -82,48 +82,50 @@ def draw_events(panels, curves, time, kinds):
     return handles
 
 
+def draw_curve(panel, time, values, colour, **look):
+    """Draws values over time and returns the line."""
+    marker = "o" if time.size == 1 else None
+    return panel.plot(*style.decimate(time, values), color=colour, marker=marker, zorder=3, **look)[0]
+
+
+def draw_torques(panel, time, motor, other, unit, word, other_label):
+    """Draws the motor torque and what it is to be compared with; returns the factor to the unit of the axis."""
+    hidden = 0.0 < LARGEST * np.abs(motor).max() < np.abs(other).max()
+    shown = motor if hidden else np.concatenate([motor, other])
+    factor, axis_unit = style.scale(unit, shown)
+    if hidden:
+        other_factor, other_unit = style.scale(unit, other)
+        low, high = (style.number(other_factor * end) for end in (other.min(), other.max()))
+        other_label += f" (at {low} {other_unit})" if low == high else f" (from {low} to {high} {other_unit})"
+    handles = [draw_curve(panel, time, factor * motor, style.BLUE, label=f"motor {word}"),
+               draw_curve(panel, time, factor * other, style.VERMILLION, linestyle=(0, (5, 2)), label=other_label)]
+    panel.set(ylabel=f"{word} [{axis_unit}]", ylim=style.limits(factor * shown))
+    style.header(panel, handles, handlelength=2.6)
+    return factor
+
+
 def draw(result):
     """Returns the figure of a run."""
     trajectory, events = group(result, "trajectory"), group(result, "events")
     names = "time", "gear_angle", "gear_speed", "motor_torque", "load_torque"
     time, angle, speed, motor, load = columns(trajectory, *names)
+    angle_factor, angle_unit = style.scale(units(trajectory, "gear_angle"), angle)
+    speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
     linear = units(trajectory, "gear_angle") == "m"
-    surface = number(result, "surface") if "surface" in result.attrs else None
+    angle_name, speed_name, word = ("position", "speed", "force") if linear else ("gear angle", "gear speed", "torque")
+    if "surface" in result.attrs:
+        other, label = number(result, "surface") * load, r"switching surface $(J_w i/J_g)\,\tau_l$"
+    else:
+        other, label = load, f"load {word}"
 
     figure = style.new_figure(text(attribute(result, "title")))
     panels = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [1.0, 1.25, 1.25]})
-
-    dot = "o" if time.size == 1 else None
-
-    def curve(panel, values, factor, colour, **look):
-        return panel.plot(*style.decimate(time, factor * values), color=colour, zorder=3, marker=dot, **look)[0]
-
-    angle_factor, angle_unit = style.scale(units(trajectory, "gear_angle"), angle)
-    curve(panels[0], angle, angle_factor, style.INK)
-    panels[0].set(ylabel=f"{'position' if linear else 'gear angle'} [{angle_unit}]",
-                  ylim=style.limits(angle_factor * angle))
-
-    speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
-    curve(panels[1], speed, speed_factor, style.INK)
+    draw_curve(panels[0], time, angle_factor * angle, style.INK)
+    panels[0].set(ylabel=f"{angle_name} [{angle_unit}]", ylim=style.limits(angle_factor * angle))
+    draw_curve(panels[1], time, speed_factor * speed, style.INK)
+    panels[1].set(ylabel=f"{speed_name} [{speed_unit}]", ylim=style.limits(speed_factor * speed))
     panels[1].axhline(0.0, color=style.GREY, linewidth=0.8, zorder=2)
-    panels[1].set(ylabel=f"{'' if linear else 'gear '}speed [{speed_unit}]", ylim=style.limits(speed_factor * speed))
-
-    word = "force" if linear else "torque"
-    other = load if surface is None else surface * load
-    unit, other_label = units(trajectory, "motor_torque"), f"load {word}"
-    if surface is not None:
-        other_label = r"switching surface $(J_w i/J_g)\,\tau_l$"
-    shown = np.concatenate([motor, other])
-    if 0.0 < LARGEST * np.abs(motor).max() < np.abs(other).max():
-        shown = motor
-        low, high = f"{other.min():.3g}", f"{other.max():.3g}"
-        other_label += f" (at {low} {unit})" if low == high else f" (from {low} to {high} {unit})"
-    torque_factor, torque_unit = style.scale(unit, shown)
-    handles = [curve(panels[2], motor, torque_factor, style.BLUE, label=f"motor {word}"),
-               curve(panels[2], other, torque_factor, style.VERMILLION, linestyle=(0, (5, 2)), label=other_label)]
-    panels[2].set(xlabel="time [s]", ylabel=f"{word} [{torque_unit}]",
-                  ylim=style.limits(torque_factor * shown))
-    style.header(panels[2], handles, handlelength=2.6)
+    torque_factor = draw_torques(panels[2], time, motor, other, units(trajectory, "motor_torque"), word, label)
 
     event_time, kinds = column(events, "time"), event_kinds(events)
     few = event_time.size <= MOST_EVENTS
@@ -138,8 +140,9 @@ def draw(result):
         counts = ", ".join(f"{rows.size} × {EVENTS[kind][0]}" for kind, rows in kinds.items())
         note = f"{event_time.size} events, not drawn: {counts}" + ("; white: modes too brief" if skipped else "")
         style.header(panels[0], [Line2D([], [], linestyle="none", label=note)], handlelength=0.0, handletextpad=0.0)
-    panels[0].set_xlim((time[0], time[-1]) if span > 0.0 else (time[0] - 0.5, time[0] + 0.5))
+
     for panel in panels:
         style.few_ticks(panel.yaxis)
+    panels[2].set(xlabel="time [s]", xlim=(time[0], time[-1]) if span > 0.0 else (time[0] - 0.5, time[0] + 0.5))
     figure.align_ylabels()
     return figure

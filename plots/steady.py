@@ -33,11 +33,11 @@ def draw_points(axes, x, y, left_out):
     ringed = left_out > 0
     if ringed.any():
         handles += axes.plot(x[ringed], y[ringed], "o", color="none", markeredgecolor=style.INK, markersize=13,
-                             markeredgewidth=1.4, zorder=5, label="samples left out (record, how many)")
+                             markeredgewidth=1.4, zorder=5, label="with samples left out")
     return handles
 
 
-def name_records(axes, x, y, names, left_out, samples):
+def name_records(axes, x, y, names, left_out):
     """Writes above the points the names of records with samples left out and how many, none over another."""
     rows = np.argsort(-left_out, kind="stable")[:MOST_NAMES]
     rows = np.sort(rows[left_out[rows] > 0])
@@ -47,7 +47,7 @@ def name_records(axes, x, y, names, left_out, samples):
     axes.set_ylim(bottom, top + 0.45 * (top - bottom))
     width = NAME_WIDTH * (high - low)
     for row, place in zip(rows, spread(x[rows], width, low + 0.5 * width, high - 0.5 * width)):
-        axes.annotate(f"{names[row]}\n{left_out[row]:.0f} of {samples[row]:.0f}", (x[row], y[row]),
+        axes.annotate(f"{names[row]}\n{left_out[row]:.0f} left out", (x[row], y[row]),
                       (place, top + 0.17 * (top - bottom)), size=11, ha="center", va="bottom", parse_math=False,
                       arrowprops={"arrowstyle": "-", "color": style.GREY, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 6})
 
@@ -55,8 +55,8 @@ def name_records(axes, x, y, names, left_out, samples):
 def rms_line(rms_error, rms_torque, unit):
     """Returns the words on the rms error."""
     factor, scaled = style.scale(unit, rms_torque)
-    share = f", {100 * rms_error / rms_torque:.2g} % of the rms torque {factor * rms_torque:.3g} {scaled}"
-    return f"rms error {factor * rms_error:.3g} {scaled}" + (share if rms_torque else "")
+    share = f", {100 * rms_error / rms_torque:.2g} % of the rms torque {factor * rms_torque:#.3g} {scaled}"
+    return f"rms error {factor * rms_error:#.3g} {scaled}" + (share if rms_torque else "")
 
 
 def draw(result):
@@ -74,8 +74,7 @@ def draw(result):
         return figure
 
     records = group(result, "records")
-    x, mean, of_model, samples, left_out = columns(records, "worm_speed", "motor_torque", "motor_torque_model",
-                                                   "samples", "left_out")
+    x, mean, of_model, left_out = columns(records, "worm_speed", "motor_torque", "motor_torque_model", "left_out")
     names = [text(name) for name in dataset(records, "record")[:]]
     if len(names) != x.size:
         raise NotAResult("the columns of '/records' differ in length")
@@ -94,6 +93,6 @@ def draw(result):
     below.axhline(0.0, color=style.VERMILLION, linewidth=1.4, zorder=2)
     below.set(xlabel=f"worm speed [{speed_unit}]", ylabel=f"measured − model [{prefix}{torque_unit}]",
               ylim=style.limits(factor * np.append(residual, 0.0), 0.12))
-    name_records(below, x, factor * residual, names, left_out, samples)
+    name_records(below, x, factor * residual, names, left_out)
     figure.align_ylabels()
     return figure

@@ -29,7 +29,7 @@ matplotlib.rcParams.update({
 def new_figure(title):
     """Returns an empty figure with its title."""
     figure = Figure(figsize=SIZE, dpi=DPI, layout="constrained")
-    figure.set_constrained_layout_pads(w_pad=0.1, h_pad=0.08, hspace=0.02)
+    figure.get_layout_engine().set(w_pad=0.1, h_pad=0.08, hspace=0.02)
     figure.suptitle(textwrap.fill(title, 84), x=0.012, ha="left", size=15, weight="bold", parse_math=False)
     return figure
 
