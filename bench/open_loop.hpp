@@ -7,7 +7,6 @@ namespace bench {
 struct Row {
   double t, theta_g, omega_g, alpha_g, tau_m, tau_l, normal_force;
   int motion, flank;
-  friend bool operator==(const Row&, const Row&) = default;
 };
 
 /// A run from beginning to end; every event stands in it twice, just before and just after.

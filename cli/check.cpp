@@ -26,7 +26,7 @@ void list_fields(const Parameters& parameters, const std::string& path, Axis axi
     const std::optional<double> value = parameters.*field.member;
     if (!value || !std::isfinite(*value)) return;  // unlimited: nothing to show
     const Spelling s = spellings(field.name, field.unit, axis).front();
-    list.push_back({path + "." + s.key, std::string(s.unit.symbol), std::string(field.meaning), *value / s.unit.si});
+    list.push_back({path + "." + s.key, std::string(s.unit.symbol), in_words_of(axis, field.meaning), *value / s.unit.si});
   });
 }
 
@@ -81,7 +81,7 @@ void print(const std::vector<Quantity>& list) {
 }
 
 nlohmann::json as_json(const std::vector<Quantity>& list) {
-  nlohmann::json result;
+  nlohmann::json result = nlohmann::json::object();
   for (const Quantity& q : list)
     result[q.name] = {{"value", q.value}, {"unit", q.unit}, {"meaning", q.meaning}};
   return result;
@@ -92,13 +92,12 @@ nlohmann::json as_json(const std::vector<Quantity>& list) {
 int check_command(const ScenarioOptions& options) {
   const Scenario scenario = load_scenario(options.file, options.overrides, Purpose::look);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"title", scenario.title},
-                                      {"parameters", as_json(parameters(scenario))},
-                                      {"derived", as_json(derived(scenario))},
-                                      {"regime", describe_mesh(scenario)},
-                                      {"warnings", warnings(scenario)},
-                                      {"scenario", to_toml(scenario)}}
-                           .dump(2));
+    print_json({{"title", scenario.title},
+                {"parameters", as_json(parameters(scenario))},
+                {"derived", as_json(derived(scenario))},
+                {"regime", describe_mesh(scenario)},
+                {"warnings", warnings(scenario)},
+                {"scenario", to_toml(scenario)}});
     return 0;
   }
   if (options.quiet) return 0;

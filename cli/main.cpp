@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "events/halt.hpp"
@@ -50,8 +53,31 @@ int guarded(const std::function<int()>& command) {
   } catch (const OutputFault& fault) {
     std::cerr << "wormdrive: " << fault.what() << '\n';
     return cannot_write;
+  } catch (const std::exception& other) {  // out of memory, or something that nobody foresaw
+    std::cerr << "wormdrive: cannot go on: " << other.what() << '\n';
+    return cannot_go_on;
   }
 }
+
+/// CLI11 takes a misspelled command for a superfluous argument and asks for one.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first.starts_with('-')) return std::nullopt;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), first) != names.end()) return std::nullopt;
+  return fmt::format("wormdrive: error: unknown command '{}'; the commands are {}", first, fmt::join(names, ", "));
+}
+
+/// CLI::PositiveNumber prints the largest double in full.
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool good = CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value);
+      return good ? "" : "'" + text + "' is not a number greater than 0";
+    },
+    "POSITIVE");
 
 }  // namespace
 
@@ -77,7 +103,7 @@ int main(int argc, char** argv) {
   CLI::App* const statics_app = app.add_subcommand("statics", "locking regime and break-in torques over the load torque");
   add_scenario_options(*statics_app, statics.scenario);
   statics_app->add_option("-o,--output", statics.output, "also write the map as HDF5");
-  statics_app->add_option("--max-load", statics.max_load, "largest load torque [N m]")->check(CLI::PositiveNumber);
+  statics_app->add_option("--max-load", statics.max_load, "largest load torque [N m]")->check(positive);
   statics_app->add_option("--points", statics.points, "loads from -max to +max")->check(CLI::Range(3, 100000));
 
   SteadyOptions steady;
@@ -85,7 +111,7 @@ int main(int argc, char** argv) {
   add_scenario_options(*steady_app, steady.scenario);
   steady_app->add_option("-o,--output", steady.output, "also write curve and records as HDF5");
   steady_app->add_option("--data", steady.data, "CSV: record, worm_speed_rad_per_s, motor_torque_Nm; compared with the model");
-  steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(CLI::PositiveNumber);
+  steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(positive);
   steady_app->add_option("--points", steady.points, "speeds in each direction")->check(CLI::Range(1, 100000));
 
   PlotOptions plot;
@@ -99,6 +125,10 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::IsMember({"effects", "loads", "torques", "scenarios"}));
 
+  if (const auto fault = unknown_command(app, argc, argv)) {
+    std::cerr << *fault << '\n';
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "cli/commands.hpp"
-#include "output/run_file.hpp"
+#include "output/hdf5.hpp"
 #include "scenarios/faults.hpp"
 
 extern char** environ;
@@ -23,8 +23,9 @@ std::string script() {
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  if (!std::filesystem::exists(options.file)) throw InputFault(options.file + ": error: cannot be read: no such file");
-  if (!is_hdf5(options.file)) throw InputFault(options.file + ": error: not an HDF5 file; wormdrive run writes one");
+  if (std::error_code none; !std::filesystem::exists(options.file, none))
+    refuse({options.file}, "cannot be read: No such file or directory");
+  if (!is_hdf5(options.file)) refuse({options.file}, "not an HDF5 file; wormdrive run writes one");
   const std::string output =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".png").string() : options.output;
   std::vector<std::string> words{WORMDRIVE_PYTHON, script(), options.file, "-o", output};

@@ -8,7 +8,6 @@
 #include "cli/progress.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
-#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
@@ -46,10 +45,8 @@ RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& o
     file.finish(describe_solver(scenario.run), summary.statistics);
     return summary;
   } catch (const Halt& halt) {
+    file.file().keep();
     throw Halt(fmt::format("{}; the run up to there is in {}", halt.what(), file.file().part_path()));
-  } catch (...) {
-    file.file().discard();
-    throw;
   }
 }
 
@@ -57,20 +54,19 @@ RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& o
 
 int run_command(const RunOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
+  const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
+  refuse_to_overwrite(output, options.scenario.file);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   if (talk) {
     fmt::print("{}\n", scenario.title);
     if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
     for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   }
-  const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
-  if (std::error_code none; std::filesystem::equivalent(output, options.scenario.file, none))
-    throw InputFault(fmt::format("{}: error: the result would overwrite the scenario; choose another --output", output));
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis);
   if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth)
     write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
   const RunSummary summary = run_into(file, scenario, options);
-  if (options.scenario.json) fmt::print("{}\n", as_json(scenario, summary, output).dump(2));
+  if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return 0;
   print_item("run", fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration,
                                 describe_solver(scenario.run), summary.statistics.evaluations,

@@ -44,25 +44,20 @@ double sensible_load(const Scenario& scenario) {
 void write(const std::string& output, const Scenario& scenario, const StaticsMap& map, const ScenarioOptions& options) {
   const GearMesh<double> mesh = make_mesh(scenario);
   PartFile file(output);
-  try {
-    write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.command_line});
-    write_attribute(file.file(), "regime", name(mesh.regime()));
-    for (const auto& [key, value] : {std::pair{"C1", mesh.C1()}, {"C2", mesh.C2()}, {"H", mesh.H()}, {"mu", mesh.mu},
-                                     {"mu_w", mesh.mu_w()}, {"mu_g", mesh.mu_g()}})
-      write_attribute(file.file(), key, value);
-    write_attribute(file.file(), "stuck_outside",
-                    std::int64_t{mesh.regime() == LockingRegime::worm_self_locking ? 1 : 0});
-    GrowingTable(file.file(), "statics",
-                 {{"load_torque", "N m", "load torque tau_l"},
-                  {"stick_low", "N m", "lower limit of the motor torques that hold the gear, or of the moving wedge"},
-                  {"stick_high", "N m", "upper limit of the motor torques that hold the gear, or of the moving wedge"},
-                  {"static_surface", "N m", "motor torque H tau_l at which the tooth changes its flank at rest"}})
-        .append({map.load, map.low, map.high, map.surface});
-    file.finish();
-  } catch (const OutputFault&) {
-    file.discard();
-    throw;
-  }
+  write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.command_line});
+  write_attribute(file.file(), "regime", name(mesh.regime()));
+  for (const auto& [key, value] : {std::pair{"C1", mesh.C1()}, {"C2", mesh.C2()}, {"H", mesh.H()}, {"mu", mesh.mu},
+                                   {"mu_w", mesh.mu_w()}, {"mu_g", mesh.mu_g()}})
+    write_attribute(file.file(), key, value);
+  write_attribute(file.file(), "stuck_outside",
+                  std::int64_t{mesh.regime() == LockingRegime::worm_self_locking ? 1 : 0});
+  GrowingTable(file.file(), "statics",
+               {{"load_torque", "N m", "load torque tau_l"},
+                {"stick_low", "N m", "lower limit of the motor torques that hold the gear, or of the moving wedge"},
+                {"stick_high", "N m", "upper limit of the motor torques that hold the gear, or of the moving wedge"},
+                {"static_surface", "N m", "motor torque H tau_l at which the tooth changes its flank at rest"}})
+      .append({map.load, map.low, map.high, map.surface});
+  file.finish();
 }
 
 void print_table(const StaticsMap& map, bool outside) {
@@ -77,24 +72,24 @@ void print_table(const StaticsMap& map, bool outside) {
 }  // namespace
 
 int statics_command(const StaticsOptions& options) {
+  refuse_to_overwrite(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth)
-    throw InputFault(options.scenario.file + ": error: mesh.kind = \"none\" has no statics; only teeth lock");
+    refuse({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");
   const StaticsMap map = make_map(mesh, options.max_load.value_or(sensible_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
   if (!options.output.empty()) write(options.output, scenario, map, options.scenario);
   if (options.scenario.json) {
-    fmt::print("{}\n", nlohmann::json{{"title", scenario.title},
-                                      {"regime", name(mesh.regime())},
-                                      {"C1", mesh.C1()},
-                                      {"C2", mesh.C2()},
-                                      {"H", mesh.H()},
-                                      {"stuck_outside", outside},
-                                      {"load_torque_Nm", map.load},
-                                      {"stick_low_Nm", map.low},
-                                      {"stick_high_Nm", map.high}}
-                           .dump(2));
+    print_json({{"title", scenario.title},
+                {"regime", name(mesh.regime())},
+                {"C1", mesh.C1()},
+                {"C2", mesh.C2()},
+                {"H", mesh.H()},
+                {"stuck_outside", outside},
+                {"load_torque_Nm", map.load},
+                {"stick_low_Nm", map.low},
+                {"stick_high_Nm", map.high}});
     return 0;
   }
   if (options.scenario.quiet) return 0;

@@ -70,40 +70,35 @@ Curve make_curve(const Scenario& scenario, double max_speed, int points) {
 void write(const std::string& output, const Scenario& scenario, const Curve& curve,
            const std::optional<Comparison>& comparison, const ScenarioOptions& options) {
   PartFile file(output);
-  try {
-    write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
-    GrowingTable(file.file(), "model",
-                 {{"worm_speed", "rad/s", "worm speed"}, {"motor_torque", "N m", "motor torque of the model"}})
-        .append({curve.speed, curve.torque});
-    if (comparison) {
-      write_attribute(file.file(), "rms_error", comparison->rms_error);
-      write_attribute(file.file(), "rms_torque", comparison->rms_torque);
-      std::vector<std::vector<double>> columns(5);
-      std::vector<std::string> names;
-      for (std::size_t k = 0; k < comparison->records.size(); ++k) {
-        const SpeedTorqueRecord& record = comparison->records[k];
-        names.push_back(record.name);
-        columns[0].push_back(record.worm_speed);
-        columns[1].push_back(record.motor_torque);
-        columns[2].push_back(comparison->model[k]);
-        columns[3].push_back(static_cast<double>(record.samples));
-        columns[4].push_back(static_cast<double>(record.left_out.size()));
-      }
-      GrowingTable(file.file(), "records",
-                   {{"worm_speed", "rad/s", "mean worm speed"},
-                    {"motor_torque", "N m", "mean measured motor torque"},
-                    {"motor_torque_model", "N m", "motor torque of the model"},
-                    {"samples", "1", "samples in the means"},
-                    {"left_out", "1", "implausible samples left out"}})
-          .append(columns);
-      const Hdf5Handle group(H5Gopen2(file.file(), "records", H5P_DEFAULT), H5Gclose, "cannot write records");
-      write_texts(group, "record", "name of the record", names);
+  write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
+  GrowingTable(file.file(), "model",
+               {{"worm_speed", "rad/s", "worm speed"}, {"motor_torque", "N m", "motor torque of the model"}})
+      .append({curve.speed, curve.torque});
+  if (comparison) {
+    write_attribute(file.file(), "rms_error", comparison->rms_error);
+    write_attribute(file.file(), "rms_torque", comparison->rms_torque);
+    std::vector<std::vector<double>> columns(5);
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < comparison->records.size(); ++k) {
+      const SpeedTorqueRecord& record = comparison->records[k];
+      names.push_back(record.name);
+      columns[0].push_back(record.worm_speed);
+      columns[1].push_back(record.motor_torque);
+      columns[2].push_back(comparison->model[k]);
+      columns[3].push_back(static_cast<double>(record.samples));
+      columns[4].push_back(static_cast<double>(record.left_out.size()));
     }
-    file.finish();
-  } catch (const OutputFault&) {
-    file.discard();
-    throw;
+    GrowingTable(file.file(), "records",
+                 {{"worm_speed", "rad/s", "mean worm speed"},
+                  {"motor_torque", "N m", "mean measured motor torque"},
+                  {"motor_torque_model", "N m", "motor torque of the model"},
+                  {"samples", "1", "samples in the means"},
+                  {"left_out", "1", "implausible samples left out"}})
+        .append(columns);
+    const Hdf5Handle group(H5Gopen2(file.file(), "records", H5P_DEFAULT), H5Gclose, "cannot write records");
+    write_texts(group, "record", "name of the record", names);
   }
+  file.finish();
 }
 
 nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::optional<Comparison>& comparison) {
@@ -149,6 +144,7 @@ void print_comparison(const Comparison& comparison, const std::string& data) {
 }  // namespace
 
 int steady_command(const SteadyOptions& options) {
+  for (const std::string& input : {options.scenario.file, options.data}) refuse_to_overwrite(options.output, input);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   std::optional<Comparison> comparison;
   if (!options.data.empty()) comparison = compare(scenario, read_speed_torque_records(options.data));
@@ -161,7 +157,7 @@ int steady_command(const SteadyOptions& options) {
   const Curve curve = make_curve(scenario, options.max_speed.value_or(max_speed), options.points);
   if (!options.output.empty()) write(options.output, scenario, curve, comparison, options.scenario);
   if (options.scenario.json) {
-    fmt::print("{}\n", as_json(scenario, curve, comparison).dump(2));
+    print_json(as_json(scenario, curve, comparison));
     return 0;
   }
   if (options.scenario.quiet) return 0;

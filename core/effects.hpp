@@ -1,9 +1,12 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <tuple>
 
+#include "core/effects/encoder_offset.hpp"
 #include "core/effects/gear_coulomb.hpp"
 #include "core/effects/gear_viscous.hpp"
+#include "core/effects/torque_saturation.hpp"
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_viscous.hpp"
 
@@ -13,8 +16,9 @@ namespace wormdrive {
 ///
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
-using EffectList = std::tuple<std::optional<WormCoulomb<T>>, std::optional<WormViscous<T>>,
-                              std::optional<GearCoulomb<T>>, std::optional<GearViscous<T>>>;
+using EffectList = std::tuple<std::optional<TorqueSaturation<T>>, std::optional<WormCoulomb<T>>,
+                              std::optional<WormViscous<T>>, std::optional<GearCoulomb<T>>,
+                              std::optional<GearViscous<T>>, std::optional<EncoderOffset<T>>>;
 
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
@@ -29,6 +33,26 @@ struct Effects {
   template <class Visit>
   void for_each(Visit&& visit) const {
     std::apply([&](const auto&... effect) { (visit(effect), ...); }, list);
+  }
+
+  /// Largest magnitude of the motor torque [N m], infinity without a limit.
+  T torque_limit() const {
+    T limit(std::numeric_limits<double>::infinity());
+    for_each([&](const auto& effect) {
+      if constexpr (requires { effect->torque_limit(); })
+        if (effect && effect->torque_limit() < limit) limit = effect->torque_limit();
+    });
+    return limit;
+  }
+
+  /// The gear angle as the sensor sees it [rad].
+  template <class S>
+  S measured_angle(S theta_g) const {
+    for_each([&](const auto& effect) {
+      if constexpr (requires { effect->measured_angle(theta_g); })
+        if (effect) theta_g = effect->measured_angle(theta_g);
+    });
+    return theta_g;
   }
 
   /// Torque that the effects add on the worm shaft [N m].

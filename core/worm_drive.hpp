@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
 #include <ceres/jet.h>
 
 #include "core/effects.hpp"
+#include "core/limited_piece.hpp"
 #include "core/mesh.hpp"
 #include "core/moment.hpp"
 #include "core/observation.hpp"
@@ -44,6 +46,7 @@ class WormDrive {
       : mesh_(std::move(mesh)), load_(std::move(load)), effects_(std::move(effects)), motor_(std::move(motor)) {
     Jw_i_ = mesh_.Jw * mesh_.i;
     Jg_ = mesh_.Jg + load_.inertia();
+    torque_limit_ = effects_.torque_limit();
   }
 
   const GearMesh<T>& mesh() const { return mesh_; }
@@ -59,10 +62,27 @@ class WormDrive {
   /// Freezes the inputs to the pieces that hold from t on.
   void enter(double t) {
     motor_piece_ = motor_.piece(t);
+    signal_constant_ = motor_piece_.constant;
     load_.enter(t);
+    command(t, command_);
   }
+  /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.
+  void command(double t, double tau_m) {
+    command_ = tau_m;
+    if (std::isinf(torque_limit_)) {
+      motor_piece_.constant = signal_constant_ + tau_m;
+      return;
+    }
+    Piece unlimited = motor_.piece(t);
+    unlimited.constant += tau_m;
+    LimitedPiece cut = limited(unlimited, torque_limit_, t);
+    motor_piece_ = std::move(cut.piece);
+    limit_knot_ = cut.until;
+  }
+  /// The smooth piece of the motor torque that holds now [N m].
+  const Piece& motor_piece() const { return motor_piece_; }
   /// First time after t at which an input jumps or bends.
-  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
+  double next_knot(double t) const { return std::min({motor_.next_knot(t), load_.next_knot(t), limit_knot_}); }
   /// Highest angular frequency of the present inputs [rad/s].
   double fastest_input() const { return std::max(motor_piece_.fastest(), load_.fastest()); }
 
@@ -182,6 +202,9 @@ class WormDrive {
     return {};
   }
 
+  /// The gear angle that the sensor sees [rad].
+  T measured_angle(const Instant& now) const { return effects_.measured_angle(now.x[0]); }
+
   // ---- what is reported ---------------------------------------------------------------------------------------
 
   /// Wn [N] >= 0: from the gear's balance while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
@@ -258,6 +281,9 @@ class WormDrive {
   Effects<T> effects_;
   Signal motor_;
   Piece motor_piece_{};
+  double signal_constant_ = 0.0, command_ = 0.0;
+  double torque_limit_ = std::numeric_limits<double>::infinity();  ///< [N m]
+  double limit_knot_ = std::numeric_limits<double>::infinity();    ///< when the limit begins or ends to cut [s]
   T Jw_i_{}, Jg_{};
 };
 

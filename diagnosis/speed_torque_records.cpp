@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "scenarios/csv.hpp"
+#include "scenarios/faults.hpp"
 
 namespace wormdrive {
 namespace {
@@ -21,14 +21,14 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Standard deviation that rounding to the finest step between the values leaves: where most samples are equal they
-/// show no other spread.
+/// Standard deviation that rounding to the common step between the values leaves: where most samples are equal they
+/// show no other spread. The median, because a file's last digit may round the steps differently.
 double quantisation_deviation(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  double step = std::numeric_limits<double>::infinity();
+  std::vector<double> steps;
   for (std::size_t k = 1; k < values.size(); ++k)
-    if (values[k] > values[k - 1]) step = std::min(step, values[k] - values[k - 1]);
-  return std::isfinite(step) ? step / std::sqrt(12.0) : 0.0;
+    if (values[k] > values[k - 1]) steps.push_back(values[k] - values[k - 1]);
+  return steps.empty() ? 0.0 : median(std::move(steps)) / std::sqrt(12.0);
 }
 
 SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& speeds,
@@ -59,6 +59,7 @@ std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path
   const Csv csv = read_csv(path);
   const std::vector<std::string>& names = csv.texts("record");
   const std::vector<double> speeds = csv.numbers("worm_speed_rad_per_s"), torques = csv.numbers("motor_torque_Nm");
+  if (names.empty()) refuse({path}, "there are no samples below the header line");
   std::vector<std::string> order;
   for (const std::string& name : names)
     if (std::find(order.begin(), order.end(), name) == order.end()) order.push_back(name);

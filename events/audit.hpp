@@ -1,13 +1,12 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/crossing.hpp"
 #include "core/energy.hpp"
 
 namespace wormdrive {
@@ -75,12 +74,8 @@ struct Cubic {
   }
   /// Where it falls through zero in (0, h], for a cubic that is positive at 0 and not at h.
   double root(double h) const {
-    std::uintmax_t iterations = 100;
     const double end = (*this)(h);
-    if (end >= 0.0) return h;  // zero to rounding
-    return boost::math::tools::toms748_solve(*this, 0.0, h, c0, end, boost::math::tools::eps_tolerance<double>(),
-                                             iterations)
-        .second;
+    return end >= 0.0 ? h : root_between(*this, 0.0, c0, h, end);  // zero to rounding counts as h
   }
 };
 

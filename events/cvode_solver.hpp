@@ -1,9 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -18,6 +16,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "core/crossing.hpp"
 #include "events/halt.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
@@ -69,6 +68,7 @@ class CvodeSolver {
     ++total_.restarts;
     mode_ = now.mode;
     began_ = now.t;
+    finite_ = true;
     state() = now.x;
     check(CVodeReInit(memory(), now.t, y_.get()));
     limit_ = std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +84,10 @@ class CvodeSolver {
     while (true) {
       double reached = now.t;
       const int flag = CVode(memory(), next, y_.get(), &reached, CV_NORMAL);
-      if (flag < 0) throw SolverFault(reason(flag));
+      if (flag < 0) {
+        now.t = reached;
+        throw SolverFault(reason(finite_ ? flag : CV_RHSFUNC_FAIL));
+      }
       now.t = flag == CV_ROOT_RETURN ? reached : next;
       now.x = state();
       if (flag != CV_ROOT_RETURN) return std::nullopt;
@@ -124,10 +127,12 @@ class CvodeSolver {
   using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
-    const auto& solver = *static_cast<const CvodeSolver*>(self);
+    auto& solver = *static_cast<CvodeSolver*>(self);
     const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
     Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
-    return dx.allFinite() ? 0 : -1;
+    // once is for good: the fixed-point iteration would only shorten its step and try again, without end
+    solver.finite_ = solver.finite_ && dx.allFinite();
+    return solver.finite_ ? 0 : -1;
   }
   static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
@@ -140,7 +145,8 @@ class CvodeSolver {
     const auto g = solver.system_.guards_ahead({t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_});
     for (int k = 0; k < System::guard_count; ++k) {
       values[k] = g[k][0];
-      values[System::guard_count + k] = g[k][1];
+      // never exactly zero: CVODE gives up at a root function that stays zero behind its root, as slow rates do
+      values[System::guard_count + k] = g[k][1] != 0.0 ? g[k][1] : std::numeric_limits<double>::min();
     }
     return 0;
   }
@@ -169,10 +175,7 @@ class CvodeSolver {
     };
     const double begin = std::max(t - h, began_), low = value(now.t), high = value(begin);
     if (high <= 0.0 || low >= 0.0) return false;
-    std::uintmax_t iterations = 100;
-    now.t = boost::math::tools::toms748_solve(value, begin, now.t, high, low,
-                                              boost::math::tools::eps_tolerance<double>(), iterations)
-                .second;
+    now.t = root_between(value, begin, high, now.t, low);
     check(CVodeGetDky(memory(), now.t, 0, y_.get()));
     now.x = state();
     return true;
@@ -214,6 +217,7 @@ class CvodeSolver {
   Owned<SUNNonlinearSolver> fixed_point_;
   std::unique_ptr<void, Free> memory_;
   typename System::Mode mode_{};
+  bool finite_ = true;  ///< every acceleration since the latest restart was a number
   double began_ = 0.0;  ///< time of the latest restart [s]
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};

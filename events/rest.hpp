@@ -1,9 +1,12 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <cstdint>
+#include <cmath>
 #include <optional>
+#include <utility>
+
+#include "core/crossing.hpp"
+#include "events/halt.hpp"
 
 namespace wormdrive {
 
@@ -32,11 +35,12 @@ class RestWatch {
     }
     const double step = step_for(end);
     for (double a = now_.t; a < end;) {
-      const double b = std::min(end, a + step);
+      const double b = a + step > a ? std::min(end, a + step) : end;  // within an ulp of a report there is one step
       const Guards right = guards_at(b);
       std::optional<Crossing> first;
       for (int g = 0; g < System::guard_count; ++g) {
-        const auto t = armed[g] ? crossing_in(g, a, left[g], b, right[g]) : std::nullopt;
+        const auto guard = [&](double t) { return guards_at(t)[g]; };
+        const auto t = armed[g] ? falling_crossing(guard, a, left[g], b, right[g]) : std::nullopt;
         if (t && (!first || *t < first->t)) first = Crossing{*t, g};
         armed[g] = armed[g] || right[g][0] > 0.0;
       }
@@ -49,38 +53,20 @@ class RestWatch {
 
  private:
   using Guards = decltype(std::declval<const System&>().guards_ahead(std::declval<const Instant&>()));
-  using Guard = typename Guards::value_type;
 
   Guards guards_at(double t) const {
     Instant then = now_;
     then.t = t;
-    return system_.guards_ahead(then);
+    const Guards guards = system_.guards_ahead(then);
+    for (const auto& guard : guards)
+      if (!std::isfinite(guard[0])) throw SolverFault("a guard of the state of rest is not a finite number");
+    return guards;
   }
 
   /// Short against the fastest input, so that a guard turns at most once within a step.
   double step_for(double end) const {
     const double omega = system_.fastest_input(), span = end - now_.t;
     return omega > 0.0 ? std::min(0.05 / omega, span) : span / 8.0;
-  }
-
-  std::optional<double> crossing_in(int g, double a, const Guard& left, double b, const Guard& right) const {
-    if (right[0] < 0.0) return root(a, left[0], b, right[0], [&](double t) { return guards_at(t)[g][0]; });
-    if (left[1] >= 0.0 || right[1] <= 0.0) return std::nullopt;
-    // falls at a, rises at b: the lowest point lies between
-    const double lowest = root(a, left[1], b, right[1], [&](double t) { return guards_at(t)[g][1]; });
-    const double value = guards_at(lowest)[g][0];
-    if (value >= 0.0) return std::nullopt;
-    return root(a, left[0], lowest, value, [&](double t) { return guards_at(t)[g][0]; });
-  }
-
-  template <class F>
-  static double root(double a, double fa, double b, double fb, F&& f) {
-    if (fa == 0.0) return a;
-    if (fb == 0.0) return b;
-    std::uintmax_t iterations = 200;
-    const auto bracket = boost::math::tools::toms748_solve(f, a, b, fa, fb,
-                                                           boost::math::tools::eps_tolerance<double>(), iterations);
-    return bracket.second;
   }
 
   const System& system_;

@@ -1,6 +1,8 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "events/event_log.hpp"
 #include "events/rest.hpp"
@@ -8,13 +10,30 @@
 
 namespace wormdrive {
 
+/// Open loop: nobody samples.
+struct NoController {
+  template <class System>
+  double sample(const System&, const typename System::Instant&) {
+    return 0.0;
+  }
+};
+
+/// Stays at rest until next or until a guard releases the system, which is returned.
+template <class System>
+std::optional<int> rest(const System& system, typename System::Instant& now, double next) {
+  const auto released = RestWatch<System>(system, now).first_crossing(next);
+  now.t = released ? released->t : next;
+  return released ? std::optional(released->guard) : std::nullopt;
+}
+
 /// Runs a hybrid system to the end of its timetable and returns its last instant.
 ///
+/// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
 /// returns the guard at which it stopped, if any. record(system, now) sees every report and both sides of every event,
 /// in order. Throws Halt when the run cannot go on.
-template <class System, class Solver, class Recorder>
-typename System::Instant simulate(System& system, Solver& solver, Timetable timetable,
+template <class System, class Solver, class Controller, class Recorder>
+typename System::Instant simulate(System& system, Solver& solver, Controller& controller, Timetable timetable,
                                   typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
   EventLog log(chatter);
   std::optional<int> guard;
@@ -26,6 +45,14 @@ typename System::Instant simulate(System& system, Solver& solver, Timetable time
         timetable.schedule_knot(system.next_knot(now.t));
         now.mode = system.settle(now);
         break;
+      case Reason::sample: {
+        const double tau_m = controller.sample(system, now);
+        if (!std::isfinite(tau_m)) throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
+        system.command(now.t, tau_m);
+        timetable.schedule_knot(system.next_knot(now.t));
+        now.mode = system.settle(now);
+        break;
+      }
       case Reason::guard:
         now = system.jump(now, *guard);
         log.count(now.t, std::string(System::guard_name(before.mode, *guard)), before.mode, now.mode);
@@ -48,12 +75,11 @@ typename System::Instant simulate(System& system, Solver& solver, Timetable time
   }
 }
 
-/// Stays at rest until next or until a guard releases the system, which is returned.
-template <class System>
-std::optional<int> rest(const System& system, typename System::Instant& now, double next) {
-  const auto released = RestWatch<System>(system, now).first_crossing(next);
-  now.t = released ? released->t : next;
-  return released ? std::optional(released->guard) : std::nullopt;
+template <class System, class Solver, class Recorder>
+typename System::Instant simulate(System& system, Solver& solver, Timetable timetable, typename System::Instant now,
+                                  Recorder&& record, ChatterLimit chatter = {}) {
+  NoController nobody;
+  return simulate(system, solver, nobody, timetable, now, std::forward<Recorder>(record), chatter);
 }
 
 }  // namespace wormdrive

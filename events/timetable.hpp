@@ -8,32 +8,48 @@ namespace wormdrive {
 /// Why an integration pauses.
 enum class Reason {
   knot,    ///< an input jumps or bends
+  sample,  ///< the controller takes a sample
   guard,   ///< a guard of the present mode fell through zero
   report,  ///< a row is due; nothing changes
   end,
 };
 
-/// The time events of a run: knots of the inputs, reports at begin + k interval, the end.
+/// When a controller takes its samples: at offset + k period [s], k = 0, 1, ...; by default never.
+struct Sampling {
+  double period = std::numeric_limits<double>::infinity();
+  double offset = std::numeric_limits<double>::infinity();
+};
+
+/// The time events of a run: knots of the inputs, samples, reports at begin + k interval, the end.
 class Timetable {
  public:
   /// Times in s; report_interval > 0, infinity for none.
-  Timetable(double begin, double end, double report_interval)
-      : begin_(begin), end_(end), interval_(report_interval), knot_(begin) {}
+  Timetable(double begin, double end, double report_interval, Sampling sampling = {})
+      : begin_(begin), end_(end), interval_(report_interval), knot_(begin), sampling_(sampling) {
+    schedule_sample();
+    schedule_report();
+  }
 
   /// The next time event of any kind.
-  double next_time() const { return std::min(next_stop(), report()); }
+  double next_time() const { return std::min(next_stop(), report_); }
   /// The next time past which no solver may look: behind it the inputs differ.
-  double next_stop() const { return std::min(knot_, end_); }
+  double next_stop() const { return std::min({knot_, sample_, end_}); }
 
-  /// Takes the event that is due at next_time(); of simultaneous ones a knot goes first and the end last.
+  /// Takes the event that is due at next_time(); simultaneous ones in the order knot, sample, report, end.
   Reason pop() {
     const double t = next_time();
     if (knot_ <= t && knot_ < end_) {
       knot_ = std::numeric_limits<double>::infinity();
       return Reason::knot;
     }
-    if (report() <= t) {
+    if (sample_ <= t && sample_ < end_) {
+      ++samples_;
+      schedule_sample();
+      return Reason::sample;
+    }
+    if (report_ <= t) {
       ++reports_;
+      schedule_report();
       return Reason::report;
     }
     return Reason::end;
@@ -42,14 +58,22 @@ class Timetable {
   void schedule_knot(double t) { knot_ = t; }
 
  private:
-  /// Counted, not accumulated, so that the k-th report is where its number says; one on the end is the end's own row.
-  double report() const {
+  // Counted, not accumulated, so that the k-th sample or report is where its number says.
+  void schedule_sample() {
+    // 0 times an infinite period would not be a number
+    const double since = samples_ == 0 ? 0.0 : static_cast<double>(samples_) * sampling_.period;
+    sample_ = begin_ + sampling_.offset + since;
+  }
+  /// A report on the end is the end's own row.
+  void schedule_report() {
     const double t = begin_ + static_cast<double>(reports_) * interval_;
-    return t < end_ - 1e-9 * interval_ ? t : std::numeric_limits<double>::infinity();
+    report_ = t < end_ - 1e-9 * interval_ ? t : std::numeric_limits<double>::infinity();
   }
 
   double begin_, end_, interval_, knot_;
-  long reports_ = 1;
+  Sampling sampling_;
+  double sample_ = 0.0, report_ = 0.0;
+  long samples_ = 0, reports_ = 1;
 };
 
 /// True where so little time is left that a solver could not take a step: at most 2 ulp of t.

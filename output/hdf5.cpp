@@ -1,5 +1,6 @@
 #include "output/hdf5.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -10,10 +11,23 @@ std::string with_reason(const std::string& action) {
   return errno != 0 ? action + ": " + std::strerror(errno) : action;
 }
 
+/// Before anything is asked of HDF5. Faults are told once, by the exception. And its clean-up at the end of the program
+/// is not wanted: handles close themselves, and what a full disk left open makes it crash.
+void prepare_hdf5() {
+  [[maybe_unused]] static const bool done = [] {
+    H5dont_atexit();
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
+}
+
+std::string writing(hid_t object, const std::string& attribute) {
+  return "cannot write attribute " + attribute + " to " + file_of(object);
+}
+
 template <class Value>
 void write_scalar(hid_t object, const std::string& name, hid_t type, const Value& value) {
   errno = 0;
-  const std::string action = "cannot write attribute " + name;
+  const std::string action = writing(object, name);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, action);
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
   check_hdf5(H5Awrite(attribute, type, &value), action);
@@ -42,16 +56,27 @@ void check_hdf5(herr_t status, const std::string& action) {
   if (status < 0) throw OutputFault(with_reason(action));
 }
 
+std::string file_of(hid_t object) {
+  std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, H5Fget_name(object, nullptr, 0))), ' ');
+  H5Fget_name(object, name.data(), name.size() + 1);
+  return name;
+}
+
+bool is_hdf5(const std::string& path) {
+  prepare_hdf5();
+  return H5Fis_hdf5(path.c_str()) > 0;
+}
+
 Hdf5Handle create_hdf5(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // faults are told once, by the exception
+  prepare_hdf5();
   errno = 0;
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "cannot create " + path};
 }
 
 Hdf5Handle open_hdf5(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  prepare_hdf5();
   errno = 0;
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "cannot read " + path + " as HDF5"};
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
 }
 
 Hdf5Handle create_group(hid_t parent, const std::string& name) {
@@ -69,7 +94,7 @@ void write_attribute(hid_t object, const std::string& name, std::int64_t value) 
   write_scalar(object, name, H5T_NATIVE_INT64, value);
 }
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values) {
-  const std::string action = "cannot write attribute " + name;
+  const std::string action = writing(object, name);
   const hsize_t size = values.size();
   const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, action);
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_INT8, space, H5P_DEFAULT, H5P_DEFAULT),
@@ -81,6 +106,9 @@ std::string read_text_attribute(hid_t object, const std::string& name) {
   const std::string action = "it has no attribute '" + name + "'";
   errno = 0;
   const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, action);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, action), space(H5Aget_space(attribute), H5Sclose, action);
+  if (H5Tis_variable_str(type) <= 0 || H5Sget_simple_extent_npoints(space) != 1)
+    throw OutputFault("its attribute '" + name + "' is not a text");
   char* text = nullptr;
   check_hdf5(H5Aread(attribute, text_type(), &text), action);
   std::string copy(text ? text : "");

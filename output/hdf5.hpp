@@ -41,9 +41,14 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
+/// The file in which an object lies, as it was opened.
+std::string file_of(hid_t object);
+
 /// Throws OutputFault naming the action, with the system's reason, if an HDF5 call failed.
 void check_hdf5(herr_t status, const std::string& action);
 
+/// Whether a file begins like an HDF5 file.
+bool is_hdf5(const std::string& path);
 Hdf5Handle create_hdf5(const std::string& path);
 Hdf5Handle open_hdf5(const std::string& path);
 Hdf5Handle create_group(hid_t parent, const std::string& name);
@@ -53,7 +58,7 @@ void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values);
 
-/// Text of a string attribute of an object; throws OutputFault if it is absent.
+/// Text of a string attribute of an object; throws OutputFault if it is absent or something else.
 std::string read_text_attribute(hid_t object, const std::string& name);
 /// All values of a one-dimensional dataset, converted to double.
 std::vector<double> read_column(hid_t file, const std::string& path);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sundials/sundials_version.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <Eigen/Core>
@@ -22,22 +23,63 @@ namespace {
 void synchronise(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY);
   if (descriptor < 0) return;
-  ::fsync(descriptor);
+  const bool lost = ::fsync(descriptor) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
+  const int reason = errno;
   ::close(descriptor);
+  if (lost) throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(reason)));
+}
+
+/// A slip of the hand must not cost a scenario or a measurement.
+void refuse_to_replace_other_things(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_regular_file(status))
+    throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path));
+  if (std::filesystem::file_size(path, error) > 0 && !is_hdf5(path))
+    throw OutputFault(fmt::format("cannot write {}: it exists and is not an HDF5 file; choose another name", path));
+}
+
+/// HDF5 locks a file that it writes, but empties it before it asks for the lock.
+void refuse_to_disturb_a_writer(const std::string& part_path) {
+  const int descriptor = ::open(part_path.c_str(), O_RDONLY);
+  if (descriptor < 0) return;
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (taken) throw OutputFault(fmt::format("cannot write {}: another program is writing it", part_path));
+}
+
+void remove_quietly(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
 }
 
 }  // namespace
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(path_ + ".part") {
-  const auto status = std::filesystem::status(path_);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path_));
-  file_ = create_hdf5(part_path_);
+  refuse_to_replace_other_things(path_);
+  refuse_to_disturb_a_writer(part_path_);
+  try {
+    file_ = create_hdf5(part_path_);
+  } catch (const OutputFault&) {
+    remove_quietly(part_path_);
+    throw;
+  }
+}
+
+PartFile::~PartFile() {
+  file_ = Hdf5Handle();
+  if (!stays_) remove_quietly(part_path_);
 }
 
 void PartFile::flush() {
   errno = 0;
   check_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "cannot write " + part_path_);
+}
+
+void PartFile::keep() {
+  flush();
+  stays_ = true;
 }
 
 void PartFile::finish() {
@@ -46,12 +88,7 @@ void PartFile::finish() {
   synchronise(part_path_);
   if (std::rename(part_path_.c_str(), path_.c_str()) != 0)
     throw OutputFault(fmt::format("cannot rename {} to {}: {}", part_path_, path_, std::strerror(errno)));
-}
-
-void PartFile::discard() noexcept {
-  file_ = Hdf5Handle();
-  std::error_code ignored;
-  std::filesystem::remove(part_path_, ignored);
+  stays_ = true;
 }
 
 void write_provenance(hid_t file, const Provenance& provenance) {

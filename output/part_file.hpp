@@ -8,8 +8,13 @@ namespace wormdrive {
 /// An HDF5 file that exists as NAME.part until it is complete: the final name never holds a partial file.
 class PartFile {
  public:
-  /// Creates NAME.part; throws OutputFault if the place cannot be written or the name is not that of a plain file.
+  /// Creates NAME.part; throws OutputFault if the place cannot be written, or if NAME is something that no result may
+  /// replace: neither a plain file nor absent, or a file that is not HDF5.
   explicit PartFile(std::string path);
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  /// Deletes a part that was neither finished nor kept: what could not be written whole is not left behind.
+  ~PartFile();
 
   hid_t file() const { return file_; }
   const std::string& part_path() const { return part_path_; }
@@ -19,12 +24,13 @@ class PartFile {
   void flush();
   /// Closes the file and gives it its final name. Every other handle into it must be closed before.
   void finish();
-  /// Closes and deletes the part.
-  void discard() noexcept;
+  /// Makes the part readable and lets it stay although it is not complete.
+  void keep();
 
  private:
   std::string path_, part_path_;
   Hdf5Handle file_;
+  bool stays_ = false;
 };
 
 /// Title, kind and provenance that every result file carries as root attributes.

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ class RunFile {
  public:
   RunFile(const std::string& path, const Provenance& provenance, Axis axis);
 
-  /// Appends rows and events and makes them safe.
+  /// Appends rows and events; what is older than a second is safe if the program dies.
   void append(const Trajectory& part);
   /// Writes the statistics and gives the file its final name.
   void finish(const std::string& solver, const SolverStatistics& statistics);
@@ -26,18 +27,14 @@ class RunFile {
   PartFile& file() { return file_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   PartFile file_;
   std::optional<GrowingTable> trajectory_, events_;
+  Clock::time_point flushed_;
 };
 
-/// What can be read back from a run file.
-struct StoredRun {
-  std::string title, kind, scenario;
-};
-/// Reads the attributes of a result file; throws OutputFault if it is not one.
-StoredRun read_stored_run(const std::string& path);
-
-/// Whether a file begins like an HDF5 file.
-bool is_hdf5(const std::string& path);
+/// The resolved scenario that a result file carries, as TOML; throws OutputFault if there is none.
+std::string read_stored_scenario(const std::string& path);
 
 }  // namespace wormdrive

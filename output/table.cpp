@@ -12,7 +12,7 @@ constexpr hsize_t rows_per_chunk = 4096;
 
 GrowingTable::GrowingTable(hid_t parent, const std::string& group, std::vector<ColumnDescription> columns)
     : descriptions_(std::move(columns)), group_(create_group(parent, group)) {
-  const std::string action = "cannot create table " + group;
+  const std::string action = "cannot create table " + group + " in " + file_of(parent);
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
   const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, action);
   const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
@@ -40,7 +40,7 @@ void GrowingTable::append(const std::vector<std::vector<double>>& columns) {
   const hsize_t count = columns.front().size(), total = rows_ + count;
   if (count == 0) return;
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
-    const std::string action = "cannot write " + descriptions_[k].name;
+    const std::string action = "cannot write " + descriptions_[k].name + " to " + file_of(group_);
     errno = 0;
     check_hdf5(H5Dset_extent(datasets_[k], &total), action);
     const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose, action);
@@ -53,7 +53,7 @@ void GrowingTable::append(const std::vector<std::vector<double>>& columns) {
 
 void write_texts(hid_t group, const std::string& name, const std::string& long_name,
                  const std::vector<std::string>& texts) {
-  const std::string action = "cannot write " + name;
+  const std::string action = "cannot write " + name + " to " + file_of(group);
   const hsize_t count = texts.size();
   std::vector<const char*> pointers;
   for (const std::string& text : texts) pointers.push_back(text.c_str());

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a wormdrive result file as a PNG picture: plot.py FILE.h5 -o OUT.png"""
+"""Draws wormdrive result files as a PNG picture: plot.py FILE.h5 [MORE.h5 ...] -o OUT.png [--over motor_torque]"""
 
 import argparse
 import os
@@ -7,6 +7,7 @@ import sys
 
 import h5py
 
+import over
 import run
 import statics
 import steady
@@ -27,20 +28,54 @@ def reason(error):
     return os.strerror(error.errno) if getattr(error, "errno", None) else error
 
 
-def picture(path):
-    """Returns the figure that shows a result file."""
+def read(path, reader):
+    """Returns what a reader makes of a result file."""
     try:
         if os.path.isfile(path) and not h5py.is_hdf5(path):
             raise NotAResult("it is not an HDF5 file")
         with h5py.File(path, "r") as result:
-            kind = text(attribute(result, "kind"))
-            if kind not in PICTURES:
-                raise NotAResult(f"there is no picture for the kind '{kind}'")
-            return PICTURES[kind](result)
+            return reader(result)
     except NotAResult as error:
         fail(NOT_A_RESULT, f"{path} is not a wormdrive result that can be drawn: {error}")
     except OSError as error:
         fail(NOT_A_RESULT, f"cannot read {path}: {reason(error)}")
+
+
+def kind(result):
+    """Returns which picture shows a result."""
+    name = text(attribute(result, "kind"))
+    if name not in PICTURES:
+        raise NotAResult(f"there is no picture for the kind '{name}'")
+    return name
+
+
+def read_runs(paths, reader):
+    """Returns what a reader makes of run files, whose units must agree."""
+    for path in paths:
+        if (name := read(path, kind)) != "run":
+            fail(NOT_A_RESULT, f"{path} holds a result of the kind '{name}' where a run is needed")
+    runs = [read(path, reader) for path in paths]
+    for path, other in zip(paths, runs):
+        if other.units != runs[0].units:
+            fail(NOT_A_RESULT, f"{path} is in other units than {paths[0]}")
+    return runs
+
+
+def picture(paths, over_torque):
+    """Returns the figure that shows the result files."""
+    first, *others = paths
+    name = read(first, kind)
+    if over_torque:
+        names = [os.path.splitext(os.path.basename(path))[0] for path in paths]
+        return over.draw(read_runs(paths, over.read), names)
+    if not others:
+        return read(first, PICTURES[name])
+    if name != "statics":
+        fail(NOT_A_RESULT, "several runs need --over motor_torque, or a statics file first")
+    runs = read_runs(others, run.break_aways)
+    if runs[0].units[:2] != read(first, statics.torque_units):
+        fail(NOT_A_RESULT, f"{others[0]} is in other units than {first}")
+    return read(first, lambda result: statics.draw(result, runs))
 
 
 def save(figure, path):
@@ -59,14 +94,18 @@ def save(figure, path):
 
 def main():
     """Reads the command line and draws."""
-    parser = argparse.ArgumentParser(prog="plot", description="Draws a wormdrive result file as a PNG picture.")
-    parser.add_argument("file", metavar="FILE.h5", help="result of wormdrive run, statics or steady")
+    parser = argparse.ArgumentParser(prog="plot", description="Draws wormdrive result files as a PNG picture.")
+    parser.add_argument("files", metavar="FILE.h5", nargs="+",
+                        help="result of wormdrive run, statics or steady; a statics file and runs; "
+                             "or, with --over, several runs")
     parser.add_argument("-o", "--output", metavar="OUT.png", required=True, help="picture to write")
+    parser.add_argument("--over", choices=["motor_torque"], help="draw the gear angle of runs over the motor torque")
     arguments = parser.parse_args()
     for target in (arguments.output, arguments.output + ".part"):
-        if os.path.exists(target) and os.path.exists(arguments.file) and os.path.samefile(target, arguments.file):
-            fail(NOT_WRITTEN, f"cannot write {arguments.output}: it would overwrite {arguments.file}")
-    save(picture(arguments.file), arguments.output)
+        for file in arguments.files:
+            if os.path.exists(target) and os.path.exists(file) and os.path.samefile(target, file):
+                fail(NOT_WRITTEN, f"cannot write {arguments.output}: it would overwrite {file}")
+    save(picture(arguments.files, arguments.over), arguments.output)
 
 
 if __name__ == "__main__":

@@ -51,12 +51,12 @@ def column(table, name):
     return values[:]
 
 
-def columns(table, *names):
-    """Returns several numeric columns, which must be equally long and not empty."""
+def columns(table, *names, may_be_empty=False):
+    """Returns several numeric columns, which must be equally long and mostly not empty."""
     values = [column(table, name) for name in names]
     if len({v.size for v in values}) > 1:
         raise NotAResult(f"the columns of '{table.name}' differ in length")
-    if values[0].size == 0:
+    if values[0].size == 0 and not may_be_empty:
         raise NotAResult(f"'{table.name}' has no rows")
     return values
 

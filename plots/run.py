@@ -1,5 +1,7 @@
 """The picture of a run: gear angle, gear speed with its modes, torques with the switching surface."""
 
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -26,6 +28,17 @@ EVENTS = {  # kind: label, marker, colour
     "reversal": ("reversal", "D", style.PURPLE),
     "flank_change": ("flank change", "o", "white"),
 }
+
+
+class BreakAways(NamedTuple):
+    """What a run is called and where the gear broke away."""
+
+    title: str
+    units: tuple  # of load, motor and angle
+    load: np.ndarray  # and the motor torque, both just before
+    motor: np.ndarray
+    angle: np.ndarray
+    forward: np.ndarray
 
 
 def mode_bands(trajectory, time):
@@ -66,6 +79,17 @@ def event_kinds(events):
     kind = column(events, "kind")
     found = {name: np.flatnonzero(kind == value) for value, name in flags(events, "kind").items() if name in EVENTS}
     return {name: found[name] for name in EVENTS if name in found and found[name].size}
+
+
+def break_aways(result):
+    """Returns the break-aways of a run."""
+    events = group(result, "events")
+    names = "load_torque_before", "motor_torque_before", "gear_angle"
+    *values, motion, _ = columns(events, *names, "motion_after", "kind", may_be_empty=True)
+    rows = event_kinds(events).get("break_away", [])
+    forward = [value for value, name in flags(events, "motion_after").items() if name == "forward"]
+    return BreakAways(text(attribute(result, "title")), tuple(units(events, name) for name in names),
+                      *(v[rows] for v in values), np.isin(motion[rows], forward))
 
 
 def draw_events(panels, curves, time, kinds):

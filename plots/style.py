@@ -1,5 +1,6 @@
 """The common look of all pictures."""
 
+import os
 import textwrap
 
 import matplotlib
@@ -32,6 +33,16 @@ def new_figure(title):
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.08, hspace=0.02)
     figure.suptitle(textwrap.fill(title, 84), x=0.012, ha="left", size=15, weight="bold", parse_math=False)
     return figure
+
+
+def split_titles(titles):
+    """Returns what differing titles have in common, at least two words up to a comma, and what is left of each."""
+    words = [title.split() for title in titles]
+    common = os.path.commonprefix(words)
+    commas = [k + 1 for k, word in enumerate(common) if word.endswith((",", ";"))]
+    common = common[:commas[-1]] if commas else common
+    common = common if len(common) > 1 and common not in words else []
+    return " ".join(common).rstrip(" ,;:"), [" ".join(own[len(common):]) for own in words]
 
 
 def scale(unit, *values):

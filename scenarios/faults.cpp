@@ -6,12 +6,33 @@
 #include <tuple>
 
 namespace wormdrive {
+namespace {
+
+/// A key or a file name may hold a line break or a terminal's control codes; a fault is one line of text all the same.
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+std::string lines(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults)
+    text += fmt::format("{}{}", text.empty() ? "" : "\n",
+                        one_line(fmt::format("{}: error: {}", to_string(fault.where), fault.what)));
+  return text;
+}
+
+}  // namespace
 
 std::string to_string(const Location& where) {
   if (where.line == 0) return where.file;
   if (where.column == 0) return fmt::format("{}:{}", where.file, where.line);
   return fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
+
+InputFault::InputFault(std::vector<Fault> list) : std::runtime_error(lines(list)), faults(std::move(list)) {}
+
+void refuse(const Location& where, const std::string& what) { throw InputFault({{where, what}}); }
 
 void Faults::add(const Location& where, std::string what) { list_.push_back({where, std::move(what)}); }
 
@@ -21,10 +42,7 @@ void Faults::raise() const {
   std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
     return std::tie(a.where.file, a.where.line, a.where.column) < std::tie(b.where.file, b.where.line, b.where.column);
   });
-  std::string text;
-  for (const Fault& fault : sorted)
-    text += fmt::format("{}{}: error: {}", text.empty() ? "" : "\n", to_string(fault.where), fault.what);
-  throw InputFault(text);
+  throw InputFault(std::move(sorted));
 }
 
 }  // namespace wormdrive

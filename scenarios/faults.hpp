@@ -13,28 +13,34 @@ struct Location {
   std::uint32_t column = 0;
 };
 
-/// Bad input: every fault found, one line each, in the order in which they stand in the file.
-struct InputFault : std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// "file:line:column", without what is unknown.
+std::string to_string(const Location& where);
+
+/// Something wrong with the input: where, and what with value, rule and cure.
+struct Fault {
+  Location where;
+  std::string what;
 };
+
+/// Bad input: what() tells every fault in a line of its own, "file:line:column: error: what".
+struct InputFault : std::runtime_error {
+  explicit InputFault(std::vector<Fault> list);
+  std::vector<Fault> faults;  ///< in the order in which they stand in the file
+};
+
+/// Throws InputFault with this one fault.
+[[noreturn]] void refuse(const Location& where, const std::string& what);
 
 /// Collects faults so that all are told at once.
 class Faults {
  public:
   void add(const Location& where, std::string what);
   bool empty() const { return list_.empty(); }
-  /// Throws InputFault with one line per fault, "file:line:column: error: what"; does nothing without faults.
+  /// Throws InputFault with all faults; does nothing without faults.
   void raise() const;
 
  private:
-  struct Fault {
-    Location where;
-    std::string what;
-  };
   std::vector<Fault> list_;
 };
-
-/// "file:line:column", without what is unknown.
-std::string to_string(const Location& where);
 
 }  // namespace wormdrive

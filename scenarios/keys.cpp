@@ -17,9 +17,10 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 /// The linear counterpart of a rotary quantity; what is not rotary stays.
 Spelling linear(std::string_view name, const Unit& unit) {
   std::string stem = replaced(replaced(std::string(name), "torque", "force"), "inertia", "mass");
-  if (unit.suffix == "rad" || unit.suffix == "rad_per_s") stem = replaced(replaced(stem, "gear_", ""), "angle", "position");
+  const bool angle = unit.suffix == "rad" || (unit.suffix == "deg" && name.starts_with("angle"));  // a phase is none
+  if (angle || unit.suffix == "rad_per_s") stem = replaced(replaced(stem, "gear_", ""), "angle", "position");
   if (unit.suffix == "Nm") return {stem, {"N", "N"}};
-  if (unit.suffix == "rad") return {stem, {"m", "m"}};
+  if (angle) return {stem, {"m", "m"}};
   if (unit.suffix == "rad_per_s") return {stem, {"m_per_s", "m/s"}};
   if (unit.suffix == "kgm2") return {stem, {"kg", "kg"}};
   if (unit.suffix == "Nm_per_s") return {stem, {"N_per_s", "N/s"}};
@@ -58,8 +59,17 @@ std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis ax
   return list;
 }
 
-std::string suggestion(std::string_view unknown, const std::vector<std::string>& valid) {
-  if (valid.empty()) return "nothing may stand here";
+std::string in_words_of(Axis axis, std::string_view meaning) {
+  std::string words(meaning);
+  if (axis == Axis::linear)
+    for (const auto& [rotary, straight] : {std::pair{"torque", "force"}, {"inertia", "mass"}, {"gear angle", "position"},
+                                           {"gear speed", "speed"}, {"rad/s", "m/s"}, {"rad ", "m "}})
+      words = replaced(words, rotary, straight);
+  return words;
+}
+
+std::optional<std::string> probably_meant(std::string_view unknown, const std::vector<std::string>& valid) {
+  if (valid.empty()) return std::nullopt;
   const auto score = [&](const std::string& key) {
     // A forgotten or wrong unit is the commonest slip.
     const bool same_stem = key.starts_with(unknown) || unknown.starts_with(key.substr(0, key.rfind('_')));
@@ -68,7 +78,13 @@ std::string suggestion(std::string_view unknown, const std::vector<std::string>&
   const auto nearest = std::min_element(valid.begin(), valid.end(), [&](const auto& a, const auto& b) {
     return std::pair(score(a), distance(unknown, a)) < std::pair(score(b), distance(unknown, b));
   });
-  if (score(*nearest) <= std::max<std::size_t>(2, unknown.size() / 3)) return fmt::format("did you mean '{}'?", *nearest);
+  if (score(*nearest) > std::max<std::size_t>(2, unknown.size() / 3)) return std::nullopt;
+  return *nearest;
+}
+
+std::string suggestion(std::string_view unknown, const std::vector<std::string>& valid) {
+  if (valid.empty()) return "nothing may stand here";
+  if (const auto meant = probably_meant(unknown, valid)) return fmt::format("did you mean '{}'?", *meant);
   return fmt::format("valid keys: {}", fmt::join(valid, ", "));
 }
 

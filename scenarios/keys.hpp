@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,13 @@ struct Spelling {
 /// torque becomes force, angle position, inertia mass.
 std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis axis);
 
-/// "did you mean 'x'?" for the most similar of the valid keys, or the list of them if none is similar.
+/// The meaning of a field in the words of an axis: "torque" becomes "force".
+std::string in_words_of(Axis axis, std::string_view meaning);
+
+/// The valid key that is so similar to an unknown one that it was probably meant.
+std::optional<std::string> probably_meant(std::string_view unknown, const std::vector<std::string>& valid);
+
+/// "did you mean 'x'?" for the key that was probably meant, or the list of the valid keys.
 std::string suggestion(std::string_view unknown, const std::vector<std::string>& valid);
 
 }  // namespace wormdrive

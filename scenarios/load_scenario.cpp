@@ -12,13 +12,12 @@
 namespace wormdrive {
 namespace {
 
-/// Where a table ought to stand when it is missing: the file itself.
-const toml::table no_table;
+constexpr double most_rows = 1e9;  ///< in a result; whoever asks for more has slipped in the unit
 
 class ScenarioReader {
  public:
   ScenarioReader(const toml::table& root, std::string name, Faults& faults)
-      : name_(std::move(name)), root_(root, "", Axis::rotary, faults, {name_}), faults_(faults) {}
+      : name_(std::move(name)), root_(&root, "", Axis::rotary, faults, {name_}), faults_(faults) {}
 
   Scenario read(Purpose purpose) {
     scenario_.title = root_.text("title").value_or(std::filesystem::path(name_).stem().string());
@@ -28,18 +27,20 @@ class ScenarioReader {
     read_effects();
     section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
-    root_.refuse_unknown_keys();
+    root_.finish();
     if (purpose == Purpose::run) refuse_what_does_not_move();
     return std::move(scenario_);
   }
 
  private:
+  /// Reads a table of the root; one that is not there may still be told to be required.
   template <class Read>
   void section(const std::string& key, Read&& read) {
     const toml::table* table = root_.table(key);
-    TableReader reader(table ? *table : no_table, key, scenario_.axis, faults_, {name_});
+    if (root_.has(key) && !table) return;  // of another type, which was told
+    TableReader reader(table, key, scenario_.axis, faults_, {name_});
     read(reader);
-    reader.refuse_unknown_keys();
+    reader.finish();
   }
 
   std::string folder() const { return std::filesystem::path(name_).parent_path().string(); }
@@ -53,12 +54,14 @@ class ScenarioReader {
         friction_at_ = mesh.where("friction");
         return;
       }
-      scenario_.axis =
-          mesh.choice("axis", {"rotary", "linear"}, Presence::optional) == "linear" ? Axis::linear : Axis::rotary;
-      TableReader inertia(*root_.table("mesh"), "mesh", scenario_.axis, faults_, {name_});
-      scenario_.mesh = SingleInertia{};
-      inertia.read_fields(std::get<SingleInertia>(scenario_.mesh));
-      for (const Spelling& s : spellings("inertia", unit::kilogram_square_metre, scenario_.axis)) mesh.allow(s.key);
+      if (mesh.choice("axis", {"rotary", "linear"}, Presence::optional) == "linear") {
+        scenario_.axis = Axis::linear;
+        mesh.set_axis(Axis::linear);
+        root_.set_axis(Axis::linear);
+      }
+      SingleInertia inertia;
+      mesh.read_fields(inertia);
+      scenario_.mesh = inertia;
     });
   }
 
@@ -73,7 +76,7 @@ class ScenarioReader {
   void read_load() {
     const std::vector<const toml::table*> tables = root_.tables("load");
     if (tables.size() == 1) {
-      TableReader load(*tables.front(), "load", scenario_.axis, faults_, {name_});
+      TableReader load(tables.front(), "load", scenario_.axis, faults_, {name_});
       if (const auto special = read_special_load(load, folder())) {
         scenario_.load = *special;
         return;
@@ -88,11 +91,11 @@ class ScenarioReader {
         using Effect = typename std::decay_t<decltype(effect)>::value_type;
         const toml::table* table = effects.table(std::string(Effect::id));
         if (!table) return;
-        TableReader reader(*table, fmt::format("effect.{}", Effect::id), scenario_.axis, faults_, effects.where());
+        TableReader reader(table, fmt::format("effect.{}", Effect::id), scenario_.axis, faults_, effects.where());
         const bool on = reader.truth("on").value_or(true);
         Effect parameters;
         reader.read_fields(parameters);
-        reader.refuse_unknown_keys();
+        reader.finish();
         if (on) effect = parameters;
       });
     });
@@ -103,9 +106,13 @@ class ScenarioReader {
     section("run", [&](TableReader& run) {
       run.read_fields(scenario_.run);
       scenario_.run.method = run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
-      if (scenario_.run.report_interval > scenario_.run.duration)
-        run.fault("report_interval_s", fmt::format("run.report_interval_s = {} s must be at most the duration, {} s",
-                                                   *scenario_.run.report_interval, scenario_.run.duration));
+      const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
+      if (duration > 0.0 && every > duration)
+        run.fault("report_interval_s",
+                  fmt::format("run.report_interval_s = {} s must be at most the duration, {} s", every, duration));
+      else if (duration > most_rows * every)
+        run.fault("report_interval_s", fmt::format("run.report_interval_s = {} s would give {:.3g} rows; at most {:g} are "
+                                                   "written", every, duration / every, most_rows));
     });
   }
 
@@ -125,7 +132,7 @@ class ScenarioReader {
     if (mesh.C1() <= -surface)
       faults_.add(friction_at_,
                   fmt::format("mesh.friction = {} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
-                              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia "
+                              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 "
                               "or lower the gear-side inertia below {:.6g} kg m^2",
                               mesh.mu, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
   }
@@ -149,9 +156,12 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
 }
 
 Scenario load_scenario(const std::string& path, const std::vector<std::string>& overrides, Purpose purpose) {
-  const std::string text = std::filesystem::is_regular_file(path) && is_hdf5(path) ? read_stored_run(path).scenario
-                                                                                  : read_text(path);
-  return parse_scenario(text, path, overrides, purpose);
+  if (!is_hdf5(path)) return parse_scenario(read_text(path), path, overrides, purpose);
+  try {
+    return parse_scenario(read_stored_scenario(path), path, overrides, purpose);
+  } catch (const OutputFault& fault) {
+    refuse({path}, fault.what());
+  }
 }
 
 }  // namespace wormdrive

@@ -14,64 +14,91 @@ struct Pairs {
   std::vector<double> x, y;
 };
 
+/// A quantity as a table or a CSV file names it.
+struct Name {
+  std::string_view stem;
+  Unit unit;
+  std::string spelled(Axis axis) const { return spellings(stem, unit, axis).front().key; }
+};
+
 /// x and y of a table, inline as arrays or from a CSV file; angles and times must increase. Faults leave it empty.
 struct PairSource {
-  std::string x_name, y_name;          ///< names of the inline arrays without unit
-  Unit x_unit, y_unit;
-  std::string x_column, y_column;      ///< default columns of the file
+  Name x, y;                ///< the inline arrays
+  Name x_column, y_column;  ///< the columns of the file, unless it is said otherwise
   std::size_t at_least;
 };
 
+std::string count(std::size_t number, const std::string& things) {
+  return fmt::format("{} {}{}", number, things, number == 1 ? "" : "s");
+}
+
 Pairs from_file(TableReader& table, const PairSource& source, const std::string& file, const std::string& folder) {
-  const std::string x_column = table.text("x_column").value_or(source.x_column);
-  const std::string y_column = table.text("y_column").value_or(source.y_column);
-  const Csv csv = read_csv((std::filesystem::path(folder) / file).string());
-  const Pairs pairs{csv.numbers(x_column), csv.numbers(y_column)};
-  require_increasing(csv, x_column, pairs.x);
-  if (pairs.x.size() < source.at_least)
-    table.fault("file", fmt::format("{} has {} rows; at least {} are needed", csv.path, pairs.x.size(), source.at_least));
-  return pairs;
+  const std::string x_column = table.text("x_column").value_or(source.x_column.spelled(table.axis()));
+  const std::string y_column = table.text("y_column").value_or(source.y_column.spelled(table.axis()));
+  for (const Name& name : {source.x, source.y})
+    if (const auto both = table.stated(name.stem, name.unit))
+      table.fault(both->key, fmt::format("{} is stated along with 'file'; keep one", table.path_of(both->key)));
+  const std::string stated = fmt::format("{} = \"{}\"", table.path_of("file"), file);
+  try {
+    const Csv csv = read_csv((std::filesystem::path(folder) / file).string());
+    const Pairs pairs{csv.numbers(x_column), csv.numbers(y_column)};
+    require_increasing(csv, x_column, pairs.x);
+    if (pairs.x.size() >= source.at_least) return pairs;
+    table.fault("file", fmt::format("{} has {} below its header line; at least {} are needed", stated,
+                                    count(pairs.x.size(), "row"), source.at_least));
+  } catch (const InputFault& fault) {
+    // A wrong line is put right in the file, a wrong name in the scenario.
+    for (const Fault& f : fault.faults)
+      if (f.where.line > 0)
+        table.faults().add(f.where, fmt::format("{} ({} at {})", f.what, table.path_of("file"),
+                                                to_string(table.where("file"))));
+      else
+        table.fault("file", fmt::format("{} {}", stated, f.what));
+  }
+  return {};
 }
 
 Pairs inline_pairs(TableReader& table, const PairSource& source) {
-  const auto x = table.numbers(source.x_name, source.x_unit), y = table.numbers(source.y_name, source.y_unit);
-  const std::string x_key = spellings(source.x_name, source.x_unit, table.axis()).front().key;
-  const std::string y_key = spellings(source.y_name, source.y_unit, table.axis()).front().key;
-  if (!x || !y) {
-    if (!table.has(x_key) || !table.has(y_key))
-      table.fault("file", fmt::format("{} lacks 'file' (a CSV file), or '{}' and '{}'", table.path_of(""), x_key, y_key));
+  const auto x_key = table.stated(source.x.stem, source.x.unit), y_key = table.stated(source.y.stem, source.y.unit);
+  if (!x_key || !y_key) {
+    table.lacks(fmt::format("'file' (a CSV file), or '{}' and '{}'", source.x.spelled(table.axis()),
+                            source.y.spelled(table.axis())));
     return {};
   }
-  if (x->size() != y->size() || x->size() < source.at_least) {
-    table.fault(x_key, fmt::format("{} has {} values and {} has {}; both need the same number, at least {}", x_key,
-                                   x->size(), y_key, y->size(), source.at_least));
+  const auto x = table.numbers(*x_key), y = table.numbers(*y_key);
+  if (!x || !y) return {};
+  const std::string path = table.path_of(x_key->key);
+  if (x->size() != y->size()) {
+    table.fault(x_key->key, fmt::format("{} has {} but {} has {}", path, count(x->size(), "value"), y_key->key,
+                                        count(y->size(), "value")));
+    return {};
+  }
+  if (x->size() < source.at_least) {
+    table.fault(x_key->key, fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"),
+                                        source.at_least));
     return {};
   }
   for (std::size_t k = 1; k < x->size(); ++k) {
     if ((*x)[k] > (*x)[k - 1]) continue;
-    table.fault(x_key, fmt::format("{}[{}] = {} does not increase after {}", table.path_of(x_key), k,
-                                   (*x)[k] / source.x_unit.si, (*x)[k - 1] / source.x_unit.si));
+    const double si = x_key->unit.si;
+    table.fault(x_key->key, fmt::format("{}[{}] = {:.12g} does not increase after {:.12g}", path, k, (*x)[k] / si,
+                                        (*x)[k - 1] / si));
     return {};
   }
   return {*x, *y};
 }
 
 Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder) {
+  if (!table.has("file")) return inline_pairs(table, source);
   const auto file = table.text("file");
-  if (!file) return inline_pairs(table, source);
-  try {
-    return from_file(table, source, *file, folder);
-  } catch (const InputFault& fault) {
-    table.faults().add(table.where("file"), fault.what());
-    return {};
-  }
+  return file ? from_file(table, source, *file, folder) : Pairs{};
 }
 
-Samples read_samples(TableReader& table, const std::string& folder) {
-  const bool linear_axis = table.axis() == Axis::linear;
+/// y_column: what the CSV column holds, "motor_torque" or "load_torque".
+Samples read_samples(TableReader& table, std::string_view y_column, const std::string& folder) {
   const Pairs pairs = read_pairs(table,
-                                 {"times", "torques", unit::second, unit::newton_metre, "time_s",
-                                  linear_axis ? "motor_force_N" : "motor_torque_Nm", 2},
+                                 {{"times", unit::second}, {"torques", unit::newton_metre},
+                                  {"time", unit::second}, {y_column, unit::newton_metre}, 2},
                                  folder);
   const auto interpolation = table.choice("interpolation", {"hold", "linear"}, Presence::optional);
   return {pairs.x, pairs.y, interpolation == "linear" ? Interpolation::linear : Interpolation::hold};
@@ -100,22 +127,24 @@ Signal read_signal(const std::vector<const toml::table*>& tables, const std::str
   Signal signal;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const std::string name = tables.size() == 1 ? path : fmt::format("{}[{}]", path, k);
-    TableReader table(*tables[k], name, parent.axis(), parent.faults(), parent.where());
+    TableReader table(tables[k], name, parent.axis(), parent.faults(), parent.where());
     std::vector<std::string> words = signal_kinds();
-    if (path == "load" && tables.size() == 1)
-      for (const std::string_view special : {GravityArm::kind, AngleTable::kind}) words.emplace_back(special);
+    if (path == "load" && tables.size() == 1) {
+      if (parent.axis() == Axis::rotary) words.emplace_back(GravityArm::kind);
+      words.emplace_back(AngleTable::kind);
+    }
     const auto kind = table.choice("kind", words, Presence::required);
     if (!kind) continue;
     SignalTerm term = make_term(*kind);
     std::visit(
         [&](auto& parameters) {
           if constexpr (requires { parameters.times; })
-            parameters = read_samples(table, folder);
+            parameters = read_samples(table, path == "load" ? "load_torque" : "motor_torque", folder);
           else
             table.read_fields(parameters);
         },
         term);
-    table.refuse_unknown_keys();
+    table.finish();
     signal.terms.push_back(term);
   }
   return signal;
@@ -123,20 +152,24 @@ Signal read_signal(const std::vector<const toml::table*>& tables, const std::str
 
 std::optional<LoadParameters> read_special_load(TableReader& table, const std::string& folder) {
   const auto kind = table.peek("kind");
-  if (kind == GravityArm::kind) {
+  if (kind == GravityArm::kind && table.axis() == Axis::rotary) {
     table.text("kind");
     GravityArm arm;
     table.read_fields(arm);
-    table.refuse_unknown_keys();
-    if (arm.amplitude ? arm.mass || arm.arm : !(arm.mass && arm.arm))
-      table.fault("kind", "load of kind \"gravity_arm\" needs either 'torque_Nm', or both 'mass_kg' and 'arm_m'");
+    table.finish();
+    if (table.has("torque_Nm") && (table.has("mass_kg") || table.has("arm_m")))
+      table.fault("torque_Nm", "load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others");
+    else if (!table.has("torque_Nm") && !(table.has("mass_kg") && table.has("arm_m")))
+      table.lacks("'torque_Nm', or 'mass_kg' and 'arm_m'");
     return arm;
   }
   if (kind == AngleTable::kind) {
     table.text("kind");
-    const Pairs pairs = read_pairs(
-        table, {"angles", "torques", unit::degrees, unit::newton_metre, "gear_angle_rad", "load_torque_Nm", 4}, folder);
-    table.refuse_unknown_keys();
+    const Pairs pairs = read_pairs(table,
+                                   {{"angles", unit::degrees}, {"torques", unit::newton_metre},
+                                    {"gear_angle", unit::radian}, {"load_torque", unit::newton_metre}, 4},
+                                   folder);
+    table.finish();
     return AngleTable{pairs.x, pairs.y};
   }
   return std::nullopt;

@@ -27,6 +27,15 @@ std::string_view type_name(const toml::node& node) {
   return "something else";
 }
 
+/// Integers are numbers like any other, however long.
+std::optional<double> as_double(const toml::node& node) {
+  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  return node.value<double>();
+}
+
+/// Where a reader looks for a table that is not there.
+const toml::table nothing;
+
 std::string with_unit(const std::string& number, const Unit& unit) {
   return unit.suffix.empty() ? number : fmt::format("{} {}", number, unit.symbol);
 }
@@ -43,9 +52,15 @@ std::string rule(const Bounds& bounds, const Unit& unit) {
   return fmt::format("must be {} and {}", low, high);
 }
 
-TableReader::TableReader(const toml::table& table, std::string path, Axis axis, Faults& faults, Location missing_at)
-    : table_(table), path_(std::move(path)), axis_(axis), faults_(faults), here_(location(table.source())) {
+TableReader::TableReader(const toml::table* table, std::string path, Axis axis, Faults& faults, Location missing_at)
+    : present_(table != nullptr), table_(table ? *table : nothing), path_(std::move(path)), axis_(axis),
+      faults_(faults), here_(location(table_.source())) {
   if (here_.file.empty()) here_ = std::move(missing_at);
+}
+
+std::string TableReader::table_name() const {
+  if (path_.empty()) return "the scenario";
+  return path_.ends_with(']') ? path_ : fmt::format("[{}]", path_);
 }
 
 const toml::node* TableReader::find(const std::string& key) {
@@ -64,53 +79,60 @@ void TableReader::wrong_type(const std::string& key, const toml::node& node, std
 
 std::optional<double> TableReader::number(std::string_view name, const Unit& unit, const Bounds& bounds,
                                           Presence presence, std::string_view meaning) {
-  std::optional<double> value;
-  std::optional<std::string> first;
-  const std::vector<Spelling> accepted = spellings(name, unit, axis_);
-  for (const Spelling& spelling : accepted) {
-    const toml::node* node = find(spelling.key);
-    if (!node) continue;
-    if (first) fault(spelling.key, fmt::format("{} is stated twice, also as {}", path_of(spelling.key), *first));
-    first = spelling.key;
-    const std::optional<double> stated = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!stated) {
-      wrong_type(spelling.key, *node, "a number");
-    } else if (!std::isfinite(*stated)) {
-      fault(spelling.key, fmt::format("{} = {} must be a finite number", path_of(spelling.key), *stated));
-    } else if (!bounds.contain(*stated * spelling.unit.si)) {
-      fault(spelling.key, fmt::format("{} = {} {}", path_of(spelling.key),
-                                      with_unit(fmt::format("{}", *stated), spelling.unit), rule(bounds, spelling.unit)));
-    } else {
-      value = *stated * spelling.unit.si;
-    }
-  }
-  if (!first && presence == Presence::required)
-    faults_.add(here_, fmt::format("{} lacks '{}' ({})", table_name(), accepted.front().key, meaning));
-  return value;
+  if (const auto spelling = stated(name, unit)) return number(*spelling, bounds);
+  if (presence == Presence::required) missing_.push_back({spellings(name, unit, axis_).front().key, in_words_of(axis_, meaning)});
+  return std::nullopt;
 }
 
-std::optional<std::vector<double>> TableReader::numbers(std::string_view name, const Unit& unit) {
-  for (const Spelling& spelling : spellings(name, unit, axis_)) {
-    const toml::node* node = find(spelling.key);
-    if (!node) continue;
-    const toml::array* array = node->as_array();
-    if (!array) {
-      wrong_type(spelling.key, *node, "an array of numbers");
-      return std::nullopt;
-    }
-    std::vector<double> values;
-    for (const toml::node& element : *array) {
-      const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
-      if (!value || !std::isfinite(*value)) {
-        faults_.add(location(element.source()),
-                    fmt::format("{}[{}] must be a finite number", path_of(spelling.key), values.size()));
-        return std::nullopt;
-      }
-      values.push_back(*value * spelling.unit.si);
-    }
-    return values;
+std::optional<double> TableReader::number(const Spelling& spelling, const Bounds& bounds) {
+  const toml::node& node = *table_.get(spelling.key);
+  const std::string path = path_of(spelling.key);
+  const std::optional<double> value = as_double(node);
+  if (!value) {
+    wrong_type(spelling.key, node, "a number");
+  } else if (!std::isfinite(*value)) {
+    fault(spelling.key, fmt::format("{} = {} must be a finite number", path, *value));
+  } else if (!bounds.contain(*value * spelling.unit.si)) {
+    fault(spelling.key, fmt::format("{} = {} {}", path, with_unit(fmt::format("{}", *value), spelling.unit),
+                                    rule(bounds, spelling.unit)));
+  } else {
+    return *value * spelling.unit.si;
   }
   return std::nullopt;
+}
+
+std::optional<Spelling> TableReader::stated(std::string_view name, const Unit& unit) {
+  std::optional<Spelling> first;
+  for (const Spelling& spelling : spellings(name, unit, axis_)) {
+    if (!find(spelling.key)) continue;
+    if (first)
+      fault(spelling.key,
+            fmt::format("{} is stated twice, also as {}; keep one", path_of(spelling.key), first->key));
+    else
+      first = spelling;
+  }
+  return first;
+}
+
+std::optional<std::vector<double>> TableReader::numbers(const Spelling& spelling) {
+  const toml::node& node = *table_.get(spelling.key);
+  if (!node.is_array()) {
+    wrong_type(spelling.key, node, "an array of numbers");
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  for (const toml::node& element : *node.as_array()) {
+    const std::optional<double> value = as_double(element);
+    if (value && std::isfinite(*value)) {
+      values.push_back(*value * spelling.unit.si);
+      continue;
+    }
+    const std::string name = fmt::format("{}[{}]", path_of(spelling.key), values.size());
+    faults_.add(location(element.source()), value ? fmt::format("{} = {} must be a finite number", name, *value)
+                                                  : fmt::format("{} must be a number, not {}", name, type_name(element)));
+    return std::nullopt;
+  }
+  return values;
 }
 
 std::optional<std::string> TableReader::text(const std::string& key) {
@@ -134,7 +156,7 @@ std::optional<std::string> TableReader::choice(const std::string& key, const std
                                                Presence presence) {
   if (!find(key)) {
     if (presence == Presence::optional) return words.front();
-    faults_.add(here_, fmt::format("{} lacks '{}' (one of \"{}\")", table_name(), key, fmt::join(words, "\", \"")));
+    lacks(fmt::format("'{}' (one of \"{}\")", key, fmt::join(words, "\", \"")));
     return std::nullopt;
   }
   const std::optional<std::string> word = text(key);
@@ -154,22 +176,42 @@ std::vector<const toml::table*> TableReader::tables(const std::string& key) {
   if (!node) return {};
   if (const toml::table* one = node->as_table()) return {one};
   const toml::array* const array = node->as_array();
-  if (!array || !array->is_homogeneous<toml::table>()) {
-    wrong_type(key, *node, "a table or an array of tables");
+  if (!array || array->empty()) {
+    fault(key, fmt::format("{} must be a table or an array of tables, not {}", path_of(key),
+                           array ? "an empty array" : type_name(*node)));
     return {};
   }
   std::vector<const toml::table*> list;
-  for (const toml::node& element : *array) list.push_back(element.as_table());
+  for (const toml::node& element : *array) {
+    if (!element.is_table())
+      faults_.add(location(element.source()), fmt::format("{}[{}] must be a table, not {}", path_of(key), list.size(),
+                                                          type_name(element)));
+    list.push_back(element.as_table());
+  }
+  std::erase(list, nullptr);
   return list;
 }
 
-void TableReader::refuse_unknown_keys() {
+void TableReader::lacks(const std::string& what) { faults_.add(here_, fmt::format("{} lacks {}", table_name(), what)); }
+
+void TableReader::finish() {
   for (const auto& [key, node] : table_) {
     const std::string name(key.str());
     if (std::find(valid_.begin(), valid_.end(), name) != valid_.end()) continue;
     Location at = location(key.source());
     if (at.file.empty()) at = location(node.source());
-    faults_.add(at, fmt::format("unknown key '{}' in {}; {}", name, table_name(), suggestion(name, valid_)));
+    faults_.add(at, fmt::format("unknown {} '{}' in {}; {}", node.is_table() ? "table" : "key", name, table_name(),
+                                suggestion(name, valid_)));
+    // A misspelled key is one fault, not also a missing one.
+    const auto meant = probably_meant(name, valid_);
+    std::erase_if(missing_, [&](const Missing& missing) { return missing.key == meant; });
+  }
+  if (present_) {
+    for (const Missing& missing : missing_) lacks(fmt::format("'{}' ({})", missing.key, missing.meaning));
+  } else if (!missing_.empty()) {
+    std::vector<std::string> keys;
+    for (const Missing& missing : missing_) keys.push_back(missing.key);
+    faults_.add(here_, fmt::format("there is no {}; it needs {}", table_name(), fmt::join(keys, ", ")));
   }
 }
 

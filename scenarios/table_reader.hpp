@@ -12,11 +12,15 @@
 
 namespace wormdrive {
 
-/// Reads one table of a document, notes every fault and remembers which keys may stand in it.
+/// Reads one table of a document, notes every fault and remembers which keys may stand in it and which must.
 class TableReader {
  public:
-  /// path: how the table is called in messages, "mesh"; empty for the root.
-  TableReader(const toml::table& table, std::string path, Axis axis, Faults& faults, Location missing_at);
+  /// table: null for one that is not there. path: how it is called in messages, "mesh"; empty for the root.
+  /// missing_at: where faults stand of a table that is not there.
+  TableReader(const toml::table* table, std::string path, Axis axis, Faults& faults, Location missing_at);
+
+  /// From here on keys are spelled for this axis.
+  void set_axis(Axis axis) { axis_ = axis; }
 
   /// Reads all fields of a parameter struct; missing ones keep their value, faulty ones too.
   template <class Parameters>
@@ -30,8 +34,10 @@ class TableReader {
   /// A number in SI, from any of its spellings.
   std::optional<double> number(std::string_view name, const Unit& unit, const Bounds& bounds, Presence presence,
                                std::string_view meaning);
+  /// The spelling under which a name is stated, if it is.
+  std::optional<Spelling> stated(std::string_view name, const Unit& unit);
   /// A list of numbers in SI.
-  std::optional<std::vector<double>> numbers(std::string_view name, const Unit& unit);
+  std::optional<std::vector<double>> numbers(const Spelling& spelling);
   std::optional<std::string> text(const std::string& key);
   std::optional<bool> truth(const std::string& key);
   /// One of several words; the first is the default, or, if required, there is none.
@@ -43,8 +49,6 @@ class TableReader {
 
   /// The text of a key that another call will read and check.
   std::optional<std::string> peek(const std::string& key) const { return table_[key].value<std::string>(); }
-  /// Lets a key stand that another reader of the same table reads.
-  void allow(const std::string& key) { find(key); }
   bool has(const std::string& key) const { return table_.contains(key); }
   /// Where the value of a key stands; the table itself if it is absent.
   Location where(const std::string& key) const;
@@ -52,8 +56,10 @@ class TableReader {
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   /// Notes a fault at a key.
   void fault(const std::string& key, std::string what) { faults_.add(where(key), std::move(what)); }
-  /// Notes every key that no call has asked for.
-  void refuse_unknown_keys();
+  /// Notes what the table as a whole lacks.
+  void lacks(const std::string& what);
+  /// Notes every key that no call has asked for, and every one that had to be there and is not.
+  void finish();
 
   Axis axis() const { return axis_; }
   Faults& faults() { return faults_; }
@@ -61,14 +67,22 @@ class TableReader {
  private:
   const toml::node* find(const std::string& key);
   void wrong_type(const std::string& key, const toml::node& node, std::string_view wanted);
-  std::string table_name() const { return path_.empty() ? "the scenario" : "[" + path_ + "]"; }
+  std::string table_name() const;
 
+  /// A required key that is not there.
+  struct Missing {
+    std::string key, meaning;
+  };
+  std::optional<double> number(const Spelling& spelling, const Bounds& bounds);
+
+  const bool present_;
   const toml::table& table_;
   std::string path_;
   Axis axis_;
   Faults& faults_;
   Location here_;
   std::vector<std::string> valid_;
+  std::vector<Missing> missing_;
 };
 
 /// "must be greater than 0 kg m^2": the rule that a field's bounds state, in its unit.

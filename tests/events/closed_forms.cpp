@@ -19,7 +19,7 @@ constexpr std::array methods{Method::bdf, Method::adams};
 double relative(double a, double b) { return (a - b) / b; }
 
 /// Angle and speed after s seconds from theta, omega under an acceleration alpha + jerk s.
-struct Cubic {
+struct ConstantJerk {
   double theta, omega, alpha, jerk = 0.0;
 
   double angle(double s) const { return theta + s * (omega + s * (alpha / 2 + s * jerk / 6)); }
@@ -40,7 +40,7 @@ TEST_CASE("a load that brakes the motion stops a self-locking drive for good, at
     REQUIRE(std::abs(relative(r.events[0].after.t, stop)) <= 1e-12);
     REQUIRE(std::abs(relative(r.end.x[0], angle)) <= 1e-12);
     REQUIRE(r.end.x[1] == 0.0);
-    const Cubic braking{0.2, omega, alpha};
+    const ConstantJerk braking{0.2, omega, alpha};
     Deviation angles, speeds;
     for (const auto& row : r.rows) {
       if (row.now.t > stop) break;
@@ -58,7 +58,7 @@ TEST_CASE("a motor torque against the motion decelerates, reverses and accelerat
   const double braking = Branch(p, forward_left).acceleration(tau_m, 0.0);
   const double speeding = Branch(p, backward_left).acceleration(tau_m, 0.0);
   const double turn = -omega / braking;
-  const Cubic back{-omega * omega / (2 * braking), 0.0, speeding};
+  const ConstantJerk back{-omega * omega / (2 * braking), 0.0, speeding};
   for (Method method : methods) {
     const auto r = run(drive(p, constant(0.0), constant(tau_m)), Timetable(0, end, 0.05), {0.0, {0.0, omega}, {}},
                        tight(method));
@@ -76,12 +76,12 @@ TEST_CASE("steps of the torque break away, change the flank in motion, reverse a
   // lifting against the load, pulled over the surface at 0.1 s, pushed back at 0.3 s, let go at 0.7 s
   const Signal motor{{Step{0.05, 0.02}, Step{-0.02, 0.1}, Step{-0.075, 0.3}, Step{0.045, 0.7}}};
   const double tau[] = {0.05, 0.03, -0.045, 0.0};
-  const Cubic first{0, 0, Branch(p, forward_right).acceleration(tau[0], load)};
-  const Cubic second{first.angle(0.08), first.speed(0.08), Branch(p, forward_left).acceleration(tau[1], load)};
-  const Cubic third{second.angle(0.2), second.speed(0.2), Branch(p, forward_left).acceleration(tau[2], load)};
+  const ConstantJerk first{0, 0, Branch(p, forward_right).acceleration(tau[0], load)};
+  const ConstantJerk second{first.angle(0.08), first.speed(0.08), Branch(p, forward_left).acceleration(tau[1], load)};
+  const ConstantJerk third{second.angle(0.2), second.speed(0.2), Branch(p, forward_left).acceleration(tau[2], load)};
   const double turn = 0.3 - third.omega / third.alpha;
-  const Cubic fourth{third.angle(turn - 0.3), 0, Branch(p, backward_left).acceleration(tau[2], load)};
-  const Cubic fifth{fourth.angle(0.7 - turn), fourth.speed(0.7 - turn),
+  const ConstantJerk fourth{third.angle(turn - 0.3), 0, Branch(p, backward_left).acceleration(tau[2], load)};
+  const ConstantJerk fifth{fourth.angle(0.7 - turn), fourth.speed(0.7 - turn),
                     Branch(p, backward_left).acceleration(tau[3], load)};
   const double stop = 0.7 - fifth.omega / fifth.alpha;
   REQUIRE((turn > 0.3 && turn < 0.7 && stop > 0.7));
@@ -102,9 +102,9 @@ TEST_CASE("a ramp breaks away at -C1 tau_l, crosses the surface and speeds up al
   const double load = 0.03, rate = 0.04, end = 2.0, surface = p.Jw * p.i / p.Jg;
   const Branch low(p, forward_left), high(p, forward_right);
   const double released = -low.C * load / rate, crossed = surface * load / rate;
-  const Cubic first{0, 0, 0, rate / low.M};
+  const ConstantJerk first{0, 0, 0, rate / low.M};
   const double lasted = crossed - released;
-  const Cubic second{first.angle(lasted), first.speed(lasted), load / p.Jg, rate / high.M};
+  const ConstantJerk second{first.angle(lasted), first.speed(lasted), load / p.Jg, rate / high.M};
   for (Method method : methods) {
     const auto r = run(drive(p, constant(load), Signal{{Ramp{rate}}}), Timetable(0, end, 0.05), {}, tight(method));
     REQUIRE(r.modes() == std::vector{stuck, forward_left, forward_right});

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "control/closed_loop.hpp"
+#include "control/lemma1.hpp"
+
+namespace wormdrive {
+
+/// A promise of Lemma 1 that a run broke.
+struct Violation {
+  std::string_view promise;
+  long count = 0;
+  double first = std::numeric_limits<double>::quiet_NaN();  ///< time of the first sample that broke it [s]
+  double worst = 0.0;                                       ///< largest value seen
+  double limit = 0.0;                                       ///< what was promised
+};
+
+/// Watches what Lemma 1 promises: |s| stays in the layer once it has reached it, |e| stays below the guaranteed
+/// precision a few time constants later, and outside the layer u lies on the side of the surface it was designed for.
+class Lemma1Monitor {
+ public:
+  Lemma1Monitor(const SlidingParameters& p, const Lemma1& lemma)
+      : Phi_(p.Phi),
+        M_(lemma.M),
+        settling_(10.0 / p.lambda_c),
+        violations_{{{.promise = "|s| <= Phi after reaching", .limit = p.Phi},
+                     {.promise = "|e| <= 2 Phi/lambda_c", .limit = guaranteed_precision(p)},
+                     {.promise = "|e| <= 2 Phi/(e lambda_c)", .limit = sharp_precision(p)},
+                     {.promise = "u beyond the surface outside the layer", .limit = lemma.M}}} {}
+
+  void sample(const ControlRecord& record) {
+    const double t = record.measured.t, s = record.decided.s, u = record.decided.u;
+    if (std::abs(s) <= Phi_ && std::isnan(reached_)) reached_ = t;
+    if (std::abs(s) >= Phi_) {
+      const double beyond = s > 0.0 ? -u : u;
+      if (beyond < M_) note(3, t, beyond);
+    }
+    if (std::isnan(reached_)) return;
+    if (std::abs(s) > Phi_) note(0, t, std::abs(s));
+    if (t < reached_ + settling_) return;
+    const double e = std::abs(record.gear_angle - record.measured.desired.angle);
+    for (const int k : {1, 2})
+      if (e > violations_[k].limit) note(k, t, e);
+  }
+
+  /// When |s| first was within the layer [s]; not a number if never.
+  double reached() const { return reached_; }
+  const std::array<Violation, 4>& violations() const { return violations_; }
+  bool clean() const {
+    for (const Violation& v : violations_)
+      if (v.count > 0) return false;
+    return true;
+  }
+
+ private:
+  void note(int k, double t, double value) {
+    Violation& v = violations_[k];
+    if (v.count++ == 0) {
+      v.first = t;
+      v.worst = value;
+    }
+    v.worst = k == 3 ? std::min(v.worst, value) : std::max(v.worst, value);
+  }
+
+  double Phi_, M_, settling_;
+  double reached_ = std::numeric_limits<double>::quiet_NaN();
+  std::array<Violation, 4> violations_;
+};
+
+}  // namespace wormdrive

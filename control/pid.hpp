@@ -1,0 +1,98 @@
+#pragma once
+#include <Eigen/Eigenvalues>
+#include <complex>
+#include <string_view>
+#include <tuple>
+
+#include "control/compensation.hpp"
+#include "control/controller_signals.hpp"
+#include "control/nominal.hpp"
+#include "core/field.hpp"
+
+namespace wormdrive {
+
+/// Weights of the linear-quadratic design on the nominal model with integral action.
+struct PidParameters {
+  static constexpr std::string_view kind = "pid";
+  static constexpr std::string_view meaning = "PID as linear-quadratic regulator with integral action";
+  double integral_weight{};  ///< of (integral of e)^2
+  double angle_weight{};     ///< of e^2
+  double speed_weight{};     ///< of e'^2
+  double torque_weight{1.0};
+  double feedforward{0.0};  ///< share of theta_d'' fed forward, 0 or 1
+  double epsilon{0.005};    ///< speed below which eq. 25 acts [rad/s]
+
+  static constexpr auto fields() {
+    using P = PidParameters;
+    constexpr Presence o = Presence::optional;
+    return std::tuple{
+        Field{&P::integral_weight, "integral_weight", unit::none, bounds::positive, "weight of the integral of e, squared"},
+        Field{&P::angle_weight, "angle_weight", unit::none, bounds::not_negative, "weight of e squared"},
+        Field{&P::speed_weight, "speed_weight", unit::none, bounds::not_negative, "weight of e' squared"},
+        Field{&P::torque_weight, "torque_weight", unit::none, bounds::positive, "weight of the torque squared", o},
+        Field{&P::feedforward, "feedforward", unit::none, bounds::between(0, 1), "share of theta_d'' fed forward", o},
+        Field{&P::epsilon, "break_in_speed", unit::radian_per_second, bounds::not_negative,
+              "speed up to which the break-in compensation acts", o}};
+  }
+};
+
+/// Gains of u = -(Ki Int(e) + Kp e + Kd e') in N m per (rad s), rad and rad/s.
+struct PidGains {
+  double Ki, Kp, Kd;
+};
+
+/// Gains that minimise the weighted squares for M e'' = u, from the stable subspace of the Hamiltonian matrix.
+inline PidGains lqr_gains(const PidParameters& weights, double M) {
+  Eigen::Matrix<double, 6, 6> hamiltonian = Eigen::Matrix<double, 6, 6>::Zero();
+  hamiltonian(0, 1) = hamiltonian(1, 2) = 1.0;
+  hamiltonian(2, 5) = -1.0 / (M * M * weights.torque_weight);
+  hamiltonian(3, 0) = -weights.integral_weight;
+  hamiltonian(4, 1) = -weights.angle_weight;
+  hamiltonian(5, 2) = -weights.speed_weight;
+  hamiltonian(4, 3) = hamiltonian(5, 4) = -1.0;
+  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> eigen(hamiltonian);
+  Eigen::Matrix3cd X, Y;
+  int stable = 0;
+  for (int k = 0; k < 6 && stable < 3; ++k) {
+    if (eigen.eigenvalues()[k].real() >= 0.0) continue;
+    const Eigen::Matrix<std::complex<double>, 6, 1> v = eigen.eigenvectors().col(k);
+    X.col(stable) = v.head<3>();
+    Y.col(stable++) = v.tail<3>();
+  }
+  const Eigen::Matrix3d P = (Y * X.inverse()).real();
+  const Eigen::RowVector3d K = P.row(2) / (M * weights.torque_weight);
+  return {K[0], K[1], K[2]};
+}
+
+/// The inertia that the linear design sees: the mean of both branches.
+inline double mean_inertia(const NominalModel& nominal) {
+  return 0.5 * (nominal.inertia(nominal.C1) + nominal.inertia(nominal.C2));
+}
+
+/// PID as linear-quadratic regulator with integral action on the nominal model, with the sliding controller's load
+/// and break-in compensation.
+class PidController {
+ public:
+  PidController(const PidParameters& parameters, const NominalModel& nominal)
+      : p_(parameters), nominal_(nominal), gains_(lqr_gains(parameters, mean_inertia(nominal))) {}
+
+  const PidGains& gains() const { return gains_; }
+
+  ControlSignals operator()(const Measurement& m) {
+    const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
+    integral_ += e * m.period;
+    const double feedback = -(gains_.Ki * integral_ + gains_.Kp * e + gains_.Kd * e_rate);
+    const double feedforward = p_.feedforward * mean_inertia(nominal_) * m.desired.acceleration;
+    const double load = nominal_.load(m.angle);
+    const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
+    return {feedback + feedforward + compensation, 0.0, 0.0, compensation};
+  }
+
+ private:
+  PidParameters p_;
+  NominalModel nominal_;
+  PidGains gains_;
+  double integral_ = 0.0;
+};
+
+}  // namespace wormdrive

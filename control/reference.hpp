@@ -1,0 +1,30 @@
+#pragma once
+#include <variant>
+#include <vector>
+
+#include "control/references/chirp.hpp"
+#include "control/references/multisine.hpp"
+#include "control/references/random_steps.hpp"
+#include "control/references/sinusoid.hpp"
+#include "control/references/step.hpp"
+#include "control/references/table.hpp"
+#include "control/references/trapezoid.hpp"
+
+namespace wormdrive {
+
+/// Every kind of reference trajectory; a new one is a new file and one entry here.
+using ReferenceTerm = std::variant<SinusoidReference, StepReference, TrapezoidReference, ChirpReference,
+                                   MultisineReference, RandomStepsReference, TableReference>;
+
+/// The motion that is asked for: the sum of its terms.
+struct Reference {
+  std::vector<ReferenceTerm> terms;
+
+  ReferencePoint at(double t) const {
+    ReferencePoint sum;
+    for (const ReferenceTerm& term : terms) sum += std::visit([&](const auto& r) { return r.at(t); }, term);
+    return sum;
+  }
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,69 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <tuple>
+
+#include "control/random.hpp"
+#include "core/field.hpp"
+
+namespace wormdrive {
+
+/// How the gear angle reaches the controller, and how the speed is made from it.
+struct SensorSettings {
+  double counts{0.0};         ///< of the encoder per turn of the gear; 0: exact
+  double noise{0.0};          ///< standard deviation [rad]
+  double seed{1};
+  double filter_cutoff{0.0};  ///< of the one-pole low-pass behind the difference [Hz]; 0: none
+  bool exact_speed = false;   ///< the true speed instead of the filtered difference
+
+  static constexpr auto fields() {
+    using P = SensorSettings;
+    constexpr Presence o = Presence::optional;
+    return std::tuple{
+        Field{&P::counts, "counts", unit::none, bounds::not_negative, "encoder counts per turn of the gear; 0 is exact", o},
+        Field{&P::noise, "noise", unit::radian, bounds::not_negative, "standard deviation of the measured angle", o},
+        Field{&P::seed, "seed", unit::none, bounds::not_negative, "seed of the noise", o},
+        Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
+              "cut-off of the speed's low-pass; 0 is none", o}};
+  }
+};
+
+/// The encoder: noise, then rounding to counts.
+class Encoder {
+ public:
+  explicit Encoder(const SensorSettings& settings) : settings_(settings) {}
+
+  /// The measured angle [rad] at the k-th sample.
+  double operator()(double theta_g, std::uint64_t k) const {
+    if (settings_.noise > 0.0)
+      theta_g += settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
+    if (settings_.counts <= 0.0) return theta_g;
+    const double step = 2.0 * std::numbers::pi / settings_.counts;
+    return step * std::floor(theta_g / step + 0.5);
+  }
+
+ private:
+  SensorSettings settings_;
+};
+
+/// Backward difference of the measured angle behind a one-pole low-pass.
+class SpeedEstimator {
+ public:
+  SpeedEstimator(double cutoff, double period)
+      : gain_(cutoff > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0), period_(period) {}
+
+  /// Starts from an angle [rad] at which nothing has moved yet.
+  void start(double angle) { previous_ = angle; }
+  /// The speed [rad/s] after one more sample.
+  double operator()(double angle) {
+    speed_ += gain_ * ((angle - previous_) / period_ - speed_);
+    previous_ = angle;
+    return speed_;
+  }
+
+ private:
+  double gain_, period_, previous_ = 0.0, speed_ = 0.0;
+};
+
+}  // namespace wormdrive

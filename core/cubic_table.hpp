@@ -1,0 +1,46 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// clang-format off: pchip of boost 1.74 uses isnan and forgets to include it
+#include <boost/math/special_functions/fpclassify.hpp>
+#include <boost/math/interpolators/pchip.hpp>
+// clang-format on
+
+namespace wormdrive {
+
+/// A table made smooth: monotone cubic between its points (at least four), the end values beyond them.
+class CubicTable {
+ public:
+  CubicTable() = default;
+  CubicTable(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {
+    const boost::math::interpolators::pchip<std::vector<double>> spline(std::vector<double>(x_),
+                                                                        std::vector<double>(y_), 0.0, 0.0);
+    for (double point : x_) slopes_.push_back(spline.prime(point));
+  }
+
+  /// The value at x, which may carry derivatives.
+  template <class S>
+  S operator()(const S& x) const {
+    if (x <= S(x_.front())) return S(y_.front());
+    if (x >= S(x_.back())) return S(y_.back());
+    const auto after = std::upper_bound(x_.begin(), x_.end(), x, [](const S& a, double b) { return a < S(b); });
+    const auto k = static_cast<std::size_t>(after - x_.begin()) - 1;
+    const double h = x_[k + 1] - x_[k], rise = (y_[k + 1] - y_[k]) / h;
+    const double second = (3.0 * rise - 2.0 * slopes_[k] - slopes_[k + 1]) / h;
+    const double third = (slopes_[k] + slopes_[k + 1] - 2.0 * rise) / (h * h);
+    const S s = x - x_[k];
+    return y_[k] + s * (slopes_[k] + s * (second + s * third));
+  }
+
+  /// Where one cubic ends and the next begins.
+  const std::vector<double>& points() const { return x_; }
+  const std::vector<double>& values() const { return y_; }
+
+ private:
+  std::vector<double> x_, y_, slopes_;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,70 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <span>
+
+namespace wormdrive {
+
+/// Coefficients c[0], c[1], ... of the polynomial c[0] + c[1] s + ... in the time s since a step began.
+using Polynomial = std::span<const double>;
+
+/// The value at s, by Horner's rule on the even and the odd powers.
+inline double value(Polynomial c, double s) {
+  const double square = s * s;
+  double even = 0.0, odd = 0.0;
+  auto k = c.size();
+  if (k % 2 == 1) even = c[--k];
+  while (k > 0) {
+    odd = odd * square + c[--k];
+    even = even * square + c[--k];
+  }
+  return even + s * odd;
+}
+
+/// Proof that a polynomial has no root in [0, h]: nothing it can lose outweighs what it has at 0. It may fail where
+/// there is no root either.
+inline bool stays_positive(Polynomial c, double h) {
+  double low = c[0], power = h;
+  for (std::size_t k = 1; k < c.size(); ++k, power *= h) low += std::min(c[k], 0.0) * power;
+  return low > 1e-12 * c[0];  // far above rounding, so that the next step begins positive as well
+}
+
+/// Number of leading coefficients that vanish next to their successor within the resolution of an event, as
+/// sign_just_after judges them: the polynomial has that many roots at s = 0. All of them where nothing remains.
+std::size_t start_roots(Polynomial c);
+
+/// Finds where guards fall through zero within a step, and counts how often a guard had to be evaluated for it.
+class RootSearch {
+ public:
+  /// A guard over one step.
+  struct Fall {
+    std::optional<double> at{};  ///< when it falls through zero, in [0, h]; a time s since the step began
+    bool armed = false;          ///< it is positive somewhere before that, or by the end of the step
+  };
+
+  /// The first fall of a guard through zero within h. A guard that is not armed yet counts once it has been positive;
+  /// what it is at the very start, to rounding, does not count.
+  Fall first_fall(Polynomial guard, double h, bool armed) {
+    if (!armed) return start_of_segment(guard, h);
+    // An armed guard that starts below zero got there by the rounding between two steps.
+    return {guard[0] <= 0.0 ? std::optional(0.0) : first_root(guard, h), true};
+  }
+
+  /// The first root in (0, h] of a polynomial that is positive at 0.
+  std::optional<double> first_root(Polynomial c, double h) {
+    if (stays_positive(c, h)) return std::nullopt;
+    return root_within(c, h, 0);
+  }
+
+  long evaluations() const { return evaluations_; }
+
+ private:
+  std::optional<double> root_within(Polynomial c, double h, int depth);
+  std::optional<double> lowest_within(Polynomial c, double h);
+  std::optional<double> fall_within(Polynomial c, double h);
+  Fall start_of_segment(Polynomial guard, double h);
+
+  long evaluations_ = 0;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,28 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "events/polynomial_root.hpp"
+
+namespace wormdrive {
+
+inline constexpr int highest_order = 24;  ///< of a power series of the speed
+inline constexpr std::size_t most_coefficients = highest_order + 2;
+
+/// One power series in the time since a step began.
+using Coefficients = std::array<double, most_coefficients>;
+
+/// The motion over one step: gear angle [rad], gear speed [rad/s] and guards as polynomials.
+template <int guard_count>
+struct Expansion {
+  int order = 0;      ///< of speed and guards; the angle has one more
+  double step = 0.0;  ///< over which they are accurate [s]
+  Coefficients theta{}, omega{};
+  std::array<Coefficients, guard_count> guards{};
+
+  Polynomial angle() const { return {theta.data(), static_cast<std::size_t>(order) + 2}; }
+  Polynomial speed() const { return {omega.data(), static_cast<std::size_t>(order) + 1}; }
+  Polynomial guard(int g) const { return {guards[g].data(), static_cast<std::size_t>(order) + 1}; }
+};
+
+}  // namespace wormdrive

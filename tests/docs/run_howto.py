@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+"""Checks that the documentation is true: run_howto.py PROGRAM
+
+  commands  code blocks marked `sh test` or `python test` run, page by page, in a folder with a copy of scenarios/
+  code      what stands between // [howto] and // [/howto] in tests/docs/NAME.cpp stands in docs/howto/NAME.md
+  links     every link between pages leads to a file, and to a heading in it
+
+One line per fault, exit status 1 if there is any.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "output/schema.md", *sorted(ROOT.glob("docs/**/*.md"))]
+BLOCK = re.compile(r"^```(?P<language>\w*)(?P<test> test)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
+MARKED = re.compile(r"^// \[howto\]\n(.*?)^// \[/howto\]$", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)")
+PRELUDE = "set -euo pipefail\ntrap 'status=$?; ((status == 0)) || echo \"$block: exit status $status\" >&2' EXIT\n"
+
+
+def name(page):
+    return os.path.relpath(page, ROOT)
+
+
+def command_faults(page, text, program):
+    """Runs the marked blocks of a page in one bash and returns what went wrong."""
+    script = PRELUDE
+    for block in filter(lambda found: found["test"], BLOCK.finditer(text)):
+        code, line = block["code"], text.count("\n", 0, block.start()) + 1
+        if block["language"] == "python":
+            code = f"/usr/bin/python3 - <<'END_OF_BLOCK'\n{code}END_OF_BLOCK\n"
+        script += f"block={name(page)}:{line}\n{code}"
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "scenarios", Path(folder, "scenarios"))
+        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
+        run = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, text=True)
+    return [run.stderr.rstrip()] if run.returncode else []
+
+
+def anchors(text):
+    """The anchors that GitHub gives to the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def link_faults(page, text):
+    """Yields the links that lead nowhere."""
+    for target, anchor in LINK.findall(BLOCK.sub("", text)):
+        file = (page.parent / target).resolve() if target else page
+        if not file.exists():
+            yield f"{name(page)}: there is no {target}"
+        elif anchor and anchor not in anchors(BLOCK.sub("", file.read_text(encoding="utf-8"))):
+            yield f"{name(page)}: {name(file)} has no heading #{anchor}"
+
+
+def code_faults():
+    """Yields the marked code that its page does not show."""
+    for source in sorted((ROOT / "tests/docs").glob("*.cpp")):
+        page = (ROOT / "docs/howto" / source.stem).with_suffix(".md")
+        for code in MARKED.findall(source.read_text(encoding="utf-8")):
+            if code not in page.read_text(encoding="utf-8"):
+                yield f"{name(page)}: differs from {name(source)}, from '{code.splitlines()[0]}' on"
+
+
+if __name__ == "__main__":
+    faults = list(code_faults()) if len(sys.argv) == 2 else sys.exit(__doc__)
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        faults += [*link_faults(page, text), *command_faults(page, text, Path(sys.argv[1]).resolve())]
+    print(*faults, f"docs: {len(PAGES)} pages, {len(faults)} faults", sep="\n")
+    sys.exit(1 if faults else 0)
