@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 tools/install_packages.sh
 cmake --preset release
-cmake --build --preset release
+cmake --build --preset release --target wormdrive
 
 wormdrive=build/release/wormdrive
 mkdir -p out

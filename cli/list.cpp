@@ -26,7 +26,7 @@ void print_fields() {
   });
 }
 
-void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<14} {}\n", kind, meaning); }
+void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<18} {}\n", kind, meaning); }
 
 template <class Term>
 void print_torque() {
@@ -74,7 +74,7 @@ void list_scenarios() {
   std::sort(files.begin(), files.end());
   fmt::print("scenarios in {}\n", folder.string());
   for (const auto& file : files)
-    fmt::print("  {:<32} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
+    fmt::print("  {:<36} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
 }
 
 }  // namespace

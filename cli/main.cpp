@@ -3,11 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "events/halt.hpp"
@@ -53,10 +57,20 @@ int guarded(const std::function<int()>& command) {
   } catch (const OutputFault& fault) {
     std::cerr << "wormdrive: " << fault.what() << '\n';
     return cannot_write;
+  } catch (const std::system_error& fault) {  // from printing
+    std::cerr << "wormdrive: " << fault.what() << '\n';
+    return cannot_write;
   } catch (const std::exception& other) {  // out of memory, or something that nobody foresaw
     std::cerr << "wormdrive: cannot go on: " << other.what() << '\n';
     return cannot_go_on;
   }
+}
+
+/// The exit code, unless what was printed could not be written.
+int if_printed(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::cerr << "wormdrive: cannot write to standard output: " << std::strerror(errno) << '\n';
+  return cannot_write;
 }
 
 /// CLI11 takes a misspelled command for a superfluous argument and asks for one.
@@ -136,12 +150,12 @@ int main(int argc, char** argv) {
   }
   for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario})
     options->command_line = typed;
-  return guarded([&] {
+  return if_printed(guarded([&] {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);
     if (statics_app->parsed()) return statics_command(statics);
     if (steady_app->parsed()) return steady_command(steady);
     if (plot_app->parsed()) return plot_command(plot);
     return list_command(what);
-  });
+  }));
 }

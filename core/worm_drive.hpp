@@ -237,8 +237,12 @@ class WormDrive {
   }
 
  private:
-  /// Events closer than this are one event [s]: far above rounding, far below anything mechanical.
-  static constexpr double instant = 1e-11;
+  /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
+  /// better than the square root of epsilon in its period; still far below anything mechanical.
+  double instant() const {
+    const double omega = fastest_input();
+    return omega > 0.0 ? std::max(1e-11, 1e-7 / omega) : 1e-11;
+  }
   static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
   /// The acceleration that motion from rest would have, on the flank that this motion would load.
@@ -256,7 +260,7 @@ class WormDrive {
   /// where it is zero, just after now.
   bool starts(const Instant& now, Motion motion) const {
     const auto a = release_acceleration(ahead<order>({now.t, {now.x[0], T(0)}, {}}), motion);
-    return a[0] != T(0) && sign_just_after(a, instant) == sign(motion);
+    return a[0] != T(0) && sign_just_after(a, instant()) == sign(motion);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
@@ -264,14 +268,14 @@ class WormDrive {
     if (!mesh_.has_teeth) return {motion, Flank::none};
     const Flank now_on = flank_at(beyond_surface(moment(now), motion));
     const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}}), motion);
-    return {motion, sign_just_after(beyond, instant) > 0 ? Flank::right : Flank::left};
+    return {motion, sign_just_after(beyond, instant()) > 0 ? Flank::right : Flank::left};
   }
 
   /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
   Flank flank_after_crossing(const Instant& now) const {
     auto beyond = beyond_surface(ahead<order>(now), now.mode.motion);
     beyond[0] = T(0);
-    const int side = sign_just_after(beyond, instant);
+    const int side = sign_just_after(beyond, instant());
     if (side == 0) return now.mode.flank == Flank::left ? Flank::right : Flank::left;
     return side > 0 ? Flank::right : Flank::left;
   }

@@ -39,7 +39,7 @@ class TaylorSolver {
   /// Integrates to next, past which nothing is evaluated; returns the guard that stopped it earlier.
   std::optional<int> advance(Instant& now, double next, double /*limit*/) {
     while (!already_there(now.t, next)) {
-      if constexpr (has_closed_form<System>) {
+      if constexpr (ClosedForm<System>::known) {
         if (nominal_.covers() && next - now.t <= max_step_ && nominal_.leap(now, next, accuracy_)) {
           ++count_.steps;
           ++count_.evaluations;
@@ -61,22 +61,6 @@ class TaylorSolver {
   }
 
  private:
-  /// Stands in for a closed form that a system has not got.
-  struct NoClosedForm {
-    explicit NoClosedForm(const System&) {}
-    static constexpr bool covers() { return false; }
-    void begin(const System&, const Instant&) {}
-    void expand(const System&, const Instant&, double, const TaylorAccuracy&, Expansion<System::guard_count>&) {}
-  };
-  template <class S, bool closed>
-  struct Nominal {
-    using type = NoClosedForm;
-  };
-  template <class S>
-  struct Nominal<S, true> {
-    using type = NominalFlow<std::remove_cvref_t<decltype(std::declval<const S&>().load())>>;
-  };
-
   std::optional<int> step(Instant& now, double next) {
     const double h = std::min(next - now.t, max_step_);
     if (nominal_.covers()) nominal_.expand(system_, now, h, accuracy_, series_);
@@ -128,7 +112,7 @@ class TaylorSolver {
   const System& system_;
   TaylorAccuracy accuracy_;
   double max_step_;
-  typename Nominal<System, has_closed_form<System>>::type nominal_;
+  typename ClosedForm<System>::Flow nominal_;
   TracedFlow<System> traced_;
   Expansion<System::guard_count> series_;
   RootSearch search_;

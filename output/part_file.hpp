@@ -42,7 +42,7 @@ struct Provenance {
 };
 void write_provenance(hid_t file, const Provenance& provenance);
 
-/// "wormdrive 0.1.0 (commit), SUNDIALS 6.4.1, HDF5 1.10.8, Eigen 3.4.0"
+/// "wormdrive 0.1.0 (commit)"
 std::string build_description();
 
 }  // namespace wormdrive

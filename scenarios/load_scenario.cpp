@@ -45,16 +45,22 @@ class ScenarioReader {
 
   std::string folder() const { return std::filesystem::path(name_).parent_path().string(); }
 
+  /// Which keys the mesh has, and how all quantities are spelled, hangs on two words: if one is wrong, the rest cannot
+  /// be judged.
   void read_mesh() {
     section("mesh", [&](TableReader& mesh) {
-      if (mesh.choice("kind", {"worm", "none"}, Presence::optional) != "none") {
+      const auto kind = mesh.choice("kind", {"worm", "none"}, Presence::optional);
+      if (!kind) faults_.raise();
+      if (kind == "worm") {
         MeshParameters<double> parameters;
         mesh.read_fields(parameters);
         scenario_.mesh = parameters;
         friction_at_ = mesh.where("friction");
         return;
       }
-      if (mesh.choice("axis", {"rotary", "linear"}, Presence::optional) == "linear") {
+      const auto axis = mesh.choice("axis", {"rotary", "linear"}, Presence::optional);
+      if (!axis) faults_.raise();
+      if (axis == "linear") {
         scenario_.axis = Axis::linear;
         mesh.set_axis(Axis::linear);
         root_.set_axis(Axis::linear);

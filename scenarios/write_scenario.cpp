@@ -13,18 +13,26 @@
 namespace wormdrive {
 namespace {
 
-/// Shortest text that reads back as the same double, and as a float to TOML.
-std::string number(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
+/// A double as TOML writes it: never as an integer.
+std::string as_float(std::string text) {
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-/// The unit in which a value is written: the preferred one if it gives the same bits when read, SI otherwise.
-Spelling exact_spelling(const std::vector<Spelling>& accepted, double si) {
+/// Shortest text that reads back as the same double.
+std::string number(double value) { return as_float(fmt::format("{}", value)); }
+
+/// A number with its key and unit.
+struct Statement {
+  std::string key, number;
+};
+
+/// How a value is stated: in the preferred unit if that gives the same bits when read, else in SI. 30 deg come back from
+/// radians as 29.999999999999996: where fifteen digits do, they are what was meant.
+Statement exactly(double si, const std::vector<Spelling>& accepted) {
   for (const Spelling& s : accepted)
-    if (std::strtod(number(si / s.unit.si).c_str(), nullptr) * s.unit.si == si) return s;
-  return accepted.back();
+    for (const std::string& text : {as_float(fmt::format("{:.15g}", si / s.unit.si)), number(si / s.unit.si)})
+      if (std::strtod(text.c_str(), nullptr) * s.unit.si == si) return {s.key, text};
+  return {accepted.back().key, number(si)};
 }
 
 class Writer {
@@ -45,8 +53,8 @@ class Writer {
   }
   void value(std::string_view name, const Unit& unit, const std::optional<double>& si) {
     if (!si || !std::isfinite(*si)) return;  // an infinite default is stated by absence
-    const Spelling s = exact_spelling(spellings(name, unit, axis_), *si);
-    text_ += fmt::format("{} = {}\n", s.key, number(*si / s.unit.si));
+    const Statement s = exactly(*si, spellings(name, unit, axis_));
+    text_ += fmt::format("{} = {}\n", s.key, s.number);
   }
   void values(std::string_view name, const Unit& unit, const std::vector<double>& si) {
     const Spelling s = spellings(name, unit, axis_).front();

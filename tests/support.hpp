@@ -35,8 +35,14 @@ struct Deviation {
 
 /// The worm gear of the paper's Table 1 with its identified friction.
 inline MeshParameters<double> table1(double mu = 0.25) {
-  return {.i = 60, .lambda = 4 * unit::degree, .phi_n = 20 * unit::degree, .lw = 0.011, .lg = 0.045, .mu = mu,
-          .Jw = 2.53e-5, .Jg = 7.39e-4};
+  return {.i = 60,
+          .lambda = 4 * unit::degree,
+          .phi_n = 20 * unit::degree,
+          .lw = 0.011,
+          .lg = 0.045,
+          .mu = mu,
+          .Jw = 2.53e-5,
+          .Jg = 7.39e-4};
 }
 
 /// The same gear with the lead angle that its ratio needs: only then is the mesh free of energy errors.

@@ -14,6 +14,7 @@ packages=(
   libhdf5-dev          # result files
   libceres-dev         # fits, and the Jet type that differentiates the equations
   libboost-dev         # interpolation, statistics, quasi-random numbers: headers only
+  librandom123-dev     # random numbers without memory: headers only
   libcli11-dev         # command line
   libtomlplusplus-dev  # scenario files
   nlohmann-json3-dev   # reports for machines

@@ -78,7 +78,7 @@ TEST_CASE("a value of the wrong type is told with the type that it needs") {
       {"number for a torque", good_but("[motor.torque]\n" + motor, "[motor]\ntorque = 3"),
        "s.toml:12:10: error: motor.torque must be a table or an array of tables, not a number"},
       {"number among torques", good_but("[motor.torque]\n" + motor, "[motor]\ntorque = [{kind = \"constant\", torque_Nm = 1}, 3]"),
-       "s.toml:12:48: error: motor.torque[1] must be a table, not a number"},
+       "s.toml:12:47: error: motor.torque[1] must be a table, not a number"},
       {"no torques", good_but("[motor.torque]\n" + motor, "[motor]\ntorque = []"),
        "s.toml:12:10: error: motor.torque must be a table or an array of tables, not an empty array"},
       {"effect without a table", good_scenario + "[effect]\nworm_coulomb = 3\n",

@@ -57,13 +57,15 @@ TEST_CASE("effects add up on each shaft") {
   REQUIRE(all.gear_torque(backwards, Motion::backward) == 0.3 + 0.01 * 2.0);
 }
 
-TEST_CASE("an absent effect leaves every acceleration bit-identical to the bare equation, and so does one of size zero") {
+TEST_CASE(
+    "an absent effect leaves every acceleration bit-identical to the bare equation, and so does one of size zero") {
   const MeshParameters<double> p = table1();
   const auto bare = entered(p, fig9_load(), fig9_motor());
   const auto idle = entered(p, fig9_load(), fig9_motor(), bearings(0.0, 0.0));
   for (const Mode& mode : moving_modes)
-    for (double t : {0.01, 0.4, 1.7})
-      for (double theta : {-3.0, 0.1, 2.0}) {
+    for (const volatile double any_t : {0.01, 0.4, 1.7})
+      for (const volatile double any_theta : {-3.0, 0.1, 2.0}) {
+        const double t = any_t, theta = any_theta;  // unknown to the compiler, whose own cosines are rounded otherwise
         const auto at = bare.moment(t, theta, sign(mode.motion) * 0.7);
         const double tau_m = 0.05 * std::cos(2.0 * std::numbers::pi * 1.5 * t + 90 * unit::degree);
         const double tau_l = 0.0196 * std::cos(theta);

@@ -1,11 +1,10 @@
-#include "core/load.hpp"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "catch.hpp"
+#include "core/load.hpp"
 #include "core/series.hpp"
 #include "core/unit.hpp"
 

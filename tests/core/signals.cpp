@@ -1,11 +1,10 @@
-#include "core/signal.hpp"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "catch.hpp"
+#include "core/signal.hpp"
 
 using namespace wormdrive;
 
@@ -121,8 +120,8 @@ TEST_CASE("held samples jump at their times and both ends are held") {
 }
 
 TEST_CASE("interpolated samples pass through every sample from both sides") {
-  const Signal signal{{Samples{.times = {0.0, 0.1, 0.4}, .values = {1.0, -2.0, 5.0},
-                               .interpolation = Interpolation::linear}}};
+  const Signal signal{
+      {Samples{.times = {0.0, 0.1, 0.4}, .values = {1.0, -2.0, 5.0}, .interpolation = Interpolation::linear}}};
   REQUIRE(value(signal, 0.0) == 1.0);
   REQUIRE(std::abs(value(signal, 0.05) - -0.5) <= 1e-15);
   REQUIRE(std::abs(left_limit(signal, 0.1) - -2.0) <= 1e-15);

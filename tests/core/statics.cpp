@@ -1,8 +1,9 @@
 #include "core/statics.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/LU>
 
 #include "catch.hpp"
 #include "support.hpp"

@@ -1,10 +1,11 @@
 #include "core/worm_drive.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include <Eigen/LU>
 
 #include "catch.hpp"
 #include "support.hpp"

@@ -34,8 +34,8 @@ TEST_CASE("a load that brakes the motion stops a self-locking drive for good, at
   const double alpha = Branch(p, forward_right).acceleration(0.0, tau_l);
   const double stop = -omega / alpha, angle = 0.2 - omega * omega / (2 * alpha);
   for (Method method : methods) {
-    const auto r = run(drive(p, constant(tau_l), constant(0.0)), Timetable(0, 5, 0.05), {0.0, {0.2, omega}, {}},
-                       tight(method));
+    const auto r =
+        run(drive(p, constant(tau_l), constant(0.0)), Timetable(0, 5, 0.05), {0.0, {0.2, omega}, {}}, tight(method));
     REQUIRE(r.modes() == std::vector{forward_right, stuck});
     REQUIRE(std::abs(relative(r.events[0].after.t, stop)) <= 1e-12);
     REQUIRE(std::abs(relative(r.end.x[0], angle)) <= 1e-12);
@@ -60,8 +60,8 @@ TEST_CASE("a motor torque against the motion decelerates, reverses and accelerat
   const double turn = -omega / braking;
   const ConstantJerk back{-omega * omega / (2 * braking), 0.0, speeding};
   for (Method method : methods) {
-    const auto r = run(drive(p, constant(0.0), constant(tau_m)), Timetable(0, end, 0.05), {0.0, {0.0, omega}, {}},
-                       tight(method));
+    const auto r =
+        run(drive(p, constant(0.0), constant(tau_m)), Timetable(0, end, 0.05), {0.0, {0.0, omega}, {}}, tight(method));
     REQUIRE(r.modes() == std::vector{forward_left, backward_left});
     REQUIRE(std::abs(relative(r.events[0].after.t, turn)) <= 1e-12);
     REQUIRE(r.events[0].after.x[1] == 0.0);
@@ -82,7 +82,7 @@ TEST_CASE("steps of the torque break away, change the flank in motion, reverse a
   const double turn = 0.3 - third.omega / third.alpha;
   const ConstantJerk fourth{third.angle(turn - 0.3), 0, Branch(p, backward_left).acceleration(tau[2], load)};
   const ConstantJerk fifth{fourth.angle(0.7 - turn), fourth.speed(0.7 - turn),
-                    Branch(p, backward_left).acceleration(tau[3], load)};
+                           Branch(p, backward_left).acceleration(tau[3], load)};
   const double stop = 0.7 - fifth.omega / fifth.alpha;
   REQUIRE((turn > 0.3 && turn < 0.7 && stop > 0.7));
   for (Method method : methods) {
@@ -130,7 +130,8 @@ TEST_CASE("viscous friction alone lets the speed decay exponentially, on either 
     decays(drive(p, constant(0.0), constant(0.0), effects(WormViscous<double>{c})), c * p.i / left.M, method);
     decays(drive(p, constant(0.0), constant(0.0), effects(GearViscous<double>{cg})), right.C * cg / right.M, method);
     decays(WormDrive(GearMesh<double>::without_teeth(0.02), make_load(constant(0.0)), effects(GearViscous<double>{0.1}),
-                     constant(0.0)), 0.1 / 0.02, method);
+                     constant(0.0)),
+           0.1 / 0.02, method);
   }
 }
 

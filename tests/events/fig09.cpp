@@ -18,9 +18,9 @@ constexpr double end_angle = -5.4068889175374455, end_speed = 1.0836146975023262
 constexpr Mode stuck{}, forward_left{Motion::forward, Flank::left}, forward_right{Motion::forward, Flank::right},
     backward_left{Motion::backward, Flank::left}, backward_right{Motion::backward, Flank::right};
 
-const std::vector<Mode> sequence{stuck,          backward_left, backward_right, forward_right, forward_left,
-                                 backward_left,  backward_right, forward_right, forward_left,  backward_left,
-                                 backward_right, forward_right, forward_left};
+const std::vector<Mode> sequence{stuck,          backward_left,  backward_right, forward_right, forward_left,
+                                 backward_left,  backward_right, forward_right,  forward_left,  backward_left,
+                                 backward_right, forward_right,  forward_left};
 
 auto fig9(const SolverSettings& settings) {
   return run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, 0.001), {}, settings);
@@ -44,9 +44,12 @@ TEST_CASE("fig. 9 is one break-away backward, six flank changes and five reversa
   const auto r = fig9(tight(Method::adams, 1e-10));
   int break_aways = 0, flank_changes = 0, reversals = 0;
   for (const auto& event : r.events) {
-    if (event.before.mode.motion == Motion::stuck) ++break_aways;
-    else if (event.before.mode.motion == event.after.mode.motion) ++flank_changes;
-    else ++reversals;
+    if (event.before.mode.motion == Motion::stuck)
+      ++break_aways;
+    else if (event.before.mode.motion == event.after.mode.motion)
+      ++flank_changes;
+    else
+      ++reversals;
   }
   REQUIRE((break_aways == 1 && flank_changes == 6 && reversals == 5));
 }
@@ -67,7 +70,9 @@ TEST_CASE("fig. 9 jumps in acceleration at its reversals, not at the break-away 
   for (const auto& event : r.events) {
     const double jump = d.observe(event.after).alpha_g - d.observe(event.before).alpha_g;
     const bool from_rest = event.before.mode.motion == Motion::stuck;
-    if (from_rest || event.before.mode.motion == event.after.mode.motion) REQUIRE(std::abs(jump) <= 1e-8);
-    else REQUIRE(std::abs(jump) >= 0.01);
+    if (from_rest || event.before.mode.motion == event.after.mode.motion)
+      REQUIRE(std::abs(jump) <= 1e-8);
+    else
+      REQUIRE(std::abs(jump) >= 0.01);
   }
 }

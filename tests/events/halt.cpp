@@ -1,11 +1,11 @@
-#include <fmt/format.h>
-
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
 
 #include "catch.hpp"
 #include "support.hpp"
@@ -156,9 +156,10 @@ TEST_CASE("as many events as the limit allows in a window pass, one more does no
   } catch (const Halt& halt) {
     text = halt.what();
   }
-  REQUIRE(text == "chatter: 3 events between 0.5 and 0.5000005 s, the last at guard 'gear speed' from forward, right "
-                  "flank to stuck; guards take turns without motion between them: the two modes each lead straight "
-                  "into the other");
+  REQUIRE(text ==
+          "chatter: 3 events between 0.5 and 0.5000005 s, the last at guard 'gear speed' from forward, right "
+          "flank to stuck; guards take turns without motion between them: the two modes each lead straight "
+          "into the other");
   EventLog slow(ChatterLimit{.events = 3, .window = 1e-6});
   for (int k = 0; k < 1000; ++k) REQUIRE_NOTHROW(slow.count(k * 0.6e-6, "gear speed", left, right));
 }
@@ -173,9 +174,10 @@ TEST_CASE("a load that becomes no number stops a moving drive with time, mode an
     REQUIRE(text.substr(0, lead.size()) == lead);
     const double t = std::stod(text.substr(lead.size(), rest - lead.size()));
     REQUIRE((t > 0.6 && t <= 0.65));  // as far as the solver came, not where it was last asked to report
-    REQUIRE(text.substr(rest) == " s, forward, right flank, after 3 events (the last: backward break-in at "
-                                 "0.00348121391 s, switching surface at 0.361272998 s, gear speed at 0.595195013 s): "
-                                 "the acceleration is not a finite number");
+    REQUIRE(text.substr(rest) ==
+            " s, forward, right flank, after 3 events (the last: backward break-in at "
+            "0.00348121391 s, switching surface at 0.361272998 s, gear speed at 0.595195013 s): "
+            "the acceleration is not a finite number");
   }
 }
 

@@ -57,6 +57,15 @@ TEST_CASE("of what is due at one time a knot comes first, then the report, and t
   REQUIRE((calls[3].t == 1.0 && calls[3].reason == Reason::end));
 }
 
+TEST_CASE("a sample comes after the knot it coincides with and before the report, and none is taken at the end") {
+  const auto calls = all_of(Timetable(0.0, 1.0, 0.5, {.period = 0.5, .offset = 0.0}), {0.5});
+  const std::vector<Reason> order{Reason::knot,   Reason::sample, Reason::knot,
+                                  Reason::sample, Reason::report, Reason::end};
+  REQUIRE(calls.size() == order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) REQUIRE(calls[k].reason == order[k]);
+  REQUIRE((calls[3].t == 0.5 && calls[4].t == 0.5));
+}
+
 TEST_CASE("no solver may look past the next knot or the end, but past reports it may") {
   Timetable timetable(0.0, 1.0, 0.1);
   timetable.pop();

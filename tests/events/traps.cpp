@@ -19,7 +19,9 @@ constexpr Mode forward_left{Motion::forward, Flank::left}, forward_right{Motion:
     backward_left{Motion::backward, Flank::left}, backward_right{Motion::backward, Flank::right}, stuck{};
 
 /// peak cos(2 pi t + pi): the highest torque comes at t = 0.5, 1.5, ...
-Signal peaks_at_half(double peak) { return {{Sinusoid{.amplitude = peak, .frequency = 1.0, .phase = std::numbers::pi}}}; }
+Signal peaks_at_half(double peak) {
+  return {{Sinusoid{.amplitude = peak, .frequency = 1.0, .phase = std::numbers::pi}}};
+}
 
 }  // namespace
 
@@ -46,8 +48,8 @@ TEST_CASE("a ramp that releases a held load starts one motion, whatever the roun
   for (int k = 0; k < 200; ++k) {
     const double load = 0.01 + 0.0037 * k, rate = 0.03 + 0.0011 * k;
     for (int side : {1, -1}) {
-      const auto r = run(drive(table1(), constant(load * side), Signal{{Ramp{rate * side}}}), Timetable(0, 2, never), {},
-                         tight(Method::adams, 1e-10));
+      const auto r = run(drive(table1(), constant(load * side), Signal{{Ramp{rate * side}}}), Timetable(0, 2, never),
+                         {}, tight(Method::adams, 1e-10));
       REQUIRE(r.events.size() >= 1);
       REQUIRE(r.events.size() <= 2);  // released, and later over the switching surface
       REQUIRE(sign(r.events[0].after.mode.motion) == side);
@@ -98,10 +100,10 @@ TEST_CASE("a drive at rest finds every short window in which the torque lets go,
     for (const SolverSettings& settings : {SolverSettings{}, tight(Method::adams)}) {
       const double peak = break_in[boundary] * (1.0 + excess);
       // the other boundary is further away in one case, and held off by a constant in the other
-      const Signal motor = boundary == 0 ? peaks_at_half(peak)
-                                         : Signal{{Constant{peak / 2},
-                                                   Sinusoid{.amplitude = peak / 2, .frequency = 1.0,
-                                                            .phase = std::numbers::pi}}};
+      const Signal motor = boundary == 0
+                               ? peaks_at_half(peak)
+                               : Signal{{Constant{peak / 2},
+                                         Sinusoid{.amplitude = peak / 2, .frequency = 1.0, .phase = std::numbers::pi}}};
       const double open = boundary == 0 ? early : std::acos(2.0 / (1.0 + excess) - 1.0) / (2.0 * std::numbers::pi);
       const auto r = run(drive(p, constant(load), motor), Timetable(0, 6, never), {}, settings);
       REQUIRE(r.events.size() == 12);
@@ -115,12 +117,14 @@ TEST_CASE("a drive at rest finds every short window in which the torque lets go,
 }
 
 TEST_CASE("two boundaries crossed within one step of the search release the drive through the earlier one") {
-  // A stick region of 1.3e-6 N m: the torque leaves it on one side, turns and passes the other within 0.03 rad of phase.
+  // A stick region of 1.3e-6 N m: the torque leaves it on one side, turns and passes the other within 0.03 rad of
+  // phase.
   const double load = 1e-5, A = 0.05, omega = 2.0 * std::numbers::pi, begin = 1.0 - 0.0063 / omega;
   const double released = 1.0 - std::acos(1.0 - (1e-6 + GearMesh<double>(table1()).C1() * load) / A) / omega;
   for (int side : {1, -1}) {
     const Signal motor{{Constant{side * (1e-6 - A)}, Sinusoid{.amplitude = side * A, .frequency = 1.0}}};
-    const auto r = run(drive(table1(), constant(side * load), motor), Timetable(begin, 1.01, never), {begin, {0, 0}, {}});
+    const auto r =
+        run(drive(table1(), constant(side * load), motor), Timetable(begin, 1.01, never), {begin, {0, 0}, {}});
     REQUIRE(r.rows.front().now.mode == stuck);
     REQUIRE(sign(r.events[0].after.mode.motion) == side);
     REQUIRE(std::abs(r.events[0].after.t - released) <= 1e-12);
@@ -134,13 +138,15 @@ TEST_CASE("an event on a report, an ulp beside it or on a knot loses neither the
       const double due = k * 0.1;
       const double omega = nudge == 0.0 ? due : std::nextafter(due, nudge * never);
       const Signal motor{{Constant{-1.0}, Staircase{.rise = -1e-3, .interval = 0.1, .start = 5.0}}};
-      const auto r = run(WormDrive(GearMesh<double>::without_teeth(1.0), make_load(constant(0.0)), Effects<double>{},
-                                   motor), Timetable(0, 6, 0.1), {0, {0, omega}, {}});
+      const auto r =
+          run(WormDrive(GearMesh<double>::without_teeth(1.0), make_load(constant(0.0)), Effects<double>{}, motor),
+              Timetable(0, 6, 0.1), {0, {0, omega}, {}});
       REQUIRE(r.events.size() == 1);
       REQUIRE(std::abs(r.events[0].after.t - omega) <= 1e-12);
       int missing = 0;
       for (int report = 1; report < 60; ++report)
-        missing += std::none_of(r.rows.begin(), r.rows.end(), [&](const auto& row) { return row.now.t == report * 0.1; });
+        missing +=
+            std::none_of(r.rows.begin(), r.rows.end(), [&](const auto& row) { return row.now.t == report * 0.1; });
       REQUIRE(missing == 0);
     }
 }

@@ -23,8 +23,14 @@ struct LossyGear {
   /// Lead angle 45 degrees and no pressure angle: C = lw/lg (1 - m)/(1 + m).
   MeshParameters<double> mesh() const {
     const double C1 = eta_mf2 / ratio, C2 = 1.0 / (ratio * eta_mf1), root = std::sqrt(C1 / C2);
-    return {.i = ratio, .lambda = 45 * unit::degree, .phi_n = 0.0, .lw = std::sqrt(C1 * C2), .lg = 1.0,
-            .mu = (1.0 - root) / (1.0 + root), .Jw = J1, .Jg = J2};
+    return {.i = ratio,
+            .lambda = 45 * unit::degree,
+            .phi_n = 0.0,
+            .lw = std::sqrt(C1 * C2),
+            .lg = 1.0,
+            .mu = (1.0 - root) / (1.0 + root),
+            .Jw = J1,
+            .Jg = J2};
   }
   Effects<double> bearings() const {
     const double tau_a = (tau_bf1 - tau_bf2) / (eta_mf1 - 1.0 / eta_mf2);
@@ -76,10 +82,12 @@ void compare(const Drive& drive, const typename Drive::Instant& start, const Tab
     // between the reports the state is the end of a run to this very time
     const auto now = reported ? reports.at(k) : run(drive, Timetable(0, t, report_interval), start).end;
     speed.add(now.x[1] - dymola.number("Inertia2.w", row));
-    const bool at_event = std::any_of(theirs.begin(), theirs.end(),
-                                      [&](const DymolaEvent& e) { return std::abs(e.t - t) <= detection; });
-    if (at_event) ++exempt;
-    else if (sign(now.mode.motion) != std::stoi(dymola.text("gear.mode", row))) ++modes_differ;
+    const bool at_event =
+        std::any_of(theirs.begin(), theirs.end(), [&](const DymolaEvent& e) { return std::abs(e.t - t) <= detection; });
+    if (at_event)
+      ++exempt;
+    else if (sign(now.mode.motion) != std::stoi(dymola.text("gear.mode", row)))
+      ++modes_differ;
   }
   REQUIRE(speed <= speed_tolerance);
   REQUIRE(modes_differ == 0);

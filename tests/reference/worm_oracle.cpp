@@ -15,8 +15,14 @@ namespace {
 /// A row's drive. In all of them i = 1/(r tan lambda), which is a geometry that closes.
 MeshParameters<double> mesh_of(const Table& table, std::size_t row) {
   const double lambda = table.number("lam", row), r = table.number("r", row);
-  return {.i = 1.0 / (r * std::tan(lambda)), .lambda = lambda, .phi_n = table.number("phi", row), .lw = r, .lg = 1.0,
-          .mu = table.number("mu", row), .Jw = table.number("Jw", row), .Jg = table.number("Jg", row)};
+  return {.i = 1.0 / (r * std::tan(lambda)),
+          .lambda = lambda,
+          .phi_n = table.number("phi", row),
+          .lw = r,
+          .lg = 1.0,
+          .mu = table.number("mu", row),
+          .Jw = table.number("Jw", row),
+          .Jg = table.number("Jg", row)};
 }
 
 Effects<double> supports_of(const Table& table, std::size_t row) {
