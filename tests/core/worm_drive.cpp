@@ -119,7 +119,7 @@ TEST_CASE("on the switching surface both flanks give tau_l/Jg: the acceleration 
     for (const Mode& mode : moving_modes) {
       const auto at = d.moment(0.0, 0.0, sign(mode.motion) * 1.0);
       REQUIRE(std::abs(d.acceleration(at, mode) - tau_l / p.Jg) <= 1e-12 * std::abs(tau_l / p.Jg));
-      REQUIRE(d.normal_force({0.0, {0.0, double(sign(mode.motion))}, mode}) <= 1e-10);
+      REQUIRE(d.observe({0.0, {0.0, double(sign(mode.motion))}, mode}).normal_force <= 1e-10);
     }
   }
 }
