@@ -138,8 +138,10 @@ TEST_CASE("a drive mirrored in angle, speed and torques moves as its mirror imag
   Signal mirrored = fig9_motor();
   std::get<Sinusoid>(mirrored.terms[0]).amplitude *= -1.0;
   const Timetable reports(0, 2, 0.01);
-  const auto one = run(drive(table1(), odd, fig9_motor()), reports, {0.0, {0.2, 1.0}, {}});
-  const auto other = run(drive(table1(), odd, mirrored), reports, {0.0, {-0.2, -1.0}, {}});
+  const SolverSettings fine =
+      tight(Method::adams);  // rounding differs, so steps do: below the error of BDF nothing is equal
+  const auto one = run(drive(table1(), odd, fig9_motor()), reports, {0.0, {0.2, 1.0}, {}}, fine);
+  const auto other = run(drive(table1(), odd, mirrored), reports, {0.0, {-0.2, -1.0}, {}}, fine);
   REQUIRE(one.events.size() >= 8);
   REQUIRE(one.events.size() == other.events.size());
   for (std::size_t k = 0; k < one.events.size(); ++k) {
