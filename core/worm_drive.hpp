@@ -126,12 +126,10 @@ class WormDrive {
   Jacobian jacobian(double t, const State& x, Mode mode) const
     requires std::same_as<T, double>
   {
-    if (mode.motion == Motion::stuck) return Jacobian::Zero();
     using Jet = ceres::Jet<double, 2>;
     const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
-    Jacobian J;
-    J << 0.0, 1.0, a.v[0], a.v[1];
-    return J;
+    if (mode.motion == Motion::stuck) return Jacobian::Zero();
+    return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
   }
 
   /// Time, angle and speed along the motion in the present mode, as power series to order N.
