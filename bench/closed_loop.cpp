@@ -160,7 +160,6 @@ Outcome reference(double period, Torques& torques) {
 }
 
 void contest(double period, const Options& chosen) {
-  namespace odeint = boost::numeric::odeint;
   Torques torques;
   const Outcome end = reference(period, torques);
   const auto title = fmt::format("closed loop, {} s at {} kHz", duration, 1e-3 / period);
@@ -171,8 +170,10 @@ void contest(double period, const Options& chosen) {
         {by_hand<CvodeByHand<ByHand, false>>("CVODE Adams by hand", period, torques),
          by_hand<CvodeByHand<ByHand, true>>("CVODE BDF by hand", period, torques),
          by_hand<ErkstepByHand<ByHand, 5>>("ERKStep by hand", period, torques),
-         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_dopri5>>("odeint dopri5 by hand", period, torques),
-         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_cash_karp54>>("odeint cash-karp by hand", period, torques),
+         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_dopri5>>("odeint dopri5 by hand", period,
+                                                                                   torques),
+         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_cash_karp54>>("odeint cash-karp by hand",
+                                                                                        period, torques),
          by_wormdrive<CvodeSolver>("cvode Adams", Method::adams, period, torques),
          by_wormdrive<CvodeSolver>("cvode BDF", Method::bdf, period, torques),
          by_wormdrive<TaylorSolver>("taylor", Method::adams, period, torques),

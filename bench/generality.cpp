@@ -72,8 +72,8 @@ void general(Program& program, Method method, double tolerance) {
     rows.clear();
     const long before = solver.statistics().evaluations;
     simulate(drive, solver, Timetable(0.0, end_time, interval), Drive::Instant{},
-             [&](const Drive&, const Drive::Instant& now) {
-               const Observation seen = drive.observe(now);
+             [&](const Drive& driven, const Drive::Instant& now) {
+               const Observation seen = driven.observe(now);
                rows.push_back({now.t, seen.theta_g, seen.omega_g, seen.alpha_g, seen.tau_m, seen.tau_l,
                                seen.normal_force, sign(seen.mode.motion), sign(seen.mode.flank)});
              });

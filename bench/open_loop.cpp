@@ -72,7 +72,6 @@ Outcome reference() {
 
 int main(int argc, char** argv) {
   using namespace bench;
-  namespace odeint = boost::numeric::odeint;
   const Options chosen = options(argc, argv);
   hold({"fig. 9, open loop, 2 s",
         1e-6,
@@ -80,8 +79,8 @@ int main(int argc, char** argv) {
         reference(),
         {by_hand<CvodeByHand<ByHand, false>>("CVODE Adams by hand"),
          by_hand<CvodeByHand<ByHand, true>>("CVODE BDF by hand"), by_hand<ErkstepByHand<ByHand, 5>>("ERKStep by hand"),
-         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_dopri5>>("odeint dopri5 by hand"),
-         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_fehlberg78>>("odeint fehlberg78 by hand"),
+         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_dopri5>>("odeint dopri5 by hand"),
+         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_fehlberg78>>("odeint fehlberg78 by hand"),
          by_wormdrive<CvodeSolver>("cvode Adams", Method::adams), by_wormdrive<CvodeSolver>("cvode BDF", Method::bdf),
          by_wormdrive<TaylorSolver>("taylor", Method::adams)}},
        chosen);

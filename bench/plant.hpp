@@ -3,19 +3,20 @@
 #include <cmath>
 #include <numbers>
 
-#if __has_include(<quadmath.h>)
-#include <quadmath.h>
-#endif
+// of libquadmath; its header is GCC's alone, and other tools read this file too
+extern "C" {
+__float128 fabsq(__float128);
+__float128 cosq(__float128);
+__float128 sinq(__float128);
+}
 
 namespace bench {
 
 using std::abs, std::cos, std::sin;
-#if __has_include(<quadmath.h>)
 using Quad = __float128;
 inline Quad abs(Quad x) { return fabsq(x); }
 inline Quad cos(Quad x) { return cosq(x); }
 inline Quad sin(Quad x) { return sinq(x); }
-#endif
 
 /// Inputs of a drive [N m, rad/s, rad]: what a program written for one case has as constants.
 struct Case {

@@ -96,6 +96,15 @@ class GearMesh {
     return (cos_phi_sin_lambda_ - m * cos_lambda_) * lw;
   }
 
+  /// Wn [N] >= 0 between the torques of both sides [N m]: from the balance of the gear with its inertial torque Jg
+  /// theta_g'' while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
+  T normal_force(const T& tau_w, const T& tau_g, const T& inertial, Mode mode) const {
+    using std::abs, std::cos;
+    if (!has_teeth) return T(0);
+    if (mode.motion == Motion::stuck) return abs(tau_g / lg * cos_lambda_ - tau_w / lw * sin_lambda_) / cos(phi_n);
+    return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(T(mode.product()) * mu);
+  }
+
   /// Slope of the static surface tau_m = H tau_l, (lw/lg) cot lambda [YehWu2009, eq. 9].
   T H() const { return radius_ratio_ * cos_lambda_ / sin_lambda_; }
   /// Friction above which the gear cannot drive the worm, cos phi_n tan lambda.

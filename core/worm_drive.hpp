@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include <Eigen/Core>
 #include <ceres/jet.h>
 
 #include "core/effects.hpp"
@@ -32,7 +32,7 @@ class WormDrive {
   using Mode = wormdrive::Mode;
 
   static constexpr int guard_count = 2;
-  static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
+  static constexpr int speed_guard = 0, flank_guard = 1;      ///< while moving
   static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
 
   /// Time [s], state and mode: all that changes while a drive runs.
@@ -123,13 +123,13 @@ class WormDrive {
   }
 
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
-  Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
-    if (mode.motion == Motion::stuck) return Jacobian::Zero();
+  Jacobian jacobian(double t, const State& x, Mode mode) const
+    requires std::same_as<T, double>
+  {
     using Jet = ceres::Jet<double, 2>;
     const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
-    Jacobian J;
-    J << 0.0, 1.0, a.v[0], a.v[1];
-    return J;
+    if (mode.motion == Motion::stuck) return Jacobian::Zero();
+    return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
   }
 
   /// Time, angle and speed along the motion in the present mode, as power series to order N.
@@ -205,7 +205,9 @@ class WormDrive {
 
   // ---- what is reported ---------------------------------------------------------------------------------------
 
-  Observation observe(const Instant& now) const requires std::same_as<T, double> {
+  Observation observe(const Instant& now) const
+    requires std::same_as<T, double>
+  {
     const Moment<double> at = moment(now);
     const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
     const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, now.mode);
@@ -214,7 +216,7 @@ class WormDrive {
             .alpha_g = alpha,
             .tau_m = input.worm,
             .tau_l = input.gear,
-            .normal_force = normal_force(tau, alpha, now.mode),
+            .normal_force = mesh_.normal_force(tau.worm, tau.gear, Jg_ * alpha, now.mode),
             .mode = now.mode};
   }
 
@@ -228,21 +230,10 @@ class WormDrive {
     return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
   }
   template <class S>
-  S acceleration(const SideTorques<S>& tau, Mode moving) const {
-    const S C = mesh_.C(S(T(moving.product()) * mesh_.mu));
+  S acceleration(const SideTorques<S>& tau, Mode mode) const {
+    const S C = mesh_.C(S(T(mode.product()) * mesh_.mu));
     return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
   }
-  /// Wn [N] >= 0: from the gear's balance while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
-  T normal_force(const SideTorques<T>& tau, const T& alpha, Mode mode) const {
-    using std::abs, std::cos, std::sin;
-    if (!mesh_.has_teeth) return T(0);
-    if (mode.motion == Motion::stuck) {
-      const T N = tau.gear / mesh_.lg * cos(mesh_.lambda) - tau.worm / mesh_.lw * sin(mesh_.lambda);
-      return abs(N) / cos(mesh_.phi_n);
-    }
-    return T(sign(mode.flank)) * (tau.gear - Jg_ * alpha) / mesh_.gear_arm(T(mode.product()) * mesh_.mu);
-  }
-
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
   /// better than the square root of epsilon in its period; still far below anything mechanical.
   double instant() const {
