@@ -1,8 +1,7 @@
 #include "events/polynomial_root.hpp"
 
+#include <algorithm>
 #include <cmath>
-
-#include "events/taylor_expansion.hpp"
 
 namespace wormdrive {
 namespace {
