@@ -22,15 +22,16 @@ inline double rough_exp2(double y) {
 class TaylorAccuracy {
  public:
   explicit TaylorAccuracy(const SolverSettings& settings)
-      : absolute_(std::max(settings.absolute_tolerance, 1e-18)), relative_(std::max(settings.relative_tolerance, 1e-16)) {}
+      : absolute_(std::max(settings.absolute_tolerance, 1e-18)),
+        relative_(std::max(settings.relative_tolerance, 1e-16)),
+        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), window + 2, highest_order)) {}
 
   /// Error of the speed [rad/s] that a second may bring.
   double allowed(double speed) const { return absolute_ + relative_ * std::abs(speed); }
   /// The same for a quantity of which the terms of its series add up to this size.
   double relative() const { return relative_; }
-
   /// The order with the least work where the step is free: it grows with the digits that are asked for.
-  int order() const { return std::clamp(static_cast<int>(2.0 - 0.35 * std::ilogb(relative_)), window + 2, highest_order); }
+  int order() const { return order_; }
 
   /// Whether the last terms of speed and guards are negligible over a step of h.
   template <class Expansion>
@@ -41,7 +42,7 @@ class TaylorAccuracy {
     for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
       if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0]))) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      if (!guard_suffices(e.guard(static_cast<int>(g)), h)) return false;
+      if (guard_step(e.guard(static_cast<int>(g)), h) < h) return false;
     return true;
   }
 
@@ -56,28 +57,31 @@ class TaylorAccuracy {
       log2_step = std::min(log2_step, (allowed_log2 + 4.0 * (e.order - k) - size) / (k - 1));
     }
     h = std::min(h, rough_exp2(log2_step));
+    double shortest = h;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      for (int shorter = 0; shorter < 16 && !guard_suffices(e.guard(static_cast<int>(g)), h); ++shorter) h *= 0.8;
-    return h;
+      shortest = std::min(shortest, guard_step(e.guard(static_cast<int>(g)), h));
+    return shortest;
   }
 
  private:
   /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
   static constexpr int window = 6;
 
-  /// Whether the last two terms of a guard are negligible next to the others.
-  bool guard_suffices(Polynomial guard, double h) const {
-    double sum = 0.0, last = 0.0, before = 0.0, power = 1.0;
+  /// The step within h over which the last two terms of a guard are negligible next to all its terms.
+  double guard_step(Polynomial guard, double h) const {
+    double size = 0.0, last = 0.0, before = 0.0, power = 1.0;
     for (const double c : guard) {
       before = last;
-      sum += last = std::abs(c) * power;
+      size += last = std::abs(c) * power;
       power *= h;
     }
-    return std::max(before, last) <= relative_ * sum;
+    const double excess = std::max(before, last) / (relative_ * size);
+    return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / static_cast<double>(guard.size() - 2)) : h;
   }
 
   double absolute_;  ///< of the speed [rad/s]
   double relative_;
+  int order_;
 };
 
 }  // namespace wormdrive

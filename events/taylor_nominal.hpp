@@ -103,6 +103,8 @@ class NominalFlow<WormDrive<double, Load>> {
 
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
+    const double allowed = accuracy.allowed(e.omega[0]);
+    double power = 1.0 / h;  // h^(k-1)
     for (int k = 0;; ++k) {
       if constexpr (swings)
         if (k > 0) turn(e.omega, k);
@@ -112,10 +114,11 @@ class NominalFlow<WormDrive<double, Load>> {
       if (k == 0 && m.flank == 0.0) e.guards[System::flank_guard][0] = 1.0;
       e.order = k;
       if (k == accuracy.order()) break;
-      if (k % 3 == 2 && accuracy.suffices(e, h)) {
+      if (std::abs(e.omega[k]) * power <= allowed && accuracy.suffices(e, h)) {
         e.step = h;
         return;
       }
+      power *= h;
       const double alpha = worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.drag * e.omega[k];
       e.omega[k + 1] = alpha * reciprocal[k + 1];
     }

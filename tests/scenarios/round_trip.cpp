@@ -21,7 +21,7 @@ class Bits {
  public:
   explicit Bits(const Scenario& s) {
     text_ = s.title + "\n" + std::to_string(s.mesh.index()) + std::to_string(static_cast<int>(s.axis)) +
-            std::to_string(static_cast<int>(s.run.method)) + "\n";
+            std::to_string(static_cast<int>(s.run.solver)) + std::to_string(static_cast<int>(s.run.method)) + "\n";
     std::visit([&](const auto& mesh) { fields(mesh); }, s.mesh);
     signal(s.motor);
     std::visit([&](const auto& load) { this->load(load); }, s.load);
