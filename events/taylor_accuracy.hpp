@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "events/solver_settings.hpp"
 #include "events/taylor_expansion.hpp"
@@ -67,15 +68,17 @@ class TaylorAccuracy {
   /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
   static constexpr int window = 6;
 
-  /// The step within h over which the last two terms of a guard are negligible next to all its terms.
-  double guard_step(Polynomial guard, double h) const {
+  /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
+  /// the guard may only touch zero, would show as two events.
+  static double guard_step(Polynomial guard, double h) {
+    if (stays_positive(guard, h)) return h;
     double size = 0.0, last = 0.0, before = 0.0, power = 1.0;
     for (const double c : guard) {
       before = last;
       size += last = std::abs(c) * power;
       power *= h;
     }
-    const double excess = std::max(before, last) / (relative_ * size);
+    const double excess = std::max(before, last) / (4.0 * std::numeric_limits<double>::epsilon() * size);
     return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / static_cast<double>(guard.size() - 2)) : h;
   }
 
