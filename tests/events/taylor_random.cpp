@@ -107,6 +107,18 @@ Comparison compare_random(Dice& dice) {
 
 }  // namespace
 
+TEST_CASE("a run that grazes an event by less than 1e-7 is known as such") {
+  // a parabola of the speed with its lowest point at t = 0.5
+  const Branch in(table1(), {Motion::forward, Flank::left});
+  const double load = 0.03, rate = 0.004;
+  const Signal motor{{Constant{-in.C * load - 0.5 * rate}, Ramp{rate}}};
+  const auto grazes = [&](double distance) {
+    return compare(drive(table1(), constant(load), motor), {0, {0, rate / in.M / 8.0 + distance}, {}}).set_aside;
+  };
+  REQUIRE(grazes(0.5e-7));
+  REQUIRE(!grazes(2e-7));
+}
+
 TEST_CASE("in 200 random runs power series and CVODE find the same events and states within 1e-9") {
   constexpr int runs = 200;
   int set_aside = 0;
@@ -129,5 +141,5 @@ TEST_CASE("in 200 random runs power series and CVODE find the same events and st
   std::cout << runs << " random runs, " << set_aside << " set aside for grazing or crowded events; in the others "
             << events << " events, states within " << states << ", event times within " << times << " s\n";
   REQUIRE(set_aside <= runs / 5);
-  REQUIRE(events >= 1000);
+  REQUIRE(events >= 800);
 }
