@@ -1,8 +1,8 @@
 // Where the events of fig. 9 lie, to twenty digits: the paper's drive in 128-bit arithmetic. tests/events/taylor.cpp
 // compares with these numbers. Takes no arguments.
-#include <quadmath.h>
-
 #include <cstdio>
+
+#include <quadmath.h>
 
 namespace wormdrive::test {
 inline __float128 sine(__float128 x) { return sinq(x); }

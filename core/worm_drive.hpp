@@ -132,10 +132,8 @@ class WormDrive {
   {
     using Jet = ceres::Jet<double, 2>;
     const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
-    Jacobian J = Jacobian::Zero();
-    if (mode.motion == Motion::stuck) return J;
-    J << 0.0, 1.0, a.v[0], a.v[1];
-    return J;
+    if (mode.motion == Motion::stuck) return Jacobian::Zero();
+    return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
   }
 
   /// Time, angle and speed along the motion in the present mode, as power series to order N.
@@ -214,8 +212,7 @@ class WormDrive {
     const Moment<T> at = moment(now);
     const SideTorques<T> tau = side_torques(at, now.mode.motion);
     if (now.mode.motion == Motion::stuck) {
-      using std::cos;
-      using std::sin;
+      using std::cos, std::sin;
       const T N = tau.gear / mesh_.lg * cos(mesh_.lambda) - tau.worm / mesh_.lw * sin(mesh_.lambda);
       return abs(N) / cos(mesh_.phi_n);
     }
@@ -239,9 +236,12 @@ class WormDrive {
  private:
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
   /// better than the square root of epsilon in its period; still far below anything mechanical.
-  double instant() const {
-    const double omega = fastest_input();
-    return omega > 0.0 ? std::max(1e-11, 1e-7 / omega) : 1e-11;
+  double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
+  /// Whether a balance of the torques [N m] keeps its sign for an instant, whatever they do: that none changes by its
+  /// own size within 10 us is taken for granted.
+  bool lasts(const T& balance, const SideTorques<T>& tau) const {
+    using std::abs;
+    return abs(balance) > T(1e5 * instant()) * (abs(tau.worm) + abs(surface() * tau.gear));
   }
   static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
@@ -259,14 +259,20 @@ class WormDrive {
   /// Whether the gear starts from rest in this direction: the acceleration it would have points that way, now or,
   /// where it is zero, just after now.
   bool starts(const Instant& now, Motion motion) const {
-    const auto a = release_acceleration(ahead<order>({now.t, {now.x[0], T(0)}, {}}), motion);
+    const Instant rest{now.t, {now.x[0], T(0)}, {}};
+    const T a_now = release_acceleration(moment(rest), motion);
+    if (lasts(a_now * Jw_i_, side_torques(moment(rest), motion))) return (a_now > T(0)) == (motion == Motion::forward);
+    const auto a = release_acceleration(ahead<order>(rest), motion);
     return a[0] != T(0) && sign_just_after(a, instant()) == sign(motion);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
   Mode moving(const Instant& now, Motion motion) const {
     if (!mesh_.has_teeth) return {motion, Flank::none};
-    const Flank now_on = flank_at(beyond_surface(moment(now), motion));
+    const SideTorques<T> tau = side_torques(moment(now), motion);
+    const T distance = tau.worm - surface() * tau.gear;
+    const Flank now_on = flank_at(distance);
+    if (lasts(distance, tau)) return {motion, now_on};
     const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}}), motion);
     return {motion, sign_just_after(beyond, instant()) > 0 ? Flank::right : Flank::left};
   }

@@ -62,13 +62,13 @@ struct HeldMotion {
     for (int k = 1; k + 2 <= N; ++k) {
       x[k + 2] = -drag * x[k + 1];
       if constexpr (swings) {
-        // Leibniz's rule for cos' = -theta' sin and sin' = theta' cos.
+        // Leibniz's rule for cos' = -theta' sin and sin' = theta' cos; the factor that is known last comes last.
         double falls = 0.0, rises = 0.0, binomial = 1.0;  // k - 1 over j - 1
 #pragma GCC unroll 16
-        for (int j = 1; j <= k; ++j) {
+        for (int j = k; j >= 1; --j) {
           falls += binomial * x[j] * sine[k - j];
           rises += binomial * x[j] * cosine[k - j];
-          binomial = binomial * (k - j) / j;
+          binomial = binomial * (j - 1) / (k - j + 1);
         }
         cosine[k] = -falls;
         sine[k] = rises;

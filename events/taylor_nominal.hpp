@@ -15,15 +15,18 @@ namespace wormdrive {
 
 /// Drives whose motion has formulas of its own; here none.
 template <class System>
-struct NominalFlow {
+class NominalFlow {
+ public:
   static constexpr bool known = false;
   explicit NominalFlow(const System&) {}
 };
 
+template <class Load>
+concept NominalLoad = std::is_same_v<Load, GravityLoad> || std::is_same_v<Load, TimedLoad>;
+
 /// The motion of a drive with nothing but an arm under gravity, or a load over time, and dry and viscous bearings, by
 /// formulas of its own: what SeriesFlow finds for any drive, many times faster.
-template <class Load>
-  requires(std::is_same_v<Load, GravityLoad> || std::is_same_v<Load, TimedLoad>)
+template <NominalLoad Load>
 class NominalFlow<WormDrive<double, Load>> {
  public:
   static constexpr bool known = true;
@@ -37,25 +40,29 @@ class NominalFlow<WormDrive<double, Load>> {
     double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
       if (!effect) return;
-      if constexpr (std::is_same_v<E, WormCoulomb<double>>) worm_coulomb = effect->torque;
-      else if constexpr (std::is_same_v<E, GearCoulomb<double>>) gear_coulomb = effect->torque;
-      else if constexpr (std::is_same_v<E, WormViscous<double>>) worm_viscous = effect->coefficient * system.mesh().i;
-      else if constexpr (std::is_same_v<E, GearViscous<double>>) gear_viscous = effect->coefficient;
-      else if constexpr (E::place != Place::actuator && E::place != Place::sensor) covers_ = false;
+      if constexpr (std::is_same_v<E, WormCoulomb<double>>)
+        worm_coulomb = effect->torque;
+      else if constexpr (std::is_same_v<E, GearCoulomb<double>>)
+        gear_coulomb = effect->torque;
+      else if constexpr (std::is_same_v<E, WormViscous<double>>)
+        worm_viscous = effect->coefficient * system.mesh().i;
+      else if constexpr (std::is_same_v<E, GearViscous<double>>)
+        gear_viscous = effect->coefficient;
+      else if constexpr (E::place != Place::actuator && E::place != Place::sensor)
+        covers_ = false;
     });
     const GearMesh<double>& mesh = system.mesh();
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
         const double C = mesh.C(motion * flank * mesh.mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
-        Equation& e = equations_[index(motion, flank)];
-        e = {.motion = static_cast<double>(motion),
-             .flank = static_cast<double>(flank),
-             .per_worm_torque = inverse,
-             .per_gear_torque = C * inverse,
-             .drag = (worm_viscous + C * gear_viscous) * inverse,
-             .skew = worm_viscous - surface_ * gear_viscous,
-             .worm_friction = -motion * worm_coulomb,
-             .gear_friction = -motion * gear_coulomb};
+        equations_[index(motion, flank)] = {.motion = static_cast<double>(motion),
+                                            .flank = static_cast<double>(flank),
+                                            .per_worm_torque = inverse,
+                                            .per_gear_torque = C * inverse,
+                                            .drag = (worm_viscous + C * gear_viscous) * inverse,
+                                            .skew = worm_viscous - surface_ * gear_viscous,
+                                            .worm_friction = -motion * worm_coulomb,
+                                            .gear_friction = -motion * gear_coulomb};
       }
   }
 
@@ -97,8 +104,10 @@ class NominalFlow<WormDrive<double, Load>> {
     const Equation& m = *mode_;
     input(motor_, now.t, worm_torque_);
     worm_torque_[0] += m.worm_friction;
-    if constexpr (swings) turn_to(now.x[0] + load_.offset);
-    else input(load_.piece, now.t, gear_torque_);
+    if constexpr (swings)
+      turn_to(now.x[0] + load_.offset);
+    else
+      input(load_.piece, now.t, gear_torque_);
     gear_torque_[0] += m.gear_friction;
 
     e.theta[0] = now.x[0];
@@ -110,7 +119,8 @@ class NominalFlow<WormDrive<double, Load>> {
         if (k > 0) turn(e.omega, k);
       e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
       e.guards[System::speed_guard][k] = m.motion * e.omega[k];
-      e.guards[System::flank_guard][k] = -m.flank * (worm_torque_[k] - surface_ * gear_torque_[k] - m.skew * e.omega[k]);
+      e.guards[System::flank_guard][k] =
+          -m.flank * (worm_torque_[k] - surface_ * gear_torque_[k] - m.skew * e.omega[k]);
       if (k == 0 && m.flank == 0.0) e.guards[System::flank_guard][0] = 1.0;
       e.order = k;
       if (k == accuracy.order()) break;
@@ -119,7 +129,8 @@ class NominalFlow<WormDrive<double, Load>> {
         return;
       }
       power *= h;
-      const double alpha = worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.drag * e.omega[k];
+      const double alpha =
+          worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.drag * e.omega[k];
       e.omega[k + 1] = alpha * reciprocal[k + 1];
     }
     e.step = accuracy.step(e, h);

@@ -49,7 +49,8 @@ class SeriesFlow {
   }
 
   /// Whether the equations at s are those that the series was made from.
-  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy, const Motion& e) {
+  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy,
+                    const Motion& e) {
     const auto near = [&](double found, Polynomial c, double allowed) {
       double size = 0.0, power = 1.0;
       for (const double x : c) {

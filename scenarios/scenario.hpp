@@ -55,7 +55,8 @@ struct RunSettings {
         Field{&P::relative_tolerance, "relative_tolerance", unit::none, bounds::between(1e-14, 1e-2),
               "relative error allowed in one step; of taylor, in a second", Presence::optional},
         Field{&P::absolute_tolerance, "absolute_tolerance", unit::none, bounds::positive,
-              "absolute error allowed in one step, of taylor in a second, in rad and rad/s; relative_tolerance / 100 if not stated",
+              "absolute error allowed in one step, of taylor in a second, in rad and rad/s; relative_tolerance / 100 if "
+              "not stated",
               Presence::optional},
         Field{&P::max_step, "max_step", unit::second, bounds::positive, "longest step of the solver",
               Presence::optional}};

@@ -136,7 +136,8 @@ inline constexpr By bdf{SolverKind::cvode, Method::bdf}, adams{SolverKind::cvode
 inline constexpr By every_solver[] = {bdf, adams, taylor};
 
 inline SolverSettings tight(By by = bdf, double relative = 1e-13) {
-  return {.solver = by.solver, .method = by.method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
+  return {
+      .solver = by.solver, .method = by.method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
 }
 
 template <class System, class Controller>

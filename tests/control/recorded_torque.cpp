@@ -20,7 +20,8 @@ Samples recorded() {
     torques.times.push_back(record.measured.t);
     torques.values.push_back(record.applied);
   });
-  run(drive(table1(), actual_load(), {}), Timetable(0, samples * period, never, {period, 0.0}), {}, tight(taylor), loop);
+  run(drive(table1(), actual_load(), {}), Timetable(0, samples * period, never, {period, 0.0}), {}, tight(taylor),
+      loop);
   return torques;
 }
 
@@ -29,8 +30,8 @@ Samples recorded() {
 TEST_CASE("ten seconds of recorded torque at 1 kHz end within 1e-11 of extended precision") {
   const Samples torques = recorded();
   REQUIRE(torques.values.size() == samples);
-  const auto replayed = run(drive(table1(), actual_load(), {{torques}}), Timetable(0, samples * period, never), {},
-                            tight(taylor));
+  const auto replayed =
+      run(drive(table1(), actual_load(), {{torques}}), Timetable(0, samples * period, never), {}, tight(taylor));
   ExtendedDrive<long double> exact(0.0, 0.0176);
   Deviation states;
   auto row = replayed.rows.begin();

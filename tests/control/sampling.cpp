@@ -60,12 +60,14 @@ TEST_CASE("a sample exactly at an event: the torque that the sample sets decides
       REQUIRE(std::abs(script.speeds[3]) <= 1e-12);
       // the speed is zero to rounding: with a push it leaves forward, without one it stays where it is
       REQUIRE(std::abs(r.end.x[1] - (0.6 - hold) * acceleration(forward_right, after)) <= 1e-11);
-      REQUIRE(std::abs(r.end.x[0] - (-0.5 * a * hold * hold + 0.5 * acceleration(forward_right, after) * (0.6 - hold) * (0.6 - hold))) <= 1e-11);
+      REQUIRE(std::abs(r.end.x[0] - (-0.5 * a * hold * hold +
+                                     0.5 * acceleration(forward_right, after) * (0.6 - hold) * (0.6 - hold))) <= 1e-11);
       if (after > 0.0) REQUIRE(r.end.mode == forward_right);
     }
 }
 
-TEST_CASE("stick lasts over a thousand samples whose torques stay within the band, and ends at the one that leaves it") {
+TEST_CASE(
+    "stick lasts over a thousand samples whose torques stay within the band, and ends at the one that leaves it") {
   GravityArm arm;
   arm.amplitude = 0.7;
   const MeshParameters<double> p = table1();
@@ -114,13 +116,15 @@ TEST_CASE("a reversal and a flank change within one sample are both found where 
   exact.advance(period);
   for (By method : every_solver) {
     Script script{[&](int) { return torque; }};
-    const auto r =
-        run(drive(table1(), arm, {}), Timetable(0, period, never, {period, 0.0}), {0, {start, speed}, {}}, tight(method), script);
+    const auto r = run(drive(table1(), arm, {}), Timetable(0, period, never, {period, 0.0}), {0, {start, speed}, {}},
+                       tight(method), script);
     REQUIRE(script.times.size() == 1);
     int reversals = 0, flank_changes = 0;
     for (const auto& event : r.events)
-      if (event.before.mode.motion == event.after.mode.motion) ++flank_changes;
-      else if (event.before.mode.motion != Motion::stuck) ++reversals;
+      if (event.before.mode.motion == event.after.mode.motion)
+        ++flank_changes;
+      else if (event.before.mode.motion != Motion::stuck)
+        ++reversals;
     REQUIRE((reversals == 1 && flank_changes == 1));
     REQUIRE(exact.events.size() == 2);
     Deviation times;
@@ -137,7 +141,8 @@ TEST_CASE("with a delay of one sample a torque arrives when the next one is deci
       std::vector<ControlRecord> records;
       auto loop = closed_loop(sliding(), {.period = 1e-3, .offset = offset, .delay = 1.0},
                               [&](const ControlRecord& record) { records.push_back(record); });
-      const auto r = run(drive(table1(), actual_load(), {}), Timetable(0, 0.1, never, {1e-3, offset}), {}, tight(method), loop);
+      const auto r =
+          run(drive(table1(), actual_load(), {}), Timetable(0, 0.1, never, {1e-3, offset}), {}, tight(method), loop);
       REQUIRE(records.size() == 100);
       REQUIRE(records[0].applied == 0.0);
       REQUIRE(records[0].decided.torque != 0.0);

@@ -23,7 +23,8 @@ constexpr double event_times[] = {0.0034812139114724669663, 0.361272997585439276
 constexpr double end_angle = -5.4068889175374453849, end_speed = 1.0836146975023261689;
 
 auto fig9(double tolerance, double report_interval = never) {
-  return run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, report_interval), {}, tight(taylor, tolerance));
+  return run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, report_interval), {},
+             tight(taylor, tolerance));
 }
 
 /// A load that a series cannot follow: its torque changes its law at theta_g = bend.
@@ -77,9 +78,9 @@ TEST_CASE("the equations of core, instantiated with a series, move a drive as it
     explicit ForeignLoad(const GravityArm& arm) : GravityLoad(arm) {}
   };
   const auto known = run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, 0.1), {}, tight(taylor, 1e-14));
-  const auto foreign = run(WormDrive<double, ForeignLoad>(GearMesh<double>(table1()), ForeignLoad(fig9_load()), {},
-                                                          fig9_motor()),
-                           Timetable(0, 2, 0.1), {}, tight(taylor, 1e-14));
+  const auto foreign =
+      run(WormDrive<double, ForeignLoad>(GearMesh<double>(table1()), ForeignLoad(fig9_load()), {}, fig9_motor()),
+          Timetable(0, 2, 0.1), {}, tight(taylor, 1e-14));
   REQUIRE(NominalFlow<WormDrive<double, GravityLoad>>::known);
   REQUIRE(!NominalFlow<WormDrive<double, ForeignLoad>>::known);
   REQUIRE(foreign.modes() == known.modes());

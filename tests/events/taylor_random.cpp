@@ -18,7 +18,9 @@ namespace {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
   int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
   bool one_in(int n) { return below(n) == 0; }
 
@@ -31,10 +33,16 @@ constexpr double duration = 1.0;
 SignalTerm random_term(Dice& dice, double size) {
   switch (dice.below(6)) {
     case 0: return Constant{dice.between(-size, size)};
-    case 1: return Sinusoid{.amplitude = dice.between(0, size), .frequency = dice.between(0.5, 8), .phase = dice.between(0, 6)};
+    case 1:
+      return Sinusoid{
+          .amplitude = dice.between(0, size), .frequency = dice.between(0.5, 8), .phase = dice.between(0, 6)};
     case 2: return Ramp{.rate = dice.between(-size, size), .start = dice.between(0, 0.5), .end = dice.between(0.6, 2)};
     case 3: return Step{.torque = dice.between(-size, size), .time = dice.between(0, duration)};
-    case 4: return Staircase{.rise = dice.between(-size, size) / 4, .interval = dice.between(0.05, 0.3), .start = dice.between(0, 0.3), .steps = 6};
+    case 4:
+      return Staircase{.rise = dice.between(-size, size) / 4,
+                       .interval = dice.between(0.05, 0.3),
+                       .start = dice.between(0, 0.3),
+                       .steps = 6};
   }
   Samples samples;
   for (double t = 0.0; t < duration; t += dice.between(0.01, 0.1)) {

@@ -83,7 +83,8 @@ class ExtendedDrive {
   }
 
   void start_if_released() {
-    const Real push = torque(), low = std::min(-C1_ * load(), -C2_ * load()), high = std::max(-C1_ * load(), -C2_ * load());
+    const Real push = torque(), low = std::min(-C1_ * load(), -C2_ * load()),
+               high = std::max(-C1_ * load(), -C2_ * load());
     motion_ = push > high ? 1 : push < low ? -1 : 0;
     flank_ = motion_ == 0 ? 0 : beyond() <= 0 ? 1 : -1;
   }
@@ -143,8 +144,10 @@ class ExtendedDrive {
       t += first;
       theta = at(x, first);
       omega = kind == 1 ? Real(0) : at(v, first);
-      if (kind == 1) start_if_released();
-      else flank_ = -flank_;
+      if (kind == 1)
+        start_if_released();
+      else
+        flank_ = -flank_;
       events.push_back({t, motion_, flank_});
       return;
     }
