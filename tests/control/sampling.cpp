@@ -135,6 +135,24 @@ TEST_CASE("a reversal and a flank change within one sample are both found where 
   }
 }
 
+TEST_CASE("a flank change within a sample is found at a speed and a torque at which nothing else happens in it") {
+  ExtendedDrive<long double> exact(0.0, 0.0176);
+  exact.theta = -0.13;
+  exact.omega = 5.0;
+  exact.level = -4e-3;
+  exact.settle();
+  exact.advance(0.02);
+  REQUIRE(exact.events.size() == 1);
+  for (By method : every_solver) {
+    Script script{[](int) { return -4e-3; }};
+    const auto r = run(drive(table1(), actual_load(), {}), Timetable(0, 0.02, never, {1e-3, 0.0}),
+                       {0, {-0.13, 5.0}, {}}, tight(method), script);
+    REQUIRE(r.end.mode == forward_left);
+    REQUIRE(std::abs(r.events.back().after.t - static_cast<double>(exact.events[0].t)) <= 1e-11);
+    REQUIRE(std::abs(r.end.x[0] - static_cast<double>(exact.theta)) <= 1e-11);
+  }
+}
+
 TEST_CASE("with a delay of one sample a torque arrives when the next one is decided, and none before") {
   for (By method : every_solver)
     for (double offset : {0.0, 0.4e-3}) {

@@ -109,6 +109,7 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   s.initial = filler.make<InitialState>();
   s.run = filler.make<RunSettings>();
   s.run.report_interval = s.run.duration / 7.0;
+  s.run.solver = SolverKind::taylor;
   s.run.method = Method::adams;
   return s;
 }
