@@ -38,12 +38,16 @@ class TaylorSolver {
   std::optional<int> advance(Instant& now, double next, double limit) {
     while (!already_there(now.t, next)) {
       if (now.t >= end_) {
-        if (leap(now, next, limit)) break;
-        step(now, limit);
+        begin_ = now;
+        if (leap(now, limit)) {
+          if (next == limit) break;
+          there_ = now;
+        } else {
+          step(now, limit);
+        }
       }
-      const double t = std::min(next, end_), s = t - begin_;
-      now = {t, {value(series_.angle(), s), value(series_.speed(), s)}, now.mode};
-      if (fired_ && t == end_) return fired_;
+      now = at(std::min(next, end_));
+      if (fired_ && now.t == end_) return fired_;
     }
     now.t = next;
     return std::nullopt;
@@ -58,17 +62,32 @@ class TaylorSolver {
 
  private:
   /// Goes on to the limit without a search for events, where the nominal flow can vouch for it.
-  bool leap(Instant& now, double next, double limit) {
+  bool leap(Instant& now, double limit) {
+    leapt_ = false;
     if constexpr (NominalFlow<System>::known) {
-      if (next != limit || next - now.t > max_step_ || !nominal_.covers() || !nominal_.leap(now, next, accuracy_))
-        return false;
+      if (limit - now.t > max_step_ || !nominal_.covers()) return false;
+      if (!nominal_.leap(now, limit, accuracy_)) return false;
       ++count_.steps;
       ++count_.evaluations;
-      end_ = next;
+      end_ = limit;
+      leapt_ = true;
       armed_.fill(true);
-      return true;
     }
-    return false;
+    return leapt_;
+  }
+
+  /// The motion at a time of the present step.
+  Instant at(double t) const {
+    if constexpr (NominalFlow<System>::known) {
+      if (leapt_ && t == end_) return there_;
+      if (leapt_) {
+        Instant then = begin_;
+        nominal_.leap(then, t, accuracy_);  // what it vouched for up to the end it vouches for on the way
+        return then;
+      }
+    }
+    const double s = t - begin_.t;
+    return {t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode};
   }
 
   /// The polynomials from now on to the first event, or to as far as they are accurate.
@@ -82,17 +101,16 @@ class TaylorSolver {
     if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest();
 
     // The end of the step is a double, and the step ends there exactly.
-    begin_ = now.t;
     end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
-    stalled_ = end_ == begin_ ? stalled_ + 1 : 0;
+    stalled_ = end_ == now.t ? stalled_ + 1 : 0;
     if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
-    if (end_ == begin_) end_ = std::nextafter(begin_, limit);
+    if (end_ == now.t) end_ = std::nextafter(now.t, limit);
     fired_.reset();
     for (int g = 0; g < System::guard_count; ++g) {
-      const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end_ - begin_, armed_[g]);
+      const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end_ - now.t, armed_[g]);
       armed_[g] = armed_[g] || fall.armed;
-      if (!fall.at || (fired_ && begin_ + *fall.at >= end_)) continue;
-      end_ = std::min(begin_ + *fall.at, end_);
+      if (!fall.at || (fired_ && now.t + *fall.at >= end_)) continue;
+      end_ = std::min(now.t + *fall.at, end_);
       fired_ = g;
     }
   }
@@ -117,8 +135,11 @@ class TaylorSolver {
   double max_step_;
   NominalFlow<System> nominal_;
   Expansion<System::guard_count> series_;
-  double begin_ = 0.0, end_ = 0.0;  ///< of the step that series_ describes [s]
-  std::optional<int> fired_;        ///< the guard that falls through zero at its end
+  Instant begin_{};     ///< of the present step
+  double end_ = 0.0;    ///< of the present step [s]
+  bool leapt_ = false;  ///< the step is a leap to there_; else series_ describes it
+  Instant there_{};
+  std::optional<int> fired_;  ///< the guard that falls through zero at the end
   RootSearch search_;
   std::array<bool, System::guard_count> armed_{};
   int stalled_ = 0;
