@@ -47,10 +47,16 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
   };
   std::visit([&](const auto& mesh) { fields(mesh, "mesh"); }, scenario.mesh);
   signal(scenario.motor, "motor.torque");
-  if (const auto* timed = std::get_if<Signal>(&scenario.load)) signal(*timed, "load");
-  if (const auto* arm = std::get_if<GravityArm>(&scenario.load)) fields(*arm, "load");
-  if (const auto* table = std::get_if<AngleTable>(&scenario.load))
-    list.push_back({"load", "1", "points of the table", static_cast<double>(table->angles.size())});
+  std::visit(
+      [&](const auto& load) {
+        if constexpr (requires { load.terms; })
+          signal(load, "load");
+        else if constexpr (requires { load.fields(); })
+          fields(load, "load");
+        else
+          list.push_back({"load", "1", "points of the table", static_cast<double>(load.angles.size())});
+      },
+      scenario.load);
   scenario.effects.for_each([&](const auto& effect) {
     if (effect) fields(*effect, fmt::format("effect.{}", effect->id));
   });

@@ -41,7 +41,9 @@ struct SteadyOptions {
 int steady_command(const SteadyOptions& options);
 
 struct PlotOptions {
-  std::string file, output;
+  std::vector<std::string> files;  ///< one, or several that share a picture
+  std::string output;              ///< empty: named after the first file
+  std::string over;                ///< what runs are drawn over instead of time
 };
 int plot_command(const PlotOptions& options);
 

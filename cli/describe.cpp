@@ -93,7 +93,8 @@ std::string describe_solver(const RunSettings& run) {
 void print_item(const std::string& label, const std::string& text) { fmt::print("  {:<8} {}\n", label, text); }
 
 std::string default_output(const std::string& scenario_file, const std::string& suffix) {
-  const std::filesystem::path file(scenario_file);
+  std::filesystem::path file(scenario_file);
+  if (file.extension() == ".part") file.replace_extension();
   const bool stored = file.extension() == ".h5";
   return file.stem().string() + (stored ? "_again" : "") + suffix;
 }

@@ -58,10 +58,13 @@ void list_torques() {
 
 void list_loads() {
   fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
-  print_kind(GravityArm::kind, GravityArm::meaning);
-  print_fields<GravityArm>();
-  print_kind(AngleTable::kind, AngleTable::meaning);
-  fmt::print("      file (with x_column, y_column), or angles_deg and torques_Nm\n");
+  for_each_load([]<class Load>() {
+    print_kind(Load::kind, Load::meaning);
+    if constexpr (requires { Load::fields(); })
+      print_fields<Load>();
+    else
+      fmt::print("      file (with x_column, y_column), or angles_deg and torques_Nm\n");
+  });
 }
 
 /// The installed scenarios, or those of the source tree that built this program.

@@ -37,7 +37,7 @@ std::string command_line(int argc, char** argv) {
 
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "scenario (.toml), or a result file that carries one (.h5)")->required();
-  command.add_option("--set", options.overrides, "override a key: --set motor.torque.amplitude_Nm=0.06")
+  command.add_option("--set", options.overrides, "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set motor.torque[1].amplitude_Nm=0.06; may be repeated")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->allow_extra_args(false);
@@ -130,7 +130,10 @@ int main(int argc, char** argv) {
 
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
-  plot_app->add_option("file", plot.file, "result of run, statics or steady (.h5)")->required();
+  plot_app->add_option("files", plot.files, "result of run, statics or steady (.h5); a statics result and runs: their break-aways in its map")
+      ->required();
+  plot_app->add_option("--over", plot.over, "draw runs over the motor torque instead of time, one or several in one picture")
+      ->check(CLI::IsMember({"motor_torque"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
 
   std::string what;

@@ -23,12 +23,19 @@ std::string script() {
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  if (std::error_code none; !std::filesystem::exists(options.file, none))
-    refuse({options.file}, "cannot be read: No such file or directory");
-  if (!is_hdf5(options.file)) refuse({options.file}, "not an HDF5 file; wormdrive run writes one");
-  const std::string output =
-      options.output.empty() ? std::filesystem::path(options.file).replace_extension(".png").string() : options.output;
-  std::vector<std::string> words{WORMDRIVE_PYTHON, script(), options.file, "-o", output};
+  Faults faults;
+  for (const std::string& file : options.files)
+    if (std::error_code none; !std::filesystem::exists(file, none))
+      faults.add({file}, "cannot be read: No such file or directory");
+    else if (!is_hdf5(file))
+      faults.add({file}, "not an HDF5 file; wormdrive run writes one");
+  faults.raise();
+  const std::filesystem::path first(options.files.front());
+  std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
+  words.insert(words.end(), options.files.begin(), options.files.end());
+  words.insert(words.end(),
+               {"-o", options.output.empty() ? std::filesystem::path(first).replace_extension(".png").string() : options.output});
+  if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

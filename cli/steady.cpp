@@ -11,6 +11,8 @@
 #include "diagnosis/speed_torque_records.hpp"
 #include "output/table.hpp"
 #include "scenarios/build.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
@@ -72,7 +74,8 @@ void write(const std::string& output, const Scenario& scenario, const Curve& cur
   PartFile file(output);
   write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
   GrowingTable(file.file(), "model",
-               {{"worm_speed", "rad/s", "worm speed"}, {"motor_torque", "N m", "motor torque of the model"}})
+               {{"worm_speed", units_on(scenario.axis, "rad/s"), "worm speed"},
+                {"motor_torque", units_on(scenario.axis, "N m"), "motor torque of the model"}})
       .append({curve.speed, curve.torque});
   if (comparison) {
     write_attribute(file.file(), "rms_error", comparison->rms_error);
@@ -102,9 +105,10 @@ void write(const std::string& output, const Scenario& scenario, const Curve& cur
 }
 
 nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::optional<Comparison>& comparison) {
+  const auto key = [&](std::string_view name, const Unit& unit) { return spellings(name, unit, scenario.axis).front().key; };
   nlohmann::json result{{"title", scenario.title},
-                        {"worm_speed_rad_per_s", curve.speed},
-                        {"motor_torque_Nm", curve.torque}};
+                        {key("worm_speed", unit::radian_per_second), curve.speed},
+                        {key("motor_torque", unit::newton_metre), curve.torque}};
   if (!comparison) return result;
   result["rms_error_Nm"] = comparison->rms_error;
   result["rms_torque_Nm"] = comparison->rms_torque;
@@ -123,8 +127,9 @@ nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::
   return result;
 }
 
-void print_curve(const Curve& curve) {
-  fmt::print("\n  {:>20} {:>20}\n", "worm speed [rad/s]", "motor torque [N m]");
+void print_curve(const Curve& curve, Axis axis) {
+  fmt::print("\n  {:>20} {:>20}\n", fmt::format("{} [{}]", axis == Axis::linear ? "speed" : "worm speed", units_on(axis, "rad/s")),
+             fmt::format("motor {} [{}]", axis == Axis::linear ? "force" : "torque", units_on(axis, "N m")));
   const std::size_t stride = std::max<std::size_t>(1, curve.speed.size() / 10);
   for (std::size_t k = stride / 2; k < curve.speed.size(); k += stride)
     fmt::print("  {:>20.6g} {:>20.6g}\n", curve.speed[k], curve.torque[k]);
@@ -146,6 +151,8 @@ void print_comparison(const Comparison& comparison, const std::string& data) {
 int steady_command(const SteadyOptions& options) {
   for (const std::string& input : {options.scenario.file, options.data}) refuse_to_overwrite(options.output, input);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
+  if (scenario.axis == Axis::linear && !options.data.empty())
+    refuse({options.data}, "records are torques over worm speeds; mesh.axis = \"linear\" has none");
   std::optional<Comparison> comparison;
   if (!options.data.empty()) comparison = compare(scenario, read_speed_torque_records(options.data));
   double max_speed = 100.0;
@@ -168,7 +175,7 @@ int steady_command(const SteadyOptions& options) {
   if (comparison)
     print_comparison(*comparison, options.data);
   else
-    print_curve(curve);
+    print_curve(curve, scenario.axis);
   if (!options.output.empty())
     print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
   return 0;

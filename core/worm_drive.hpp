@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include <Eigen/Core>
 #include <ceres/jet.h>
 
 #include "core/effects.hpp"
@@ -32,7 +32,7 @@ class WormDrive {
   using Mode = wormdrive::Mode;
 
   static constexpr int guard_count = 2;
-  static constexpr int speed_guard = 0, flank_guard = 1;      ///< while moving
+  static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
   static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
 
   /// Time [s], state and mode: all that changes while a drive runs.
@@ -93,7 +93,6 @@ class WormDrive {
     return {t, theta_g, omega_g, mesh_.i * omega_g};
   }
   Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1]); }
-
   /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
   template <class S>
   struct SideTorques {
@@ -101,8 +100,7 @@ class WormDrive {
   };
   template <class S>
   SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
-    return {motor_piece_(at.t) + effects_.worm_torque(at, motion),
-            load_.torque(at) + effects_.gear_torque(at, motion)};
+    return side_torques(inputs(at), at, motion);
   }
 
   /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
@@ -115,24 +113,18 @@ class WormDrive {
   /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
   template <class S>
   S acceleration(const Moment<S>& at, Mode mode) const {
-    if (mode.motion == Motion::stuck) return S(T(0));
-    const SideTorques<S> tau = side_torques(at, mode.motion);
-    const S C = mesh_.C(S(T(mode.product()) * mesh_.mu));
-    return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+    return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), mode);
   }
 
   State derivative(double t, const State& x, Mode mode) const {
-    if (mode.motion == Motion::stuck) return State::Zero();
-    return {x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
+    return {mode.motion == Motion::stuck ? T(0) : x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
   }
 
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
-  Jacobian jacobian(double t, const State& x, Mode mode) const
-    requires std::same_as<T, double>
-  {
+  Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
+    if (mode.motion == Motion::stuck) return Jacobian::Zero();
     using Jet = ceres::Jet<double, 2>;
     const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
-    if (mode.motion == Motion::stuck) return Jacobian::Zero();
     return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
   }
 
@@ -165,12 +157,13 @@ class WormDrive {
     return {speed, -T(sign(mode.flank)) * beyond_surface(at, mode.motion)};
   }
 
-  std::array<T, guard_count> guards(double t, const State& x, Mode mode) const {
-    return guards(moment(T(t), x[0], x[1]), mode);
-  }
   /// Values and rates of the guards along the motion.
   std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
-    return guards(ahead<1>(now), now.mode);
+    // what ahead<1> finds, without the rate of the acceleration, which would be thrown away
+    Series<T, 1> theta_g(now.x[0]), omega_g(now.x[1]);
+    theta_g[1] = now.x[1];
+    omega_g[1] = acceleration(moment(now), now.mode);
+    return guards(moment(Series<T, 1>::variable(T(now.t)), theta_g, omega_g), now.mode);
   }
 
   static std::string_view guard_name(Mode mode, int guard) {
@@ -205,40 +198,48 @@ class WormDrive {
 
   // ---- what is reported ---------------------------------------------------------------------------------------
 
-  /// Wn [N] >= 0: from the gear's balance while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
-  T normal_force(const Instant& now) const {
-    using std::abs;
-    if (!mesh_.has_teeth) return T(0);
-    const Moment<T> at = moment(now);
-    const SideTorques<T> tau = side_torques(at, now.mode.motion);
-    if (now.mode.motion == Motion::stuck) {
-      using std::cos, std::sin;
-      const T N = tau.gear / mesh_.lg * cos(mesh_.lambda) - tau.worm / mesh_.lw * sin(mesh_.lambda);
-      return abs(N) / cos(mesh_.phi_n);
-    }
-    const T m = T(now.mode.product()) * mesh_.mu;
-    return T(sign(now.mode.flank)) * (tau.gear - Jg_ * acceleration(at, now.mode)) / mesh_.gear_arm(m);
-  }
-
-  Observation observe(const Instant& now) const
-    requires std::same_as<T, double>
-  {
+  Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const Moment<double> at = moment(now);
+    const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
+    const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, now.mode);
     return {.theta_g = now.x[0],
             .omega_g = now.x[1],
-            .alpha_g = acceleration(at, now.mode),
-            .tau_m = motor_piece_(now.t),
-            .tau_l = load_.torque(at),
-            .normal_force = normal_force(now),
+            .alpha_g = alpha,
+            .tau_m = input.worm,
+            .tau_l = input.gear,
+            .normal_force = normal_force(tau, alpha, now.mode),
             .mode = now.mode};
   }
 
  private:
+  template <class S>
+  SideTorques<S> inputs(const Moment<S>& at) const {
+    return {motor_piece_(at.t), load_.torque(at)};
+  }
+  template <class S>
+  SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
+    return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
+  }
+  template <class S>
+  S acceleration(const SideTorques<S>& tau, Mode moving) const {
+    const S C = mesh_.C(S(T(moving.product()) * mesh_.mu));
+    return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+  }
+  /// Wn [N] >= 0: from the gear's balance while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
+  T normal_force(const SideTorques<T>& tau, const T& alpha, Mode mode) const {
+    using std::abs, std::cos, std::sin;
+    if (!mesh_.has_teeth) return T(0);
+    if (mode.motion == Motion::stuck) {
+      const T N = tau.gear / mesh_.lg * cos(mesh_.lambda) - tau.worm / mesh_.lw * sin(mesh_.lambda);
+      return abs(N) / cos(mesh_.phi_n);
+    }
+    return T(sign(mode.flank)) * (tau.gear - Jg_ * alpha) / mesh_.gear_arm(T(mode.product()) * mesh_.mu);
+  }
+
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
   /// better than the square root of epsilon in its period; still far below anything mechanical.
   double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
-  /// Whether a balance of the torques [N m] keeps its sign for an instant, whatever they do: that none changes by its
-  /// own size within 10 us is taken for granted.
+  /// Whether a balance of torques [N m] keeps its sign for an instant, none of them changing by its size within 10 us.
   bool lasts(const T& balance, const SideTorques<T>& tau) const {
     using std::abs;
     return abs(balance) > T(1e5 * instant()) * (abs(tau.worm) + abs(surface() * tau.gear));
@@ -256,8 +257,7 @@ class WormDrive {
     return beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
 
-  /// Whether the gear starts from rest in this direction: the acceleration it would have points that way, now or,
-  /// where it is zero, just after now.
+  /// Whether the gear starts from rest in this direction: by its acceleration now or, where that is zero, just after.
   bool starts(const Instant& now, Motion motion) const {
     const Instant rest{now.t, {now.x[0], T(0)}, {}};
     const T a_now = release_acceleration(moment(rest), motion);

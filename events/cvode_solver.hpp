@@ -27,6 +27,9 @@ namespace wormdrive {
 ///
 /// A guard that dips below zero and comes back within one step changes no sign at the step's ends. So the guard's rate
 /// is watched too: at every minimum the guard is looked at, and a dip is traced back to where it began.
+///
+/// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial, for
+/// a call of CVODE and a look at the guards per report would cost more than the report.
 template <class System>
 class CvodeSolver {
  public:
@@ -66,8 +69,8 @@ class CvodeSolver {
   void restart(const Instant& now) {
     total_ = statistics();
     ++total_.restarts;
-    mode_ = now.mode;
-    began_ = now.t;
+    ahead_ = now;
+    fired_.reset();
     finite_ = true;
     state() = now.x;
     check(CVodeReInit(memory(), now.t, y_.get()));
@@ -81,18 +84,23 @@ class CvodeSolver {
       return std::nullopt;
     }
     if (limit != limit_) check(CVodeSetStopTime(memory(), limit_ = limit));
-    while (true) {
-      double reached = now.t;
-      const int flag = CVode(memory(), next, y_.get(), &reached, CV_NORMAL);
-      if (flag < 0) {
-        now.t = reached;
-        throw SolverFault(reason(finite_ ? flag : CV_RHSFUNC_FAIL));
+    for (long step = 0; ahead_.t < next && !fired_; ++step) {
+      const double before = ahead_.t;
+      const int flag = CVode(memory(), next, y_.get(), &ahead_.t, next < limit ? CV_ONE_STEP : CV_NORMAL);
+      if (flag < 0 || step == max_steps) {
+        now.t = ahead_.t;
+        throw SolverFault(reason(flag >= 0 ? CV_TOO_MUCH_WORK : finite_ ? flag : CV_RHSFUNC_FAIL));
       }
-      now.t = flag == CV_ROOT_RETURN ? reached : next;
-      now.x = state();
-      if (flag != CV_ROOT_RETURN) return std::nullopt;
-      if (const auto guard = fired(now)) return guard;
+      ahead_.x = state();
+      if (flag == CV_ROOT_RETURN) fired_ = guard_behind(before);
     }
+    if (ahead_.t <= next) {
+      now = ahead_;
+      return fired_;
+    }
+    now.t = next;
+    now.x = state_at(next);
+    return std::nullopt;
   }
 
   /// What the solver did since it was made.
@@ -128,7 +136,7 @@ class CvodeSolver {
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
     auto& solver = *static_cast<CvodeSolver*>(self);
-    const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
+    const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
     Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
     // once is for good: the fixed-point iteration would only shorten its step and try again, without end
     solver.finite_ = solver.finite_ && dx.allFinite();
@@ -137,12 +145,12 @@ class CvodeSolver {
   static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
     Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) =
-        solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_);
+        solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
     return 0;
   }
   static int roots(sunrealtype t, N_Vector y, sunrealtype* values, void* self) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
-    const auto g = solver.system_.guards_ahead({t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.mode_});
+    const auto g = solver.system_.guards_ahead({t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode});
     for (int k = 0; k < System::guard_count; ++k) {
       values[k] = g[k][0];
       // never exactly zero: CVODE gives up at a root function that stays zero behind its root, as slow rates do
@@ -152,37 +160,38 @@ class CvodeSolver {
   }
 
   /// The guard whose crossing CVODE stopped at, or one that was below zero at the minimum it stopped at.
-  std::optional<int> fired(Instant& now) {
+  std::optional<int> guard_behind(double before) {
     std::array<int, root_count> found;
     check(CVodeGetRootInfo(memory(), found.data()));
     for (int k = 0; k < System::guard_count; ++k)
       if (found[k] != 0) return k;
-    const auto values = system_.guards_ahead(now);
+    const auto values = system_.guards_ahead(ahead_);
     for (int k = 0; k < System::guard_count; ++k)
-      if (values[k][0] < 0.0 && trace_back(now, k)) return k;
+      if (values[k][0] < 0.0 && trace_back(before, k)) return k;
     return std::nullopt;
   }
 
-  /// Moves from a minimum below zero back to where the guard fell through zero in the latest step; false if it was
-  /// not positive before.
-  bool trace_back(Instant& now, int guard) {
+  /// Moves from a minimum below zero back to where the guard fell through zero, in the latest step and after a time at
+  /// which no guard had fired; false if it was not positive there.
+  bool trace_back(double before, int guard) {
     double h = 0.0, t = 0.0;
     check(CVodeGetLastStep(memory(), &h));
     check(CVodeGetCurrentTime(memory(), &t));
-    const auto value = [&](double at) {
-      check(CVodeGetDky(memory(), at, 0, y_.get()));
-      return system_.guards_ahead({at, state(), mode_})[guard][0];
-    };
-    const double begin = std::max(t - h, began_), low = value(now.t), high = value(begin);
+    const auto value = [&](double at) { return system_.guards_ahead({at, state_at(at), ahead_.mode})[guard][0]; };
+    const double begin = std::max(t - h, before), low = value(ahead_.t), high = value(begin);
     if (high <= 0.0 || low >= 0.0) return false;
-    now.t = root_between(value, begin, high, now.t, low);
-    check(CVodeGetDky(memory(), now.t, 0, y_.get()));
-    now.x = state();
+    ahead_.t = root_between(value, begin, high, ahead_.t, low);
+    ahead_.x = state_at(ahead_.t);
     return true;
   }
 
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
+  /// At a time within the latest step.
+  Eigen::Map<State> state_at(double t) {
+    check(CVodeGetDky(memory(), t, 0, y_.get()));
+    return state();
+  }
 
   static std::string reason(int flag) {
     switch (flag) {
@@ -205,7 +214,8 @@ class CvodeSolver {
     SUNContext_PushErrHandler(
         context_, [](int, const char*, const char*, const char*, SUNErrCode, void*, SUNContext) {}, nullptr);
 #else
-    check(CVodeSetErrHandlerFn(memory(), [](int, const char*, const char*, char*, void*) {}, nullptr));
+    check(CVodeSetErrHandlerFn(
+        memory(), [](int, const char*, const char*, char*, void*) {}, nullptr));
 #endif
   }
 
@@ -216,9 +226,9 @@ class CvodeSolver {
   Owned<SUNLinearSolver> linear_;
   Owned<SUNNonlinearSolver> fixed_point_;
   std::unique_ptr<void, Free> memory_;
-  typename System::Mode mode_{};
-  bool finite_ = true;  ///< every acceleration since the latest restart was a number
-  double began_ = 0.0;  ///< time of the latest restart [s]
+  Instant ahead_{};           ///< how far CVODE has gone without a guard firing ...
+  std::optional<int> fired_;  ///< ... or the guard that fired there
+  bool finite_ = true;        ///< every acceleration since the latest restart was a number
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};
 };

@@ -43,7 +43,7 @@ Halt EventLog::chatter() const {
 }
 
 Halt EventLog::halt(double t, Mode mode, const std::string& reason) const {
-  std::string history = total_ == 0 ? "before any event" : fmt::format("after {} events", total_);
+  std::string history = total_ == 0 ? "before any event" : fmt::format("after {} event{}", total_, total_ == 1 ? "" : "s");
   if (!latest_.empty()) {
     const auto first = latest_.end() - std::min<std::ptrdiff_t>(3, std::ssize(latest_));
     for (auto e = first; e != latest_.end(); ++e)

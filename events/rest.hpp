@@ -30,7 +30,7 @@ class RestWatch {
     std::array<bool, System::guard_count> armed;
     Guards left = guards_at(now_.t);
     for (int g = 0; g < System::guard_count; ++g) {
-      if (left[g][0] <= 0.0 && left[g][1] < 0.0) return Crossing{now_.t, g};
+      if (left[g][0] <= 0.0 && left[g][1] < 0.0) return Crossing{now_.t, g};  // though rounding put it a hair below
       armed[g] = left[g][0] >= 0.0;
     }
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.

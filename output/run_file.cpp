@@ -5,17 +5,18 @@
 #include <functional>
 
 namespace wormdrive {
+
+std::string units_on(Axis axis, const std::string& rotary) {
+  if (axis == Axis::rotary) return rotary;
+  if (rotary == "N m") return "N";
+  return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
+}
+
 namespace {
 
 const std::vector<std::int8_t> signs{-1, 0, 1};
 constexpr const char* motions = "backward stuck forward";
 constexpr const char* flanks = "right none left";
-
-std::string in_axis(Axis axis, const std::string& rotary) {
-  if (axis == Axis::rotary) return rotary;
-  if (rotary == "N m") return "N";
-  return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
-}
 
 /// A column and where its value comes from.
 template <class Source>
@@ -29,7 +30,7 @@ std::vector<ColumnDescription> descriptions(const std::vector<Column<Source>>& c
   std::vector<ColumnDescription> list;
   for (const auto& column : columns) {
     list.push_back(column.description);
-    list.back().units = in_axis(axis, list.back().units);
+    list.back().units = units_on(axis, list.back().units);
   }
   return list;
 }

@@ -14,6 +14,9 @@ namespace wormdrive {
 /// Units of a rotary drive or of a linear axis (m, N, kg).
 enum class Axis { rotary, linear };
 
+/// The units on an axis of what has these units on a shaft: "rad/s" becomes "m/s", "N m" becomes "N".
+std::string units_on(Axis axis, const std::string& rotary);
+
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.
 class RunFile {
  public:

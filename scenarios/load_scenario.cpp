@@ -6,6 +6,7 @@
 
 #include "scenarios/build.hpp"
 #include "scenarios/document.hpp"
+#include "scenarios/read_load.hpp"
 #include "scenarios/read_signal.hpp"
 #include "scenarios/table_reader.hpp"
 
@@ -23,7 +24,7 @@ class ScenarioReader {
     scenario_.title = root_.text("title").value_or(std::filesystem::path(name_).stem().string());
     read_mesh();
     scenario_.motor = read_motor();
-    read_load();
+    scenario_.load = read_load(root_, folder());
     read_effects();
     section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
@@ -77,18 +78,6 @@ class ScenarioReader {
       signal = read_signal(motor.tables("torque"), "motor.torque", motor, folder());
     });
     return signal;
-  }
-
-  void read_load() {
-    const std::vector<const toml::table*> tables = root_.tables("load");
-    if (tables.size() == 1) {
-      TableReader load(tables.front(), "load", scenario_.axis, faults_, {name_});
-      if (const auto special = read_special_load(load, folder())) {
-        scenario_.load = *special;
-        return;
-      }
-    }
-    scenario_.load = read_signal(tables, "load", root_, folder());
   }
 
   void read_effects() {

@@ -80,8 +80,10 @@ class Override {
 
   /// The node under a key, made where it is missing; the last one is the new value.
   toml::node* next(toml::node& node, const std::string& key, std::string& path, bool last) {
+    toml::array* const array = node.as_array();
+    if (array && array->size() == 1) return next(*array->get(0), key, path, last);  // results write a single term so
     toml::table* const table = node.as_table();
-    if (!table && node.is_array())
+    if (array)
       refuse(where_, fmt::format("{0} is an array; name one of its elements, as in {0}[0]", path));
     if (!table) refuse(where_, fmt::format("{} is not a table", path));
     path += path.empty() ? key : "." + key;

@@ -1,18 +1,15 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/load.hpp"
+#include "core/signal.hpp"
 #include "scenarios/table_reader.hpp"
 
 namespace wormdrive {
 
-/// The sum of the functions of time in these tables; CSV files are looked for in `folder`.
+/// The sum of the functions of time in these tables; CSV files are looked for in `folder`. A message about an unknown
+/// kind names `other_kinds` too, which the caller reads.
 Signal read_signal(const std::vector<const toml::table*>& tables, const std::string& path, TableReader& parent,
-                   const std::string& folder);
-
-/// A load that is not a function of time, or nothing if the table states one.
-std::optional<LoadParameters> read_special_load(TableReader& table, const std::string& folder);
+                   const std::string& folder, const std::vector<std::string>& other_kinds = {});
 
 }  // namespace wormdrive

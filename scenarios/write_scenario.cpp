@@ -91,16 +91,16 @@ void write_signal(Writer& out, const std::string& path, const Signal& signal) {
 }
 
 void write_load(Writer& out, const Signal& signal) { write_signal(out, "load", signal); }
-void write_load(Writer& out, const GravityArm& arm) {
+template <class Load>
+void write_load(Writer& out, const Load& load) {
   out.table("[load]");
-  out.text("kind", std::string(GravityArm::kind));
-  out.fields(arm);
-}
-void write_load(Writer& out, const AngleTable& table) {
-  out.table("[load]");
-  out.text("kind", std::string(AngleTable::kind));
-  out.values("angles", unit::radian, table.angles);
-  out.values("torques", unit::newton_metre, table.torques);
+  out.text("kind", std::string(Load::kind));
+  if constexpr (requires { Load::fields(); }) {
+    out.fields(load);
+  } else {
+    out.values("angles", unit::radian, load.angles);
+    out.values("torques", unit::newton_metre, load.torques);
+  }
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct GravityArm {
         Field{&P::arm, "arm", unit::metre, bounds::any, "distance of the mass from the gear's axis",
               Presence::optional},
         Field{&P::offset, "angle_offset", unit::degrees, bounds::any,
-              "angle of the arm above horizontal at theta_g = 0", Presence::optional},
+              "angle of the arm at theta_g = 0, from horizontal on in the sense of forward", Presence::optional},
         Field{&P::own_inertia, "inertia", unit::kilogram_square_metre, bounds::not_negative,
               "the load's own inertia about the gear's axis; mass arm^2 if mass and arm are stated, else 0",
               Presence::optional}};

@@ -218,3 +218,38 @@ TEST_CASE("what cannot be printed is not told as a success") {
   CHECK(outcome.exit == 4);
   CHECK(outcome.err.find("No space left on device") != std::string::npos);
 }
+
+TEST_CASE("of an array of one table, as results hold it, the index may be left out") {
+  const Folder folder;
+  printed(folder, {"run", fig9, "-q"});
+  const json p = run_with(folder, {"motor.torque.amplitude_Nm=0.06"}, "fig09_switching.h5");
+  CHECK(p.at("motor.torque.amplitude_Nm").at("value") == 0.06);
+}
+
+TEST_CASE("a part that runs again is named after the run") {
+  const Folder folder;
+  printed(folder, {"run", fig9, "-q"});
+  std::filesystem::rename(folder / "fig09_switching.h5", folder / "cut.h5.part");
+  printed(folder, {"run", "cut.h5.part", "-q"});
+  CHECK(std::filesystem::exists(folder / "cut_again.h5"));
+}
+
+TEST_CASE("several results share one picture: break-aways in the map of statics, runs over the motor torque") {
+  const Folder folder;
+  const std::string forward = shipped("fig08_ramp_07cm_forward.toml"), backward = shipped("fig08_ramp_07cm_backward.toml");
+  printed(folder, {"run", forward, "-q", "-o", "f.h5"});
+  printed(folder, {"run", backward, "-q", "-o", "b.h5"});
+  printed(folder, {"statics", forward, "-q", "-o", "s.h5"});
+  printed(folder, {"plot", "s.h5", "f.h5", "b.h5"});
+  CHECK(std::filesystem::file_size(folder / "s.png") > 10000);
+  printed(folder, {"plot", "f.h5", "b.h5", "--over", "motor_torque", "-o", "over.png"});
+  CHECK(std::filesystem::file_size(folder / "over.png") > 10000);
+
+  const Outcome alone = folder.run({"plot", "f.h5", "b.h5"});
+  CHECK(alone.exit == 2);
+  CHECK(alone.err == "plot: several runs need --over motor_torque, or a statics file first\n");
+  const Outcome missing = folder.run({"plot", "no.h5", "f.h5", "neither.h5"});
+  CHECK(missing.exit == 2);
+  CHECK(missing.err == "neither.h5: error: cannot be read: No such file or directory\n"
+                       "no.h5: error: cannot be read: No such file or directory\n");
+}

@@ -119,7 +119,7 @@ TEST_CASE("on the switching surface both flanks give tau_l/Jg: the acceleration 
     for (const Mode& mode : moving_modes) {
       const auto at = d.moment(0.0, 0.0, sign(mode.motion) * 1.0);
       REQUIRE(std::abs(d.acceleration(at, mode) - tau_l / p.Jg) <= 1e-12 * std::abs(tau_l / p.Jg));
-      REQUIRE(d.normal_force({0.0, {0.0, double(sign(mode.motion))}, mode}) <= 1e-10);
+      REQUIRE(d.observe({0.0, {0.0, double(sign(mode.motion))}, mode}).normal_force <= 1e-10);
     }
   }
 }
@@ -138,8 +138,10 @@ TEST_CASE("a drive mirrored in angle, speed and torques moves as its mirror imag
   Signal mirrored = fig9_motor();
   std::get<Sinusoid>(mirrored.terms[0]).amplitude *= -1.0;
   const Timetable reports(0, 2, 0.01);
-  const auto one = run(drive(table1(), odd, fig9_motor()), reports, {0.0, {0.2, 1.0}, {}});
-  const auto other = run(drive(table1(), odd, mirrored), reports, {0.0, {-0.2, -1.0}, {}});
+  const SolverSettings fine =
+      tight(adams);  // rounding differs, so steps do: below the error of BDF nothing is equal
+  const auto one = run(drive(table1(), odd, fig9_motor()), reports, {0.0, {0.2, 1.0}, {}}, fine);
+  const auto other = run(drive(table1(), odd, mirrored), reports, {0.0, {-0.2, -1.0}, {}}, fine);
   REQUIRE(one.events.size() >= 8);
   REQUIRE(one.events.size() == other.events.size());
   for (std::size_t k = 0; k < one.events.size(); ++k) {
@@ -168,12 +170,12 @@ TEST_CASE("a series along the motion has the derivatives that the equation deman
 
 TEST_CASE("guards are positive inside their mode and name the boundary that ends it") {
   const auto d = entered(table1(), constant(0.3), constant(0.2));
-  const auto moving = d.guards(0.0, {0.0, 1.0}, {Motion::forward, Flank::left});
+  const auto moving = d.guards(d.moment(0.0, 0.0, 1.0), {Motion::forward, Flank::left});
   REQUIRE((moving[0] == 1.0 && moving[1] > 0.0));
-  REQUIRE(d.guards(0.0, {0.0, 1.0}, {Motion::forward, Flank::right})[1] == -moving[1]);
-  REQUIRE(d.guards(0.0, {0.0, 1.0}, {Motion::backward, Flank::left})[0] == -1.0);
+  REQUIRE(d.guards(d.moment(0.0, 0.0, 1.0), {Motion::forward, Flank::right})[1] == -moving[1]);
+  REQUIRE(d.guards(d.moment(0.0, 0.0, 1.0), {Motion::backward, Flank::left})[0] == -1.0);
   const auto held = entered(table1(), constant(0.3), constant(0.0));
-  for (double margin : held.guards(0.0, {0.0, 0.0}, {})) REQUIRE(margin > 0.0);
+  for (double margin : held.guards(held.moment(0.0, 0.0, 0.0), {})) REQUIRE(margin > 0.0);
 
   REQUIRE(GravityDrive::guard_name({}, GravityDrive::forward_guard) == "forward break-in");
   REQUIRE(GravityDrive::guard_name({}, GravityDrive::backward_guard) == "backward break-in");

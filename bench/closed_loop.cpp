@@ -1,0 +1,189 @@
+// How fast is the closed loop of fig. 10 at equal accuracy: the sliding controller samples, its torque is held, events
+// between samples are found. The controller is the code of control/ for every contender, the bare loop included.
+#include "control/closed_loop.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <boost/numeric/odeint.hpp>
+#include <fmt/format.h>
+
+#include "bench/bare_loop.hpp"
+#include "bench/contest.hpp"
+#include "bench/hybrid_by_hand.hpp"
+#include "bench/odeint_by_hand.hpp"
+#include "bench/reference.hpp"
+#include "bench/sundials_by_hand.hpp"
+#include "bench/worm_drive.hpp"
+#include "control/sliding.hpp"
+#include "events/cvode_solver.hpp"
+#include "events/simulate.hpp"
+#include "events/taylor_solver.hpp"
+
+namespace bench {
+namespace {
+
+using namespace wormdrive;
+using ByHand = Plant<closed_loop, double>;
+using Torques = std::vector<double>;
+
+constexpr double duration = 10.0;  ///< [s]
+
+/// What the controller sees of a program that is not wormdrive's.
+struct Sensor {
+  struct Instant {
+    double t;
+    std::array<double, 2> x;
+  };
+  static double measured_angle(const Instant& now) { return now.x[0]; }
+};
+
+struct Nobody {
+  void operator()(const ControlRecord&) const {}
+};
+ClosedLoop<SlidingController, Nobody> controller(double period) {
+  const GearMesh<double> mesh = table_1();
+  const NominalModel nominal{
+      .C1 = mesh.C1(), .C2 = mesh.C2(), .Jw_i = mesh.Jw * mesh.i, .Jg = mesh.Jg, .load_torque = 0.0196};
+  const SlidingParameters fig_10{.lambda_c = 30 * pi, .Phi = 0.3, .eta = 30.0};
+  return {SlidingController(fig_10, nominal),
+          wormdrive::Reference{{SinusoidReference{.amplitude = 0.14, .frequency = 2.0}}},
+          SensorSettings{.filter_cutoff = 200.0},
+          SamplingSettings{.period = period},
+          DisturbanceSettings{},
+          Nobody{}};
+}
+
+/// Torques that were recorded, in the place of a controller.
+struct Replay {
+  const Torques& torques;
+  std::size_t next = 0;
+
+  double sample(const auto&, const auto&) { return torques[next++]; }
+};
+
+/// The sampled loop around any program with begin, hold, advance, t and y.
+template <class Loop, class Controller>
+void run_sampled(Loop& loop, double period, Controller control) {
+  const long samples = std::lround(duration / period);
+  loop.begin();
+  for (long k = 0; k < samples; ++k) {
+    const double end = static_cast<double>(k + 1) * period;
+    const Sensor::Instant now{static_cast<double>(loop.t()),
+                              {static_cast<double>(loop.y()[0]), static_cast<double>(loop.y()[1])}};
+    loop.hold(control.sample(Sensor{}, now), end);
+    loop.advance(end, end);
+  }
+}
+
+template <class Loop>
+Outcome outcome(const Loop& loop) {
+  return {static_cast<double>(loop.y()[0]), static_cast<double>(loop.y()[1]), loop.evaluations(), loop.events()};
+}
+
+/// A program for this case alone.
+template <class Loop>
+Contender alone(const char* name, double period, const Torques& torques, bool adjustable = true) {
+  return {name,
+          [&torques, period](double tolerance) {
+            const auto loop = std::make_shared<Loop>(tolerance);
+            return Prepared{[=] {
+                              run_sampled(*loop, period, controller(period));
+                              return outcome(*loop);
+                            },
+                            [=, &torques] {
+                              run_sampled(*loop, period, Replay{torques});
+                              return outcome(*loop);
+                            }};
+          },
+          adjustable};
+}
+template <class Integrator>
+Contender by_hand(const char* name, double period, const Torques& torques) {
+  return alone<HybridByHand<ByHand, Integrator>>(name, period, torques);
+}
+
+template <class Solver>
+struct WithSolver {
+  Drive drive = drive_of(closed_loop);
+  Solver solver;
+
+  WithSolver(Method method, double tolerance) : solver(drive, settings(method, tolerance)) {}
+
+  template <class Controller, class Recorder>
+  Outcome run(double period, Controller control, Recorder&& record) {
+    const long before = solver.statistics().evaluations;
+    const Timetable samples(0.0, duration, never, {period, 0.0});
+    const auto end = simulate(drive, solver, control, samples, Drive::Instant{}, record);
+    return {end.x[0], end.x[1], solver.statistics().evaluations - before, 0};
+  }
+  Outcome live(double period) {
+    return run(period, controller(period), [](const auto&, const auto&) {});
+  }
+  Outcome replay(double period, const Torques& torques) {
+    int events = 0;  // the mode changes while the torque does not
+    double torque = 0.0;
+    Drive::Instant last{};
+    Outcome end = run(period, Replay{torques}, [&](const Drive& now_driven, const Drive::Instant& now) {
+      const double held = now_driven.motor_piece().constant;
+      events += held == torque && now.t == last.t && now.mode != last.mode;
+      torque = held;
+      last = now;
+    });
+    end.events = events;
+    return end;
+  }
+};
+
+template <template <class> class Solver>
+Contender by_wormdrive(const char* name, Method method, double period, const Torques& torques) {
+  return {name, [=, &torques](double tolerance) {
+            const auto program = std::make_shared<WithSolver<Solver<Drive>>>(method, tolerance);
+            return Prepared{[=] { return program->live(period); },
+                            [=, &torques] { return program->replay(period, torques); }};
+          }};
+}
+
+/// The torques that the controller gives a drive without error, and where they lead.
+Outcome reference(double period, Torques& torques) {
+  struct Recording {
+    decltype(controller(0.0)) control;
+    Torques& torques;
+    double sample(const Sensor& sensor, const Sensor::Instant& now) {
+      return torques.emplace_back(control.sample(sensor, now));
+    }
+  };
+  InQuad<closed_loop, 14> run(5e-4);
+  run_sampled(run, period, Recording{controller(period), torques});
+  return outcome(run);
+}
+
+void contest(double period, const Options& chosen) {
+  namespace odeint = boost::numeric::odeint;
+  Torques torques;
+  const Outcome end = reference(period, torques);
+  const auto title = fmt::format("closed loop, {} s at {} kHz", duration, 1e-3 / period);
+  hold({title,
+        1e-9 * duration / period,
+        "ns per sample",
+        end,
+        {by_hand<CvodeByHand<ByHand, false>>("CVODE Adams by hand", period, torques),
+         by_hand<CvodeByHand<ByHand, true>>("CVODE BDF by hand", period, torques),
+         by_hand<ErkstepByHand<ByHand, 5>>("ERKStep by hand", period, torques),
+         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_dopri5>>("odeint dopri5 by hand", period, torques),
+         by_hand<OdeintByHand<ByHand, odeint::runge_kutta_cash_karp54>>("odeint cash-karp by hand", period, torques),
+         by_wormdrive<CvodeSolver>("cvode Adams", Method::adams, period, torques),
+         by_wormdrive<CvodeSolver>("cvode BDF", Method::bdf, period, torques),
+         by_wormdrive<TaylorSolver>("taylor", Method::adams, period, torques),
+         alone<BareLoop>("bare loop, no events", period, torques, false)}},
+       chosen);
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+  const bench::Options chosen = bench::options(argc, argv);
+  for (const double period : {1e-3, 1e-4}) bench::contest(period, chosen);
+}
