@@ -86,6 +86,7 @@ std::string describe_audit(const AuditReport& report, const Scenario& scenario) 
 }
 
 std::string describe_solver(const RunSettings& run) {
+  if (run.solver == SolverKind::taylor) return fmt::format("taylor (rtol {:g})", run.relative_tolerance);
   return fmt::format("cvode ({}, rtol {:g})", run.method == Method::bdf ? "BDF" : "Adams", run.relative_tolerance);
 }
 

@@ -23,7 +23,7 @@ std::string describe_events(const RunSummary& summary);
 /// "26 guards, 12 events, 0 missed; closest graze 0.03 rad/s at 1.413 s"
 std::string describe_audit(const AuditReport& report, const Scenario& scenario);
 
-/// "cvode (BDF, rtol 1e-12)"
+/// "cvode (BDF, rtol 1e-12)", "taylor (rtol 1e-12)"
 std::string describe_solver(const RunSettings& run);
 
 /// Prints "  label    text", wrapped text indented under itself.

@@ -23,7 +23,14 @@ template <class F>
 std::optional<double> falling_crossing(F&& f, double a, const Series<double, 1>& left, double b,
                                        const Series<double, 1>& right) {
   const auto value = [&](double t) { return f(t)[0]; };
-  if (right[0] < 0.0) return root_between(value, a, left[0], b, right[0]);
+  if (right[0] < 0.0) {
+    if (left[0] > 0.0) return root_between(value, a, left[0], b, right[0]);
+    if (left[1] <= 0.0) return a;
+    // begins at zero, to rounding, and rises first: it falls behind its highest point
+    const double highest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);
+    const double height = value(highest);
+    return height > 0.0 ? root_between(value, highest, height, b, right[0]) : a;
+  }
   if (left[1] >= 0.0 || right[1] <= 0.0) return std::nullopt;
   // falls at a, rises at b: the lowest point lies between
   const double lowest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);

@@ -21,7 +21,8 @@ inline LimitedPiece limited(const Piece& raw, double limit, double t) {
   const auto ahead = [&](double at) { return raw(Series<double, 1>::variable(at)); };
   const Series<double, 1> now = ahead(t);
   const double side = now[0] < 0.0 ? -1.0 : 1.0;
-  const bool cut = side * now[0] > limit || (side * now[0] == limit && side * now[1] > 0.0);
+  // Entered where the piece reaches the limit, rounding leaves it on either side: its slope decides.
+  const bool cut = sign_just_after(side * now - Series<double, 1>(limit), 1e-11) > 0;
   // Positive while this state of affairs lasts.
   const auto lasts = [&](double sign) {
     return [&ahead, sign, limit, cut](double at) {

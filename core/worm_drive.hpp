@@ -93,7 +93,6 @@ class WormDrive {
     return {t, theta_g, omega_g, mesh_.i * omega_g};
   }
   Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1]); }
-
   /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
   template <class S>
   struct SideTorques {
@@ -118,8 +117,7 @@ class WormDrive {
   }
 
   State derivative(double t, const State& x, Mode mode) const {
-    if (mode.motion == Motion::stuck) return State::Zero();
-    return {x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
+    return {mode.motion == Motion::stuck ? T(0) : x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
   }
 
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
@@ -161,9 +159,6 @@ class WormDrive {
     return {speed, -T(sign(mode.flank)) * beyond_surface(at, mode.motion)};
   }
 
-  std::array<T, guard_count> guards(double t, const State& x, Mode mode) const {
-    return guards(moment(T(t), x[0], x[1]), mode);
-  }
   /// Values and rates of the guards along the motion.
   std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
     // what ahead<1> finds, without the rate of the acceleration, which would be thrown away
@@ -236,9 +231,11 @@ class WormDrive {
   }
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
   /// better than the square root of epsilon in its period; still far below anything mechanical.
-  double instant() const {
-    const double omega = fastest_input();
-    return omega > 0.0 ? std::max(1e-11, 1e-7 / omega) : 1e-11;
+  double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
+  /// Whether a balance of torques [N m] keeps its sign for an instant, none of them changing by its size within 10 us.
+  bool lasts(const T& balance, const SideTorques<T>& tau) const {
+    using std::abs;
+    return abs(balance) > T(1e5 * instant()) * (abs(tau.worm) + abs(surface() * tau.gear));
   }
   static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
@@ -253,17 +250,22 @@ class WormDrive {
     return beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
 
-  /// Whether the gear starts from rest in this direction: the acceleration it would have points that way, now or,
-  /// where it is zero, just after now.
+  /// Whether the gear starts from rest in this direction: by its acceleration now or, where that is zero, just after.
   bool starts(const Instant& now, Motion motion) const {
-    const auto a = release_acceleration(ahead<order>({now.t, {now.x[0], T(0)}, {}}), motion);
+    const Instant rest{now.t, {now.x[0], T(0)}, {}};
+    const T a_now = release_acceleration(moment(rest), motion);
+    if (lasts(a_now * Jw_i_, side_torques(moment(rest), motion))) return (a_now > T(0)) == (motion == Motion::forward);
+    const auto a = release_acceleration(ahead<order>(rest), motion);
     return a[0] != T(0) && sign_just_after(a, instant()) == sign(motion);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
   Mode moving(const Instant& now, Motion motion) const {
     if (!mesh_.has_teeth) return {motion, Flank::none};
-    const Flank now_on = flank_at(beyond_surface(moment(now), motion));
+    const SideTorques<T> tau = side_torques(moment(now), motion);
+    const T distance = tau.worm - surface() * tau.gear;
+    const Flank now_on = flank_at(distance);
+    if (lasts(distance, tau)) return {motion, now_on};
     const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}}), motion);
     return {motion, sign_just_after(beyond, instant()) > 0 ? Flank::right : Flank::left};
   }

@@ -173,7 +173,7 @@ class Audit {
     constexpr double never = std::numeric_limits<double>::infinity();
     const Cubic cubic(left, right, t1 - t0);
     if (right[0] <= 0.0) return left[0] <= 0.0 ? t0 : t0 + cubic.root(t1 - t0);
-    if (!(left[1] < 0.0 && right[1] > 0.0)) return never;
+    if (!(left[1] < 0.0 && right[1] >= 0.0)) return never;
     const double s = cubic.lowest(t1 - t0), lowest = cubic(s);
     if (lowest <= 0.0) return left[0] <= 0.0 ? t0 : t0 + cubic.root(s);
     Graze& closest = report_.closest[static_cast<std::size_t>(g)];

@@ -1,8 +1,7 @@
 #include "events/polynomial_root.hpp"
 
+#include <algorithm>
 #include <cmath>
-
-#include "events/taylor_expansion.hpp"
 
 namespace wormdrive {
 namespace {
@@ -126,8 +125,9 @@ std::optional<double> RootSearch::fall_within(Polynomial c, double h) {
     const Sample there(c, s);
     (there.value > 0.0 ? above : below) = s;
     const double newton = s - there.value / there.slope;
-    if (std::abs(there.value) <= precision * there.size) return std::clamp(newton, above, below);
-    if (std::abs(newton - s) <= precision * h || below - above <= precision * h) return std::clamp(newton, above, below);
+    if (std::abs(there.value) <= precision * there.size) return s;  // at a double root the slope is no guide any more
+    if (std::abs(newton - s) <= precision * h || below - above <= precision * h)
+      return std::clamp(newton, above, below);
     s = newton > above && newton < below ? newton : 0.5 * (above + below);
   }
   return below;

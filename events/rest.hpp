@@ -33,6 +33,8 @@ class RestWatch {
       if (left[g][0] <= 0.0 && left[g][1] < 0.0) return Crossing{now_.t, g};  // though rounding put it a hair below
       armed[g] = left[g][0] >= 0.0;
     }
+    // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
+    if (system_.fastest_input() == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
     const double step = step_for(end);
     for (double a = now_.t; a < end;) {
       const double b = a + step > a ? std::min(end, a + step) : end;  // within an ulp of a report there is one step
@@ -61,6 +63,10 @@ class RestWatch {
     for (const auto& guard : guards)
       if (!std::isfinite(guard[0])) throw SolverFault("a guard of the state of rest is not a finite number");
     return guards;
+  }
+
+  static bool steady(const Guards& guards) {
+    return std::all_of(guards.begin(), guards.end(), [](const auto& guard) { return guard[1] == 0.0; });
   }
 
   /// Short against the fastest input, so that a guard turns at most once within a step.

@@ -3,6 +3,12 @@
 
 namespace wormdrive {
 
+enum class SolverKind {
+  cvode,   ///< SUNDIALS CVODE, the referee
+  taylor,  ///< power series, the fast path
+};
+
+/// How CVODE integrates.
 enum class Method {
   bdf,    ///< backward differentiation with Newton and the exact Jacobian
   adams,  ///< Adams-Moulton with fixed-point iteration
@@ -10,6 +16,7 @@ enum class Method {
 
 /// How a solver integrates between events.
 struct SolverSettings {
+  SolverKind solver = SolverKind::cvode;
   Method method = Method::bdf;
   double relative_tolerance = 1e-10;
   double absolute_tolerance = 1e-12;  ///< of the angle [rad] and of the speed [rad/s]

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
-#include "events/polynomial_root.hpp"
 #include "events/solver_settings.hpp"
 #include "events/taylor_expansion.hpp"
 
@@ -19,66 +19,72 @@ inline double rough_exp2(double y) {
 /// How far a power series is carried, and over which step.
 ///
 /// The tolerances are errors per second of simulated time, so that the error of a run does not depend on into how
-/// many steps reports and samples cut it.
-struct TaylorAccuracy {
-  double absolute;  ///< of the speed [rad/s]
-  double relative;
-  int order;        ///< of the speed, where the step is free
-
+/// many steps samples and inputs cut it.
+class TaylorAccuracy {
+ public:
   explicit TaylorAccuracy(const SolverSettings& settings)
-      : absolute(std::max(settings.absolute_tolerance, 1e-18)),
-        relative(std::max(settings.relative_tolerance, 1e-16)),
-        order(std::clamp(static_cast<int>(std::ceil(2.0 - 0.35 * std::ilogb(relative))), 8, highest_order - 1)) { if (getenv("ORD")) order=atoi(getenv("ORD"));}
+      : absolute_(std::max(settings.absolute_tolerance, 1e-18)),
+        relative_(std::max(settings.relative_tolerance, 1e-16)),
+        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), window + 2, highest_order)) {}
 
   /// Error of the speed [rad/s] that a second may bring.
-  double allowed(double speed) const { return absolute + relative * std::abs(speed); }
+  double allowed(double speed) const { return absolute_ + relative_ * std::abs(speed); }
+  /// The same for a quantity of which the terms of its series add up to this size.
+  double relative() const { return relative_; }
+  /// The order with the least work where the step is free: it grows with the digits that are asked for.
+  int order() const { return order_; }
 
+  /// Whether the last terms of speed and guards are negligible over a step of h.
+  template <class Expansion>
+  bool suffices(const Expansion& e, double h) const {
+    if (e.order < window + 2) return false;
+    double power = h;
+    for (int k = 2; k <= e.order - window; ++k) power *= h;
+    for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
+      if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0]))) return false;
+    for (std::size_t g = 0; g < e.guards.size(); ++g)
+      if (guard_step(e.guard(static_cast<int>(g)), h) < h) return false;
+    return true;
+  }
+
+  /// The step within h over which the series suffices.
+  template <class Expansion>
+  double step(const Expansion& e, double h) const {
+    const double allowed_log2 = rough_log2(allowed(e.omega[0]));
+    double log2_step = rough_log2(h);
+    for (int k = e.order - window + 1; k <= e.order; ++k) {
+      // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
+      const double size = rough_log2(std::abs(e.omega[k]));
+      log2_step = std::min(log2_step, (allowed_log2 + 4.0 * (e.order - k) - size) / (k - 1));
+    }
+    h = std::min(h, rough_exp2(log2_step));
+    double shortest = h;
+    for (std::size_t g = 0; g < e.guards.size(); ++g)
+      shortest = std::min(shortest, guard_step(e.guard(static_cast<int>(g)), h));
+    return shortest;
+  }
+
+ private:
   /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
   static constexpr int window = 6;
 
-  static constexpr auto per_root = [] {
-    std::array<double, most_coefficients> r{};
-    for (std::size_t k = 1; k < r.size(); ++k) r[k] = 1.0 / static_cast<double>(k);
-    return r;
-  }();
-
-  /// The step within h over which the last terms of the speed stay below what is allowed.
-  double step(Polynomial omega, double h) const {
-    const int n = static_cast<int>(omega.size()) - 1;
-    const double allowed_log2 = rough_log2(allowed(omega[0]));
-    double log2_step = rough_log2(h);
-    for (int j = std::max(2, n + 1 - window); j <= n; ++j) {
-      // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
-      const double size = rough_log2(std::abs(omega[static_cast<std::size_t>(j)]));
-      log2_step = std::min(log2_step, (allowed_log2 + 4.0 * (n - j) - size) * per_root[static_cast<std::size_t>(j - 1)]);
+  /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
+  /// the guard may only touch zero, would show as two events.
+  static double guard_step(Polynomial guard, double h) {
+    if (stays_positive(guard, h)) return h;
+    double size = 0.0, last = 0.0, before = 0.0, power = 1.0;
+    for (const double c : guard) {
+      before = last;
+      size += last = std::abs(c) * power;
+      power *= h;
     }
-    return std::min(h, rough_exp2(log2_step));
+    const double excess = std::max(before, last) / (4.0 * std::numeric_limits<double>::epsilon() * size);
+    return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / static_cast<double>(guard.size() - 2)) : h;
   }
 
-  /// A step within h over which the last two terms of a guard are negligible next to the others.
-  double step_of_guard(Polynomial guard, double h) const {
-    for (int shorter = 0; shorter < 16; ++shorter, h *= 0.8) {
-      double sum = 0.0, last = 0.0, before = 0.0, power = 1.0;
-      for (const double c : guard) {
-        before = last;
-        sum += last = std::abs(c) * power;
-        power *= h;
-      }
-      if (!(std::max(before, last) > relative * sum)) break;
-    }
-    return h;
-  }
-
-  /// Whether the last terms of the speed are below what is allowed over a step of h.
-  bool suffices(Polynomial omega, double h) const {
-    const int n = static_cast<int>(omega.size()) - 1;
-    if (n < window + 1) return false;
-    double power = h;
-    for (int j = 3; j <= n - window + 1; ++j) power *= h;
-    for (int j = n - window + 1; j <= n; ++j, power *= h)  // power = h^(j-1)
-      if (!(std::abs(omega[static_cast<std::size_t>(j)]) * power <= allowed(omega[0]))) return false;
-    return true;
-  }
+  double absolute_;  ///< of the speed [rad/s]
+  double relative_;
+  int order_;
 };
 
 }  // namespace wormdrive

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstddef>
 
-#include "events/taylor_expansion.hpp"
+#include "events/polynomial.hpp"
 
 namespace wormdrive {
 

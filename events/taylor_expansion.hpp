@@ -2,15 +2,9 @@
 #include <array>
 #include <cstddef>
 
-#include "events/polynomial_root.hpp"
+#include "events/polynomial.hpp"
 
 namespace wormdrive {
-
-inline constexpr int highest_order = 24;  ///< of a power series of the speed
-inline constexpr std::size_t most_coefficients = highest_order + 2;
-
-/// One power series in the time since a step began.
-using Coefficients = std::array<double, most_coefficients>;
 
 /// The motion over one step: gear angle [rad], gear speed [rad/s] and guards as polynomials.
 template <int guard_count>

@@ -12,37 +12,32 @@ namespace wormdrive {
 /// - drag theta', and the distance from the switching surface is beyond - lift cos(theta + offset) - skew theta'.
 /// All in SI.
 struct HeldMotion {
-  double motion = 0.0, flank = 0.0;  ///< +1, -1 or (flank) 0
-  double per_torque = 0.0;           ///< push of a motor torque of 1 N m
-  double steady = 0.0;               ///< push of dry friction and of a constant load
-  double gravity = 0.0, offset = 0.0, drag = 0.0;
-  double short_of = 0.0;             ///< by how much less than the motor torque beyond is
-  double lift = 0.0, skew = 0.0;
+  double motion, flank;  ///< +1, -1 or (flank) 0
+  double push, gravity, offset, drag;
+  double beyond, lift, skew;
 
-  /// Moves angle and speed on by h in one step under a motor torque, if it is certain beforehand that no guard falls through zero in it and
+  /// Moves angle and speed on by h in one step, if it is certain beforehand that no guard falls through zero in it and
   /// how far the series must go. False otherwise; then nothing has changed.
   template <bool swings>
-  bool leap(double& theta, double& omega, double h, double torque, const TaylorAccuracy& accuracy) const {
-    const double push = torque * per_torque;
+  bool leap(double& theta, double& omega, double h, const TaylorAccuracy& accuracy) const {
     // Bounds of acceleration and speed within the step; friction cannot raise either by more than (1 - drag h)^-1.
     const double damping = std::abs(drag), v = std::abs(omega), slowing = damping * h;
-    const double alpha = (std::abs(push + steady) + std::abs(gravity) + damping * v) * (above_one + 2.0 * slowing);
+    const double alpha = (std::abs(push) + std::abs(gravity) + damping * v) * (above_one + 2.0 * slowing);
     const double change = alpha * h, fastest = v + change;
-    if (slowing > 0.5) return false;
+    if (!(slowing <= 0.5)) return false;
     // The speed keeps its sign if it is large enough, or if nothing can turn the acceleration against it.
-    if (!(motion * omega > change) &&
-        !(motion * omega >= 0.0 && motion * (push + steady) > (std::abs(gravity) + damping * fastest) * above_one))
+    const bool fast = motion * omega > change;
+    if (!fast && !(motion * omega >= 0.0 && motion * push > (std::abs(gravity) + damping * fastest) * above_one))
       return false;
     SineAndCosine arm{0.0, 0.0};
     if constexpr (swings) arm = sine_and_cosine(theta + offset);
     if (flank != 0.0) {
-      const double distance = -flank * ((torque - short_of) - lift * arm.cosine - skew * omega);
+      const double distance = -flank * (beyond - lift * arm.cosine - skew * omega);
       if (!(distance > std::abs(lift) * fastest * h + std::abs(skew) * change)) return false;
     }
     const double sigma = std::sqrt(fastest * fastest + alpha + damping * damping), reach = h * sigma;
     const double error = (std::abs(gravity) + damping * sigma) * (reach * reach * reach);
-    const double acceleration = push + (steady + gravity * arm.cosine - drag * omega);
-    return follow<4, swings>(theta, omega, acceleration, h, arm, error, reach, accuracy.allowed(fastest));
+    return follow<4, swings>(theta, omega, h, arm, error, reach, accuracy.allowed(fastest));
   }
 
  private:
@@ -51,53 +46,44 @@ struct HeldMotion {
 
   /// The step with the derivatives of the angle up to the N-th or, if they are not enough, to a later one.
   template <int N, bool swings>
-  bool follow(double& theta, double& omega, double acceleration, double h, const SineAndCosine& arm, double error,
-              double reach, double allowed) const {
-    if (error * motion_bounds.remainder(N) > allowed) {
-      if constexpr (N < longest) 
-        return follow<N + 1, swings>(theta, omega, acceleration, h, arm, error * reach, reach, allowed);
+  bool follow(double& theta, double& omega, double h, const SineAndCosine& arm, double error, double reach,
+              double allowed) const {
+    if (!(error * motion_bounds.remainder(N) <= allowed)) {
+      if constexpr (N < longest) return follow<N + 1, swings>(theta, omega, h, arm, error * reach, reach, allowed);
       return false;
     }
     std::array<double, N + 1> x;         // derivatives of the angle
     std::array<double, N> cosine, sine;  // and of the arm's height and reach
-    x[1] = omega;
-    x[2] = acceleration;
     cosine[0] = arm.cosine;
     sine[0] = arm.sine;
+    x[1] = omega;
+    x[2] = push + (gravity * cosine[0] - drag * omega);
 #pragma GCC unroll 16
     for (int k = 1; k + 2 <= N; ++k) {
       x[k + 2] = -drag * x[k + 1];
       if constexpr (swings) {
-        // Leibniz's rule for cos' = -theta' sin and sin' = theta' cos; the factors that are known last come last.
-        double falls = x[1] * sine[k - 1], rises = x[1] * cosine[k - 1];
-        if (k > 1) {
-          double binomial = k - 1;  // k - 1 over j - 1
-          double more_falls = binomial * x[2] * sine[k - 2], more_rises = binomial * x[2] * cosine[k - 2];
+        // Leibniz's rule for cos' = -theta' sin and sin' = theta' cos; the factor that is known last comes last.
+        double falls = 0.0, rises = 0.0, binomial = 1.0;  // k - 1 over j - 1
 #pragma GCC unroll 16
-          for (int j = 3; j <= k; ++j) {
-            binomial = binomial * (k - j + 1) / (j - 1);
-            more_falls += binomial * x[j] * sine[k - j];
-            more_rises += binomial * x[j] * cosine[k - j];
-          }
-          falls = more_falls + falls;
-          rises = more_rises + rises;
+        for (int j = k; j >= 1; --j) {
+          falls += binomial * x[j] * sine[k - j];
+          rises += binomial * x[j] * cosine[k - j];
+          binomial = binomial * (j - 1) / (k - j + 1);
         }
         cosine[k] = -falls;
         sine[k] = rises;
-        x[k + 2] = -gravity * falls + x[k + 2];
+        x[k + 2] -= gravity * falls;
       }
     }
-    const double half = 0.5 * h * h;
-    double weight = half * (h * (1.0 / 3.0));  // h^k / k!
-    double speed = x[3] * half, angle = x[3] * weight;
+    double weight = h, speed = 0.0, angle = 0.0;  // h^k / k!
 #pragma GCC unroll 16
-    for (int k = 3; k < N; ++k) {
+    for (int k = 1; k < N; ++k) {
       speed += x[k + 1] * weight;
       weight *= h * (1.0 / (k + 1));
       angle += x[k + 1] * weight;
     }
-    theta += omega * h + (x[2] * half + angle);
-    omega += x[2] * h + speed;
+    theta += omega * h + angle;
+    omega += speed;
     return true;
   }
 };

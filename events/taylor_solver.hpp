@@ -2,23 +2,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <type_traits>
 
 #include "events/halt.hpp"
 #include "events/polynomial_root.hpp"
 #include "events/solver_settings.hpp"
-#include "events/taylor_flow.hpp"
 #include "events/taylor_nominal.hpp"
+#include "events/taylor_series.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {
 
 /// Power series of the motion and of the guards, to an order and over a step that the tolerances decide: within a step
-/// everything is a polynomial, so an event is the first root of one and cannot hide between two steps.
-///
-/// Between calls nothing is kept but which guards have been positive since the restart.
+/// everything is a polynomial, so an event is the first root of one and cannot hide between two steps. Reports are
+/// values of these polynomials and do not cut the steps.
 template <class System>
 class TaylorSolver {
  public:
@@ -32,22 +29,25 @@ class TaylorSolver {
   void restart(const Instant& now) {
     ++count_.restarts;
     armed_.fill(false);
-    if (nominal_.covers()) nominal_.begin(system_, now);
-    else traced_.begin(system_, now);
+    end_ = now.t;
+    fired_.reset();
+    if constexpr (NominalFlow<System>::known) nominal_.begin(now);
   }
 
-  /// Integrates to next, past which nothing is evaluated; returns the guard that stopped it earlier.
-  std::optional<int> advance(Instant& now, double next, double /*limit*/) {
+  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier.
+  std::optional<int> advance(Instant& now, double next, double limit) {
     while (!already_there(now.t, next)) {
-      if constexpr (ClosedForm<System>::known) {
-        if (nominal_.covers() && next - now.t <= max_step_ && nominal_.leap(now, next, accuracy_)) {
-          ++count_.steps;
-          ++count_.evaluations;
-          armed_.fill(true);
-          return std::nullopt;
+      if (now.t >= end_) {
+        begin_ = now;
+        if (leap(now, limit)) {
+          if (next == limit) break;
+          there_ = now;
+        } else {
+          step(now, limit);
         }
       }
-      if (const auto guard = step(now, next)) return guard;
+      now = at(std::min(next, end_));
+      if (fired_ && now.t == end_) return fired_;
     }
     now.t = next;
     return std::nullopt;
@@ -61,10 +61,39 @@ class TaylorSolver {
   }
 
  private:
-  std::optional<int> step(Instant& now, double next) {
-    const double h = std::min(next - now.t, max_step_);
-    if (nominal_.covers()) nominal_.expand(system_, now, h, accuracy_, series_);
-    else traced_.expand(system_, now, h, accuracy_, series_);
+  /// Goes on to the limit without a search for events, where the nominal flow can vouch for it.
+  bool leap(Instant& now, double limit) {
+    leapt_ = false;
+    if constexpr (NominalFlow<System>::known) {
+      if (limit - now.t > max_step_ || !nominal_.covers()) return false;
+      if (!nominal_.leap(now, limit, accuracy_)) return false;
+      ++count_.steps;
+      ++count_.evaluations;
+      end_ = limit;
+      leapt_ = true;
+      armed_.fill(true);
+    }
+    return leapt_;
+  }
+
+  /// The motion at a time of the present step.
+  Instant at(double t) const {
+    if constexpr (NominalFlow<System>::known) {
+      if (leapt_ && t == end_) return there_;
+      if (leapt_) {
+        Instant then = begin_;
+        nominal_.leap(then, t, accuracy_);  // what it vouched for up to the end it vouches for on the way
+        return then;
+      }
+    }
+    const double s = t - begin_.t;
+    return {t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode};
+  }
+
+  /// The polynomials from now on to the first event, or to as far as they are accurate.
+  void step(const Instant& now, double limit) {
+    const double h = std::min(limit - now.t, max_step_);
+    expand(now, h);
     ++count_.steps;
     ++count_.evaluations;
     if (!std::isfinite(series_.omega[1]) || !std::isfinite(series_.omega[series_.order]))
@@ -72,24 +101,24 @@ class TaylorSolver {
     if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest();
 
     // The end of the step is a double, and the step ends there exactly.
-    double end = series_.step < next - now.t ? std::min(now.t + series_.step, next) : next;
-    if (end == now.t) {
-      if (++stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
-      end = std::nextafter(now.t, next);
-    } else {
-      stalled_ = 0;
-    }
-    std::optional<int> fired;
+    end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
+    stalled_ = end_ == now.t ? stalled_ + 1 : 0;
+    if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
+    if (end_ == now.t) end_ = std::nextafter(now.t, limit);
+    fired_.reset();
     for (int g = 0; g < System::guard_count; ++g) {
-      const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end - now.t, armed_[g]);
+      const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end_ - now.t, armed_[g]);
       armed_[g] = armed_[g] || fall.armed;
-      if (!fall.at || (fired && now.t + *fall.at >= end)) continue;
-      end = time_of(g, now.t, *fall.at, end);
-      fired = g;
+      if (!fall.at || (fired_ && now.t + *fall.at >= end_)) continue;
+      end_ = std::min(now.t + *fall.at, end_);
+      fired_ = g;
     }
-    const double s = end - now.t;
-    now = {end, {value(series_.angle(), s), value(series_.speed(), s)}, now.mode};
-    return fired;
+  }
+
+  void expand(const Instant& now, double h) {
+    if constexpr (NominalFlow<System>::known)
+      if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
+    SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
   }
 
   /// Motion from rest: what the start holds of speed and acceleration is rounding, and would point anywhere.
@@ -99,22 +128,18 @@ class TaylorSolver {
       series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
   }
 
-  /// The first double at which a guard is no longer positive, for a root at s after t.
-  double time_of(int g, double t, double s, double end) const {
-    double then = std::min(t + s, end);
-    for (int ulp = 0; ulp < 4 && then < end && value(series_.guard(g), then - t) > 0.0; ++ulp)
-      then = std::nextafter(then, end);
-    return then;
-  }
-
   static constexpr int most_stalled = 1000;
 
   const System& system_;
   TaylorAccuracy accuracy_;
   double max_step_;
-  typename ClosedForm<System>::Flow nominal_;
-  TracedFlow<System> traced_;
+  NominalFlow<System> nominal_;
   Expansion<System::guard_count> series_;
+  Instant begin_{};     ///< of the present step
+  double end_ = 0.0;    ///< of the present step [s]
+  bool leapt_ = false;  ///< the step is a leap to there_; else series_ describes it
+  Instant there_{};
+  std::optional<int> fired_;  ///< the guard that falls through zero at the end
   RootSearch search_;
   std::array<bool, System::guard_count> armed_{};
   int stalled_ = 0;

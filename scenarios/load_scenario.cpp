@@ -100,6 +100,8 @@ class ScenarioReader {
     if (purpose == Purpose::look && !root_.has("run")) return;
     section("run", [&](TableReader& run) {
       run.read_fields(scenario_.run);
+      if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
+        scenario_.run.solver = SolverKind::taylor;
       scenario_.run.method = run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
       if (duration > 0.0 && every > duration)

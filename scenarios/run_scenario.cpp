@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
+#include "events/solvers.hpp"
 #include "scenarios/build.hpp"
 
 namespace wormdrive {
@@ -11,10 +11,8 @@ namespace {
 
 constexpr std::size_t portion = 4096;  ///< rows handed over at a time, one chunk of the result file
 
-template <class Drive>
-RunSummary run(Drive& drive, const Scenario& scenario, const RunListeners& listeners) {
-  using Solver = CvodeSolver<Drive>;
-  Solver solver(drive, scenario.run.solver());
+template <class Drive, class Solver>
+RunSummary run(Drive& drive, Solver& solver, const Scenario& scenario, const RunListeners& listeners) {
   TrajectoryRecorder recorder;
   AuditTrail<Drive, Solver> trail{solver};
   RunSummary summary;
@@ -49,7 +47,10 @@ RunSummary run(Drive& drive, const Scenario& scenario, const RunListeners& liste
 }  // namespace
 
 RunSummary run_scenario(const Scenario& scenario, const RunListeners& listeners) {
-  return with_drive(scenario, [&](auto& drive) { return run(drive, scenario, listeners); });
+  return with_drive(scenario, [&](auto& drive) {
+    return with_solver(drive, scenario.run.solver_settings(),
+                       [&](auto& solver) { return run(drive, solver, scenario, listeners); });
+  });
 }
 
 Trajectory simulate_scenario(const Scenario& scenario) {

@@ -26,7 +26,8 @@ struct RunSummary {
   long total_events() const { return events[0] + events[1] + events[2] + events[3]; }
 };
 
-/// Simulates a scenario with CVODE. Throws Halt if it cannot go on, after handing over what there is.
+/// Simulates a scenario with the solver that it names. Throws Halt if it cannot go on, after handing over what there
+/// is.
 RunSummary run_scenario(const Scenario& scenario, const RunListeners& listeners = {});
 
 /// The whole run in memory.

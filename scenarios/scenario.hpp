@@ -43,6 +43,7 @@ struct RunSettings {
   double relative_tolerance{1e-10};
   std::optional<double> absolute_tolerance{};  ///< [rad and rad/s]; a hundredth of the relative one if not stated
   double max_step{std::numeric_limits<double>::infinity()};  ///< [s]
+  SolverKind solver = SolverKind::cvode;
   Method method = Method::bdf;
 
   static constexpr auto fields() {
@@ -52,17 +53,18 @@ struct RunSettings {
         Field{&P::report_interval, "report_interval", unit::second, bounds::positive,
               "time between two rows of the result; duration / 1000 if not stated", Presence::optional},
         Field{&P::relative_tolerance, "relative_tolerance", unit::none, bounds::between(1e-14, 1e-2),
-              "relative error allowed in one step", Presence::optional},
+              "relative error allowed in one step; of taylor, in a second", Presence::optional},
         Field{&P::absolute_tolerance, "absolute_tolerance", unit::none, bounds::positive,
-              "absolute error allowed in one step, in rad and rad/s; relative_tolerance / 100 if not stated",
+              "absolute error allowed in one step, of taylor in a second, in rad and rad/s; relative_tolerance / 100 if "
+              "not stated",
               Presence::optional},
         Field{&P::max_step, "max_step", unit::second, bounds::positive, "longest step of the solver",
               Presence::optional}};
   }
 
   double rows_every() const { return report_interval.value_or(duration / 1000.0); }
-  SolverSettings solver() const {
-    return {method, relative_tolerance, absolute_tolerance.value_or(0.01 * relative_tolerance), max_step};
+  SolverSettings solver_settings() const {
+    return {solver, method, relative_tolerance, absolute_tolerance.value_or(0.01 * relative_tolerance), max_step};
   }
 };
 

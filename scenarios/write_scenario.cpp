@@ -123,6 +123,7 @@ std::string to_toml(const Scenario& scenario) {
   out.table("[initial]");
   out.fields(scenario.initial);
   out.table("[run]");
+  out.text("solver", scenario.run.solver == SolverKind::taylor ? "taylor" : "cvode");
   out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
   out.fields(scenario.run);
   return out.take();

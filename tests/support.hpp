@@ -13,8 +13,8 @@
 #include "core/load.hpp"
 #include "core/unit.hpp"
 #include "core/worm_drive.hpp"
-#include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
+#include "events/solvers.hpp"
 
 namespace wormdrive::test {
 
@@ -126,24 +126,42 @@ struct Run {
   }
 };
 
-inline SolverSettings tight(Method method = Method::bdf, double relative = 1e-13) {
-  return {.method = method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
+/// By which solver a test runs.
+struct By {
+  SolverKind solver;
+  Method method = Method::bdf;
+};
+inline constexpr By bdf{SolverKind::cvode, Method::bdf}, adams{SolverKind::cvode, Method::adams},
+    taylor{SolverKind::taylor};
+inline constexpr By every_solver[] = {bdf, adams, taylor};
+
+inline SolverSettings tight(By by = bdf, double relative = 1e-13) {
+  return {
+      .solver = by.solver, .method = by.method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
 }
 
+template <class System, class Controller>
+Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
+                const SolverSettings& settings, Controller& controller) {
+  Run<System> result;
+  with_solver(system, settings, [&](auto& solver) {
+    const auto record = [&](const System& s, const typename System::Instant& now) {
+      if (!result.rows.empty()) {
+        const auto& last = result.rows.back().now;
+        if (last.t == now.t && last.mode != now.mode) result.events.push_back({last, now});
+      }
+      result.rows.push_back({now, s.observe(now)});
+    };
+    result.end = simulate(system, solver, controller, timetable, from, record);
+    result.statistics = solver.statistics();
+  });
+  return result;
+}
 template <class System>
 Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
                 const SolverSettings& settings = tight()) {
-  CvodeSolver<System> solver(system, settings);
-  Run<System> result;
-  result.end = simulate(system, solver, timetable, from, [&](const System& s, const typename System::Instant& now) {
-    if (!result.rows.empty()) {
-      const auto& last = result.rows.back().now;
-      if (last.t == now.t && last.mode != now.mode) result.events.push_back({last, now});
-    }
-    result.rows.push_back({now, s.observe(now)});
-  });
-  result.statistics = solver.statistics();
-  return result;
+  NoController nobody;
+  return run(std::move(system), timetable, from, settings, nobody);
 }
 
 // ---- reference data ---------------------------------------------------------------------------------------------

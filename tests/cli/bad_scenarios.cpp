@@ -133,6 +133,7 @@ TEST_CASE("a value out of its bounds is told with unit and limits") {
 
 TEST_CASE("a word that is not known is told with those that are") {
   refuse_all(Folder(), {
+      {"solver", with_run("solver = \"euler\""), "s.toml:19:10: error: run.solver = \"euler\" must be one of \"cvode\", \"taylor\""},
       {"method", with_run("method = \"euler\""), "s.toml:19:10: error: run.method = \"euler\" must be one of \"bdf\", \"adams\""},
       {"torque", good_but(motor, "kind = \"sinus\""),
        "s.toml:12:8: error: motor.torque.kind = \"sinus\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\""},

@@ -163,6 +163,13 @@ TEST_CASE("overrides reach nested keys, elements of arrays, and tables that are 
   CHECK(!p.contains("effect.gear_coulomb.torque_Nm"));
 }
 
+TEST_CASE("a run names the solver that the scenario asks for and counts what it did") {
+  const Folder folder;
+  const std::string text = printed(folder, {"run", fig9, "--set", "run.solver=taylor"});
+  CHECK(text.find("2 s with taylor (rtol 1e-12)") != std::string::npos);
+  CHECK(text.find("12 events: 1 break-away, 6 flank changes, 5 reversals") != std::string::npos);
+}
+
 TEST_CASE("overrides take words without quotes, quotes, arrays and elements of arrays of numbers") {
   const Folder folder;
   const auto scenario = [&](const std::vector<std::string>& words) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -84,6 +85,19 @@ TEST_CASE("a run with effects of size zero is bit-identical to a run without the
     REQUIRE(same_bits(without.rows[k].now.x[0], idle.rows[k].now.x[0]));
     REQUIRE(same_bits(without.rows[k].now.x[1], idle.rows[k].now.x[1]));
     REQUIRE(without.rows[k].now.mode == idle.rows[k].now.mode);
+  }
+}
+
+TEST_CASE("a torque limit that cuts only the top of a wave is left where the wave comes back below it") {
+  Piece wave;
+  wave.cosines.push_back({.amplitude = 1.0, .omega = 2.0 * std::numbers::pi, .phase = 0.0});
+  for (double excess : {1e-3, 1e-5, 1e-7}) {
+    const double limit = 1.0 - excess, half = std::acos(limit) / (2.0 * std::numbers::pi);
+    const LimitedPiece before = limited(wave, limit, -0.3), top = limited(wave, limit, before.until);
+    REQUIRE(std::abs(before.until - -half) <= 1e-9);
+    REQUIRE((top.piece.cosines.empty() && top.piece.constant == limit));
+    REQUIRE(std::abs(top.until - half) <= 1e-9);
+    REQUIRE(limited(wave, limit, top.until).piece.cosines.size() == 1);
   }
 }
 

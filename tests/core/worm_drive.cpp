@@ -139,7 +139,7 @@ TEST_CASE("a drive mirrored in angle, speed and torques moves as its mirror imag
   std::get<Sinusoid>(mirrored.terms[0]).amplitude *= -1.0;
   const Timetable reports(0, 2, 0.01);
   // rounding differs and so do the steps: what BDF leaves as error at its tightest is more than is asked for here
-  const SolverSettings fine = tight(Method::adams);
+  const SolverSettings fine = tight(adams);
   const auto one = run(drive(table1(), odd, fig9_motor()), reports, {0.0, {0.2, 1.0}, {}}, fine);
   const auto other = run(drive(table1(), odd, mirrored), reports, {0.0, {-0.2, -1.0}, {}}, fine);
   REQUIRE(one.events.size() >= 8);
@@ -170,12 +170,12 @@ TEST_CASE("a series along the motion has the derivatives that the equation deman
 
 TEST_CASE("guards are positive inside their mode and name the boundary that ends it") {
   const auto d = entered(table1(), constant(0.3), constant(0.2));
-  const auto moving = d.guards(0.0, {0.0, 1.0}, {Motion::forward, Flank::left});
+  const auto moving = d.guards(d.moment(0.0, 0.0, 1.0), {Motion::forward, Flank::left});
   REQUIRE((moving[0] == 1.0 && moving[1] > 0.0));
-  REQUIRE(d.guards(0.0, {0.0, 1.0}, {Motion::forward, Flank::right})[1] == -moving[1]);
-  REQUIRE(d.guards(0.0, {0.0, 1.0}, {Motion::backward, Flank::left})[0] == -1.0);
+  REQUIRE(d.guards(d.moment(0.0, 0.0, 1.0), {Motion::forward, Flank::right})[1] == -moving[1]);
+  REQUIRE(d.guards(d.moment(0.0, 0.0, 1.0), {Motion::backward, Flank::left})[0] == -1.0);
   const auto held = entered(table1(), constant(0.3), constant(0.0));
-  for (double margin : held.guards(0.0, {0.0, 0.0}, {})) REQUIRE(margin > 0.0);
+  for (double margin : held.guards(held.moment(0.0, 0.0, 0.0), {})) REQUIRE(margin > 0.0);
 
   REQUIRE(GravityDrive::guard_name({}, GravityDrive::forward_guard) == "forward break-in");
   REQUIRE(GravityDrive::guard_name({}, GravityDrive::backward_guard) == "backward break-in");

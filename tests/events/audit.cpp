@@ -19,7 +19,7 @@ using Trail = AuditTrail<Drive, CvodeSolver<Drive>>;
 /// Fig. 9 with the record that an audit reads.
 struct Fig9 {
   Drive system = drive(table1(), fig9_load(), fig9_motor());
-  CvodeSolver<Drive> solver{system, tight(Method::bdf, 1e-12)};
+  CvodeSolver<Drive> solver{system, tight(bdf, 1e-12)};
   Trail trail{solver};
 
   Fig9() { simulate(system, solver, Timetable(0, 2, 0.002), {}, trail); }

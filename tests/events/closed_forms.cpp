@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-// Motions whose solution is a formula: every event time and state is compared with it, for both methods of CVODE.
+// Motions whose solution is a formula: every event time and state is compared with it, for every solver.
 
 using namespace wormdrive;
 using namespace wormdrive::test;
@@ -14,7 +14,7 @@ namespace {
 constexpr Mode forward_left{Motion::forward, Flank::left}, forward_right{Motion::forward, Flank::right},
     backward_left{Motion::backward, Flank::left}, backward_right{Motion::backward, Flank::right}, stuck{};
 
-constexpr std::array methods{Method::bdf, Method::adams};
+constexpr auto& methods = every_solver;
 
 double relative(double a, double b) { return (a - b) / b; }
 
@@ -33,7 +33,7 @@ TEST_CASE("a load that brakes the motion stops a self-locking drive for good, at
   const double tau_l = -0.013, omega = 1.7;
   const double alpha = Branch(p, forward_right).acceleration(0.0, tau_l);
   const double stop = -omega / alpha, angle = 0.2 - omega * omega / (2 * alpha);
-  for (Method method : methods) {
+  for (By method : methods) {
     const auto r =
         run(drive(p, constant(tau_l), constant(0.0)), Timetable(0, 5, 0.05), {0.0, {0.2, omega}, {}}, tight(method));
     REQUIRE(r.modes() == std::vector{forward_right, stuck});
@@ -59,7 +59,7 @@ TEST_CASE("a motor torque against the motion decelerates, reverses and accelerat
   const double speeding = Branch(p, backward_left).acceleration(tau_m, 0.0);
   const double turn = -omega / braking;
   const ConstantJerk back{-omega * omega / (2 * braking), 0.0, speeding};
-  for (Method method : methods) {
+  for (By method : methods) {
     const auto r =
         run(drive(p, constant(0.0), constant(tau_m)), Timetable(0, end, 0.05), {0.0, {0.0, omega}, {}}, tight(method));
     REQUIRE(r.modes() == std::vector{forward_left, backward_left});
@@ -85,7 +85,7 @@ TEST_CASE("steps of the torque break away, change the flank in motion, reverse a
                            Branch(p, backward_left).acceleration(tau[3], load)};
   const double stop = 0.7 - fifth.omega / fifth.alpha;
   REQUIRE((turn > 0.3 && turn < 0.7 && stop > 0.7));
-  for (Method method : methods) {
+  for (By method : methods) {
     const auto r = run(drive(p, constant(load), motor), Timetable(0, stop + 1.0, 0.01), {}, tight(method));
     REQUIRE(r.modes() == std::vector{stuck, forward_right, forward_left, backward_left, stuck});
     REQUIRE(r.events[0].after.t == 0.02);
@@ -105,7 +105,7 @@ TEST_CASE("a ramp breaks away at -C1 tau_l, crosses the surface and speeds up al
   const ConstantJerk first{0, 0, 0, rate / low.M};
   const double lasted = crossed - released;
   const ConstantJerk second{first.angle(lasted), first.speed(lasted), load / p.Jg, rate / high.M};
-  for (Method method : methods) {
+  for (By method : methods) {
     const auto r = run(drive(p, constant(load), Signal{{Ramp{rate}}}), Timetable(0, end, 0.05), {}, tight(method));
     REQUIRE(r.modes() == std::vector{stuck, forward_left, forward_right});
     REQUIRE(std::abs(relative(r.events[0].after.t, released)) <= 1e-12);
@@ -120,13 +120,13 @@ TEST_CASE("viscous friction alone lets the speed decay exponentially, on either 
   const double omega = 2.0, end = 0.5, c = 1e-4, cg = 5e-3;
   // the worm's friction holds the worm back: the teeth touch left; the gear's holds the gear back: right
   const Branch left(p, forward_left), right(p, forward_right);
-  const auto decays = [&](const auto& d, double rate, Method method) {
+  const auto decays = [&](const auto& d, double rate, By method) {
     const auto r = run(d, Timetable(0, end, 0.05), {0.0, {0.0, omega}, {}}, tight(method));
     REQUIRE(r.events.empty());
     REQUIRE(std::abs(relative(r.end.x[1], omega * std::exp(-rate * end))) <= 1e-11);
     REQUIRE(std::abs(relative(r.end.x[0], -omega / rate * std::expm1(-rate * end))) <= 1e-11);
   };
-  for (Method method : methods) {
+  for (By method : methods) {
     decays(drive(p, constant(0.0), constant(0.0), effects(WormViscous<double>{c})), c * p.i / left.M, method);
     decays(drive(p, constant(0.0), constant(0.0), effects(GearViscous<double>{cg})), right.C * cg / right.M, method);
     decays(WormDrive(GearMesh<double>::without_teeth(0.02), make_load(constant(0.0)), effects(GearViscous<double>{0.1}),
@@ -140,7 +140,7 @@ TEST_CASE("under gravity the energy integral of one mode is constant from its fi
   GravityArm arm = fig9_load();
   arm.offset = 0.4;
   const double tau_m = -0.01;
-  for (Method method : methods) {
+  for (By method : methods) {
     const auto r = run(drive(p, arm, constant(tau_m)), Timetable(0, 1.5, 0.01), {0.0, {0.1, 2.0}, {}}, tight(method));
     REQUIRE(r.events.size() >= 2);
     Deviation drift;

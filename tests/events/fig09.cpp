@@ -28,8 +28,8 @@ auto fig9(const SolverSettings& settings) {
 
 }  // namespace
 
-TEST_CASE("fig. 9 has 12 events and both methods of CVODE find each of them where 128-bit arithmetic does") {
-  for (Method method : {Method::bdf, Method::adams}) {
+TEST_CASE("fig. 9 has 12 events and every solver finds each of them where 128-bit arithmetic does") {
+  for (By method : every_solver) {
     const auto r = fig9(tight(method, 1e-12));
     REQUIRE(r.modes() == sequence);
     Deviation times;
@@ -41,7 +41,7 @@ TEST_CASE("fig. 9 has 12 events and both methods of CVODE find each of them wher
 }
 
 TEST_CASE("fig. 9 is one break-away backward, six flank changes and five reversals") {
-  const auto r = fig9(tight(Method::adams, 1e-10));
+  const auto r = fig9(tight(adams, 1e-10));
   int break_aways = 0, flank_changes = 0, reversals = 0;
   for (const auto& event : r.events) {
     if (event.before.mode.motion == Motion::stuck)
@@ -55,7 +55,7 @@ TEST_CASE("fig. 9 is one break-away backward, six flank changes and five reversa
 }
 
 TEST_CASE("fig. 9 has the same mode sequence at every tolerance, and its end converges with it") {
-  for (Method method : {Method::bdf, Method::adams})
+  for (By method : every_solver)
     for (int digits = 6; digits <= 13; ++digits) {
       const double tolerance = std::pow(10.0, -digits);
       const auto r = fig9(tight(method, tolerance));
@@ -65,7 +65,7 @@ TEST_CASE("fig. 9 has the same mode sequence at every tolerance, and its end con
 }
 
 TEST_CASE("fig. 9 jumps in acceleration at its reversals, not at the break-away and not where the flank changes") {
-  const auto r = fig9(tight(Method::adams, 1e-12));
+  const auto r = fig9(tight(adams, 1e-12));
   const auto d = entered(table1(), fig9_load(), fig9_motor());
   for (const auto& event : r.events) {
     const double jump = d.observe(event.after).alpha_g - d.observe(event.before).alpha_g;

@@ -29,7 +29,7 @@ TEST_CASE("a speed that dips below zero for less than a solver step stops the dr
   const Branch in(p, forward_left);
   const double load = 0.03, rate = 0.001, bend = rate / in.M / 2.0;
   const Signal motor{{Constant{-in.C * load - rate}, Ramp{rate}}};
-  for (Method method : {Method::bdf, Method::adams})
+  for (By method : every_solver)
     for (double depth : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
       const auto dips =
           run(drive(p, constant(load), motor), Timetable(0, 1.5, never), {0, {0, bend - depth}, {}}, tight(method));
@@ -47,7 +47,7 @@ TEST_CASE("a speed that dips below zero for less than a solver step stops the dr
 
 TEST_CASE("a torque beyond the switching surface for less than a solver step loads the other flank meanwhile") {
   const double A = 0.01;
-  for (Method method : {Method::bdf, Method::adams})
+  for (By method : every_solver)
     for (double excess : {1e-3, 1e-5, 1e-7}) {
       // without load the surface is tau_m = 0, topped at t = 0.5
       const Signal motor{
@@ -68,7 +68,7 @@ TEST_CASE("a speed whose minima are flat to rounding is followed through them") 
   const Branch in(p, forward_left);
   const double load = 0.03, A = 1e-9;
   for (double frequency : {0.1, 1.0, 10.0})
-    for (Method method : {Method::bdf, Method::adams}) {
+    for (By method : every_solver) {
       const Signal motor{{Constant{-in.C * load}, Sinusoid{.amplitude = A, .frequency = frequency}}};
       const auto r =
           run(drive(p, constant(load), motor), Timetable(0, 20, 0.5), {0, {0, 1.0}, {}}, tight(method, 1e-10));
@@ -102,7 +102,7 @@ TEST_CASE("a torque that only touches the switching surface leaves the drive on 
     for (double A : {1e-4, 0.7})
       for (int side : {1, -1})
         for (double reports_per_period : {4.0, 10.0, 1e-9})  // one of them on the very touch, or none
-          for (Method method : {Method::bdf, Method::adams}) {
+          for (By method : every_solver) {
             const Mode mode = side > 0 ? forward_left : forward_right;
             const Signal wave{{Constant{-side * A}, Sinusoid{.amplitude = side * A, .frequency = frequency}}};
             const double begin = 0.3 / frequency, end = 5.5 / frequency, omega = 2.0 * std::numbers::pi * frequency;

@@ -103,7 +103,7 @@ struct FailingLoad {
 /// Runs until it halts and returns what was said; times collects when a guard fired.
 template <class System>
 std::string halt_of(System system, const Timetable& timetable, typename System::Instant from,
-                    std::vector<double>* times = nullptr, ChatterLimit limit = {}, Method method = Method::adams) {
+                    std::vector<double>* times = nullptr, ChatterLimit limit = {}, By method = adams) {
   CvodeSolver<System> solver(system, tight(method));
   double last = never;
   const auto record = [&](const System&, const typename System::Instant& now) {
@@ -166,7 +166,7 @@ TEST_CASE("as many events as the limit allows in a window pass, one more does no
 
 TEST_CASE("a load that becomes no number stops a moving drive with time, mode and latest events") {
   using Drive = WormDrive<double, FailingLoad>;
-  for (Method method : {Method::bdf, Method::adams}) {
+  for (By method : every_solver) {
     const std::string text = halt_of(Drive(GearMesh<double>(table1()), FailingLoad{0.65}, {}, fig9_motor()),
                                      Timetable(0, 2, never), {}, nullptr, {}, method);
     const std::string lead = "cannot go on at t = ";

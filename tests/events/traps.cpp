@@ -49,7 +49,7 @@ TEST_CASE("a ramp that releases a held load starts one motion, whatever the roun
     const double load = 0.01 + 0.0037 * k, rate = 0.03 + 0.0011 * k;
     for (int side : {1, -1}) {
       const auto r = run(drive(table1(), constant(load * side), Signal{{Ramp{rate * side}}}), Timetable(0, 2, never),
-                         {}, tight(Method::adams, 1e-10));
+                         {}, tight(adams, 1e-10));
       REQUIRE(r.events.size() >= 1);
       REQUIRE(r.events.size() <= 2);  // released, and later over the switching surface
       REQUIRE(sign(r.events[0].after.mode.motion) == side);
@@ -97,7 +97,7 @@ TEST_CASE("a drive at rest finds every short window in which the torque lets go,
   const double early = std::acos(1.0 / (1.0 + excess)) / (2.0 * std::numbers::pi);
   const double break_in[] = {-mesh.C1() * load, -mesh.C2() * load};
   for (int boundary : {0, 1})
-    for (const SolverSettings& settings : {SolverSettings{}, tight(Method::adams)}) {
+    for (const SolverSettings& settings : {SolverSettings{}, tight(adams)}) {
       const double peak = break_in[boundary] * (1.0 + excess);
       // the other boundary is further away in one case, and held off by a constant in the other
       const Signal motor = boundary == 0
@@ -164,7 +164,7 @@ TEST_CASE("a stop is exact and for good: the speed is 0 and not a rounding of it
   for (int k = 1; k <= 25; ++k)
     for (int side : {1, -1}) {
       const auto r = run(drive(table1(), constant(-0.02 * side), motor), Timetable(0, 3, 0.07),
-                         {0.0, {0.0, side * 0.11 * k}, {}}, tight(Method::adams, 1e-9));
+                         {0.0, {0.0, side * 0.11 * k}, {}}, tight(adams, 1e-9));
       REQUIRE(r.events.size() == 1);
       REQUIRE(r.end.mode == stuck);
       for (const auto& row : r.rows)
@@ -199,7 +199,7 @@ struct CountedDrive : WormDrive<double, GravityLoad> {
 }  // namespace
 
 TEST_CASE("what the solver reports to have done is what the drive was asked for, over all restarts together") {
-  for (Method method : {Method::bdf, Method::adams}) {
+  for (By method : {bdf, adams}) {
     CountedDrive d(GearMesh<double>(table1()), make_load(fig9_load()), {}, fig9_motor());
     CvodeSolver<CountedDrive> solver(d, tight(method, 1e-10));
     simulate(d, solver, Timetable(0, 2, 0.01), {}, [](const auto&, const auto&) {});

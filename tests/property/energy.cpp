@@ -157,8 +157,7 @@ TEST_CASE("friction never creates energy, not in any row of 100 random drives") 
     const Signal motor{
         {Constant{between(-0.02, 0.02)}, Sinusoid{.amplitude = between(0.0, 0.1), .frequency = between(0.5, 4.0)}}};
     const auto d = entered(p, arm, motor, drives % 2 == 0 ? bearings() : Effects<double>{});
-    const auto result =
-        run(d, Timetable(0, 0.5, 0.005), {0.0, {0.0, between(-1.0, 1.0)}, {}}, tight(Method::adams, 1e-8));
+    const auto result = run(d, Timetable(0, 0.5, 0.005), {0.0, {0.0, between(-1.0, 1.0)}, {}}, tight(adams, 1e-8));
     for (const auto& row : result.rows) {
       // the last row before a reversal may be past it by the 100 ulp of time within which CVODE places an event
       const double past = std::abs(row.seen.alpha_g) * 100.0 * std::numeric_limits<double>::epsilon() * 0.5;

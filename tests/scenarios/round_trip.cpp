@@ -21,7 +21,7 @@ class Bits {
  public:
   explicit Bits(const Scenario& s) {
     text_ = s.title + "\n" + std::to_string(s.mesh.index()) + std::to_string(static_cast<int>(s.axis)) +
-            std::to_string(static_cast<int>(s.run.method)) + "\n";
+            std::to_string(static_cast<int>(s.run.solver)) + std::to_string(static_cast<int>(s.run.method)) + "\n";
     std::visit([&](const auto& mesh) { fields(mesh); }, s.mesh);
     signal(s.motor);
     std::visit([&](const auto& load) { this->load(load); }, s.load);
@@ -109,6 +109,7 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   s.initial = filler.make<InitialState>();
   s.run = filler.make<RunSettings>();
   s.run.report_interval = s.run.duration / 7.0;
+  s.run.solver = SolverKind::taylor;
   s.run.method = Method::adams;
   return s;
 }

@@ -1,0 +1,77 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "events/taylor_accuracy.hpp"
+
+namespace wormdrive {
+
+/// The motion of any drive as power series: the equations of core/ themselves, with a series for a scalar.
+///
+/// A branch that an equation takes behind the start, as a table does at its points, is not in the series. So every
+/// step is tried: where acceleration and guards at its end are not those of the series, it ends at the branch.
+template <class System>
+class SeriesFlow {
+ public:
+  using Instant = typename System::Instant;
+  using Motion = Expansion<System::guard_count>;
+
+  /// The motion from now on, accurate over a step of at most h.
+  static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    to_order<8>(system, now, h, accuracy, e);
+    if (holds(system, now, e.step, accuracy, e)) return;
+    double holding = 0.0, failing = e.step;
+    for (int halvings = 0; halvings < 60; ++halvings) {
+      const double middle = 0.5 * (holding + failing);
+      (holds(system, now, middle, accuracy, e) ? holding : failing) = middle;
+    }
+    e.step = holding;
+  }
+
+ private:
+  template <int order>
+  static void to_order(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    const auto at = system.template ahead<order + 1>(now);
+    const auto guards = system.guards(at, now.mode);
+    e.order = order;
+    std::copy(at.theta_g.c.begin(), at.theta_g.c.end(), e.theta.begin());
+    std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
+    for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
+    if (accuracy.suffices(e, h)) {
+      e.step = h;
+      return;
+    }
+    constexpr int next = order + 6;
+    if constexpr (next <= highest_order)
+      if (next < accuracy.order() + 6) return to_order<next>(system, now, h, accuracy, e);
+    e.step = accuracy.step(e, h);
+  }
+
+  /// Whether the equations at s are those that the series was made from.
+  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy,
+                    const Motion& e) {
+    const auto near = [&](double found, Polynomial c, double allowed) {
+      double size = 0.0, power = 1.0;
+      for (const double x : c) {
+        size += std::abs(x) * power;
+        power *= s;
+      }
+      return std::abs(found - value(c, s)) <= allowed + (accuracy.relative() + rounding) * size;
+    };
+    const auto there = system.moment(now.t + s, value(e.angle(), s), value(e.speed(), s));
+    Coefficients rate;
+    for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * e.omega[k];
+    const double a = system.acceleration(there, now.mode);
+    if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, e.order * accuracy.allowed(there.omega_g)))
+      return false;
+    const auto guards = system.guards(there, now.mode);
+    for (int g = 0; g < System::guard_count; ++g)
+      if (!near(guards[g], e.guard(g), 0.0)) return false;
+    return true;
+  }
+
+  static constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,168 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "catch.hpp"
+#include "events/sine_cosine.hpp"
+#include "support.hpp"
+
+// The solver of power series against 128-bit arithmetic, and where its series must not be believed.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// From bench/fig09_reference.cpp: the same equations in 128-bit arithmetic.
+constexpr double event_times[] = {0.0034812139114724669663, 0.36127299758543927605, 0.59519501265649604358,
+                                  0.70156168737894434193,   0.73446789466525049751, 0.92654625731499095359,
+                                  1.2469025128552435424,    1.4124534692991002631,  1.4134879342934340843,
+                                  1.646950892655164793,     1.9134994319656890925,  1.9383624501092304682};
+constexpr double end_angle = -5.4068889175374453849, end_speed = 1.0836146975023261689;
+
+auto fig9(double tolerance, double report_interval = never) {
+  return run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, report_interval), {},
+             tight(taylor, tolerance));
+}
+
+/// A load that a series cannot follow: its torque changes its law at theta_g = bend.
+struct BentLoad {
+  double bend, jump;
+
+  double inertia() const { return 0.0; }
+  void enter(double) {}
+  double next_knot(double) const { return never; }
+  double fastest() const { return 0.0; }
+  template <class S>
+  S torque(const Moment<S>& at) const {
+    if (at.theta_g > S(bend)) return S(jump) - 0.01 * (at.theta_g - bend);
+    return S(0.0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("power series end fig. 9 within 1e-12 of 128-bit arithmetic and find its events within 1e-13 s") {
+  for (double report_interval : {never, 0.001}) {
+    const auto r = fig9(1e-15, report_interval);
+    REQUIRE(r.events.size() == std::size(event_times));
+    Deviation times;
+    for (std::size_t k = 0; k < std::size(event_times); ++k) times.add(r.events[k].after.t - event_times[k]);
+    REQUIRE(times <= 1e-13);
+    REQUIRE(std::abs(r.end.x[0] - end_angle) <= 1e-12);
+    REQUIRE(std::abs(r.end.x[1] - end_speed) <= 1e-12);
+  }
+}
+
+TEST_CASE("reports do not change a bit of what power series compute") {
+  const auto with = fig9(1e-12, 0.001), without = fig9(1e-12);
+  REQUIRE(with.end.x == without.end.x);
+  REQUIRE(with.statistics.steps == without.statistics.steps);
+  // and with held torques, where most steps are taken without a search for events
+  Samples held;
+  for (int k = 0; k < 200; ++k) {
+    held.times.push_back(0.005 * k);
+    held.values.push_back(0.02 * std::sin(0.3 * k));
+  }
+  const auto d = drive(table1(), fig9_load(), {{held}});
+  const auto often = run(d, Timetable(0, 1, 1e-3 * std::numbers::sqrt2), {}, tight(taylor)),
+             never_asked = run(d, Timetable(0, 1, never), {}, tight(taylor));
+  REQUIRE(often.end.x == never_asked.end.x);
+  REQUIRE(often.modes() == never_asked.modes());
+}
+
+TEST_CASE("the error of power series follows the tolerance, which bounds it per second") {
+  for (int digits = 5; digits <= 14; ++digits) {
+    const double tolerance = std::pow(10.0, -digits);
+    const auto r = fig9(tolerance);
+    REQUIRE(r.events.size() == 12);
+    REQUIRE(std::abs(r.end.x[1] - end_speed) <= 20.0 * tolerance);
+  }
+}
+
+TEST_CASE("the equations of core, instantiated with a series, move a drive as its own formulas do") {
+  // the same load under another type, which the formulas do not know
+  struct ForeignLoad : GravityLoad {
+    explicit ForeignLoad(const GravityArm& arm) : GravityLoad(arm) {}
+  };
+  const auto known = run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, 0.1), {}, tight(taylor, 1e-14));
+  const auto foreign =
+      run(WormDrive<double, ForeignLoad>(GearMesh<double>(table1()), ForeignLoad(fig9_load()), {}, fig9_motor()),
+          Timetable(0, 2, 0.1), {}, tight(taylor, 1e-14));
+  REQUIRE(NominalFlow<WormDrive<double, GravityLoad>>::known);
+  REQUIRE(!NominalFlow<WormDrive<double, ForeignLoad>>::known);
+  REQUIRE(foreign.modes() == known.modes());
+  Deviation states;
+  for (std::size_t k = 0; k < known.rows.size(); ++k)
+    states.add((known.rows[k].now.x - foreign.rows[k].now.x).cwiseAbs().maxCoeff());
+  REQUIRE(states <= 1e-12);
+}
+
+TEST_CASE("a table of torques over the angle is followed from piece to piece, in both directions") {
+  AngleTable table;
+  for (int k = -8; k <= 8; ++k) {
+    table.angles.push_back(0.4 * k);
+    table.torques.push_back(0.02 * std::cos(1.1 * k));
+  }
+  for (double start : {0.0, 3.0, -3.0}) {
+    const Timetable timetable(0, 2, 0.05);
+    const auto by_series = run(drive(table1(), table, fig9_motor()), timetable, {0, {0, start}, {}}, tight(taylor));
+    const auto by_cvode = run(drive(table1(), table, fig9_motor()), timetable, {0, {0, start}, {}}, tight(adams));
+    REQUIRE(by_series.modes() == by_cvode.modes());
+    REQUIRE((by_series.end.x - by_cvode.end.x).cwiseAbs().maxCoeff() <= 1e-9);
+  }
+}
+
+TEST_CASE("a load whose law changes within a step is not stepped over") {
+  for (double jump : {0.0, -0.05}) {
+    const WormDrive<double, BentLoad> bent(GearMesh<double>(table1()), BentLoad{0.3, jump}, {}, constant(0.01));
+    const auto r = run(bent, Timetable(0, 1, never), {0, {0, 1.0}, {}}, tight(taylor, 1e-12));
+    // a parabola up to the bend, an oscillator or an exponential behind it
+    const MeshParameters<double> p = table1();
+    const Branch in(p, {Motion::forward, Flank::right});
+    const double a = 0.01 / in.M, until = (std::sqrt(1.0 + 2.0 * a * 0.3) - 1.0) / a, v = 1.0 + a * until;
+    const double stiff = 0.01 * in.C / in.M, push = (0.01 + in.C * jump) / in.M, s = 1.0 - until;
+    const double w = std::sqrt(std::abs(stiff));
+    const double x = stiff > 0.0 ? push / stiff * (1.0 - std::cos(w * s)) + v / w * std::sin(w * s)
+                                 : -push / stiff * (std::cosh(w * s) - 1.0) + v / w * std::sinh(w * s);
+    REQUIRE(r.events.empty());
+    REQUIRE(r.end.mode == Mode{Motion::forward, Flank::right});
+    REQUIRE(std::abs(r.end.x[0] - (0.3 + x)) <= 1e-9);
+  }
+}
+
+TEST_CASE("sine and cosine are within one unit in the last place, whatever the angle and its quarter turn") {
+  Deviation ulps;
+  for (int k = 0; k < 200'000; ++k) {
+    const double near = k % 7 == 0 ? (k % 4001) * (std::numbers::pi / 2) : 0.0;
+    const double x = near + std::ldexp((k % 1999) - 999.5, k % 23 - 20);
+    const auto [sine, cosine] = sine_and_cosine(x);
+    const auto off = [](double found, long double exact) {
+      return static_cast<double>((found - exact) / (std::nextafter(std::abs(found), 2.0) - std::abs(found)));
+    };
+    ulps.add(off(sine, std::sin(static_cast<long double>(x))));
+    ulps.add(off(cosine, std::cos(static_cast<long double>(x))));
+  }
+  REQUIRE(ulps <= 1.0);
+}
+
+TEST_CASE("the first root of a polynomial is found where others follow, and none where it only comes near") {
+  RootSearch search;
+  const double both[] = {0.02, -0.3, 1.0};  // (s - 0.1)(s - 0.2)
+  REQUIRE(std::abs(*search.first_root(both, 1.0) - 0.1) <= 1e-16);
+  REQUIRE(!search.first_root(both, 0.09));
+  const double near[] = {0.0225 + 1e-12, -0.3, 1.0};
+  REQUIRE(!search.first_root(near, 1.0));
+  // from the start root at 0 on it is positive, and falls through zero at 0.5
+  const double leaves[] = {0.0, 0.5, -1.0};
+  const auto later = search.first_fall(leaves, 1.0, false);
+  REQUIRE((later.armed && std::abs(*later.at - 0.5) <= 1e-16));
+  // below zero from the start: it counts only once it has been positive
+  const double rises[] = {-0.02, 0.3, -1.0};
+  const auto risen = search.first_fall(rises, 1.0, false);
+  REQUIRE((risen.armed && std::abs(*risen.at - 0.2) <= 1e-15));
+  const double below[] = {-1.0, 0.1};
+  REQUIRE((!search.first_fall(below, 1.0, false).armed && !search.first_fall(below, 1.0, false).at));
+}
