@@ -16,7 +16,6 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "core/crossing.hpp"
 #include "events/halt.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
@@ -26,7 +25,7 @@ namespace wormdrive {
 /// SUNDIALS CVODE with two root functions per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
 ///
 /// A guard that dips below zero and comes back within one step changes no sign at the step's ends. So the guard's rate
-/// is watched too: at every minimum the guard is looked at, and a dip is traced back to where it began.
+/// is watched too: on the way to the root of the rate, CVODE evaluates all root functions and finds the guard below zero.
 ///
 /// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial, for
 /// a call of CVODE and a look at the guards per report would cost more than the report.
@@ -85,14 +84,13 @@ class CvodeSolver {
     }
     if (limit != limit_) check(CVodeSetStopTime(memory(), limit_ = limit));
     for (long step = 0; ahead_.t < next && !fired_; ++step) {
-      const double before = ahead_.t;
       const int flag = CVode(memory(), next, y_.get(), &ahead_.t, next < limit ? CV_ONE_STEP : CV_NORMAL);
       if (flag < 0 || step == max_steps) {
         now.t = ahead_.t;
         throw SolverFault(reason(flag >= 0 ? CV_TOO_MUCH_WORK : finite_ ? flag : CV_RHSFUNC_FAIL));
       }
       ahead_.x = state();
-      if (flag == CV_ROOT_RETURN) fired_ = guard_behind(before);
+      if (flag == CV_ROOT_RETURN) fired_ = crossed();
     }
     if (ahead_.t <= next) {
       now = ahead_;
@@ -159,30 +157,13 @@ class CvodeSolver {
     return 0;
   }
 
-  /// The guard whose crossing CVODE stopped at, or one that was below zero at the minimum it stopped at.
-  std::optional<int> guard_behind(double before) {
+  /// The guard whose crossing CVODE stopped at; none at a minimum above zero.
+  std::optional<int> crossed() const {
     std::array<int, root_count> found;
     check(CVodeGetRootInfo(memory(), found.data()));
     for (int k = 0; k < System::guard_count; ++k)
       if (found[k] != 0) return k;
-    const auto values = system_.guards_ahead(ahead_);
-    for (int k = 0; k < System::guard_count; ++k)
-      if (values[k][0] < 0.0 && trace_back(before, k)) return k;
     return std::nullopt;
-  }
-
-  /// Moves from a minimum below zero back to where the guard fell through zero, in the latest step and after a time at
-  /// which no guard had fired; false if it was not positive there.
-  bool trace_back(double before, int guard) {
-    double h = 0.0, t = 0.0;
-    check(CVodeGetLastStep(memory(), &h));
-    check(CVodeGetCurrentTime(memory(), &t));
-    const auto value = [&](double at) { return system_.guards_ahead({at, state_at(at), ahead_.mode})[guard][0]; };
-    const double begin = std::max(t - h, before), low = value(ahead_.t), high = value(begin);
-    if (high <= 0.0 || low >= 0.0) return false;
-    ahead_.t = root_between(value, begin, high, ahead_.t, low);
-    ahead_.x = state_at(ahead_.t);
-    return true;
   }
 
   void* memory() const { return memory_.get(); }
