@@ -79,7 +79,10 @@ class MetricsMeter {
   }
 
   Metrics result() const {
-    if (samples_ == 0) return {};
+    if (samples_ == 0) {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      return {none, none, none, none, none, none, none, none, none};
+    }
     const double n = static_cast<double>(samples_);
     return {highest_ - lowest_, std::sqrt(squares_ / n), std::max(std::abs(highest_), std::abs(lowest_)), peak_,
             std::sqrt(torque_squares_ / n), static_cast<double>(reversals_), static_cast<double>(flank_changes_),

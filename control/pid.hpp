@@ -1,11 +1,13 @@
 #pragma once
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <complex>
 #include <string_view>
 #include <tuple>
 
 #include "control/compensation.hpp"
 #include "control/controller_signals.hpp"
+#include "control/lemma1.hpp"
 #include "control/nominal.hpp"
 #include "core/field.hpp"
 
@@ -40,6 +42,11 @@ struct PidParameters {
 struct PidGains {
   double Ki, Kp, Kd;
 };
+
+/// Whether M s^3 + Kd s^2 + Kp s + Ki has all its zeros on the left [Routh and Hurwitz].
+inline bool stabilises(const PidGains& g, double M) {
+  return g.Ki > 0.0 && g.Kd > 0.0 && g.Kp * g.Kd > M * g.Ki && std::isfinite(g.Ki + g.Kp + g.Kd);
+}
 
 /// Gains that minimise the weighted squares for M e'' = u, from the stable subspace of the Hamiltonian matrix.
 inline PidGains lqr_gains(const PidParameters& weights, double M) {
@@ -94,5 +101,9 @@ class PidController {
   PidGains gains_;
   double integral_ = 0.0;
 };
+
+inline PidController make_controller(const PidParameters& p, const NominalModel& nominal, const Variations&) {
+  return {p, nominal};
+}
 
 }  // namespace wormdrive

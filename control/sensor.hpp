@@ -23,7 +23,7 @@ struct SensorSettings {
     return std::tuple{
         Field{&P::counts, "counts", unit::none, bounds::not_negative, "encoder counts per turn of the gear; 0 is exact", o},
         Field{&P::noise, "noise", unit::radian, bounds::not_negative, "standard deviation of the measured angle", o},
-        Field{&P::seed, "seed", unit::none, bounds::not_negative, "seed of the noise", o},
+        Field{&P::seed, "seed", unit::none, seeds, "seed of the noise", o},
         Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
               "cut-off of the speed's low-pass; 0 is none", o}};
   }
