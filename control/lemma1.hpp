@@ -22,9 +22,9 @@ struct Variations {
     using P = Variations;
     constexpr Presence o = Presence::optional;
     constexpr Bounds share = bounds::between(0.0, 0.99);
-    return std::tuple{Field{&P::C1, "C1", unit::none, share, "relative variation of C1", o},
-                      Field{&P::C2, "C2", unit::none, share, "relative variation of C2", o},
-                      Field{&P::load, "load", unit::none, share, "relative error of the load estimate", o},
+    return std::tuple{Field{&P::C1, "C1", unit::none, bounds::not_negative, "relative variation of C1", o},
+                      Field{&P::C2, "C2", unit::none, bounds::not_negative, "relative variation of C2", o},
+                      Field{&P::load, "load", unit::none, bounds::not_negative, "relative error of the load estimate", o},
                       Field{&P::inertia, "gear_inertia", unit::none, share, "relative variation of Jg", o},
                       Field{&P::friction, "friction", unit::none, share,
                             "relative variation of the friction, instead of C1 and C2", o}};
