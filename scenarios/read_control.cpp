@@ -52,7 +52,7 @@ class ControlReader {
     table.section("nominal", [&](TableReader& nominal) { nominal.read_fields(control.nominal); });
     table.section("variation", [&](TableReader& variation) {
       variation.read_fields(control.variations);
-      if (variation.has("friction") && (variation.has("C1") || variation.has("C2")))
+      if (control.variations.friction && (control.variations.C1 > 0.0 || control.variations.C2 > 0.0))
         variation.fault("friction", "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others");
     });
     const auto kind = table.choice("kind", kinds_of<ControllerParameters>(), Presence::required);
@@ -87,7 +87,7 @@ class ControlReader {
         table.fault("nominal", fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be greater than 0",
                                            name, nominal.inertia(C)));
     const auto* const pid = std::get_if<PidParameters>(&scenario_.control->law);
-    if (pid && root_.faults().empty() && !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
+    if (pid && pid->integral_weight > 0.0 && root_.faults().empty() && !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
       table.fault("kind", "the weights have no stabilising gains in double precision; bring them closer to each other");
   }
 
