@@ -1,13 +1,13 @@
 // Every reading of the paper's figure 10: the sliding controller, and the PID over two decades of bandwidth.
 // Prints the tables of docs/figure10.md and writes the curves to the CSV file named on the command line.
-#include <fmt/format.h>
-
 #include <complex>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "events/halt.hpp"
 #include "scenarios/build_control.hpp"
@@ -97,8 +97,8 @@ class Table {
             "phase_margin_deg\n";
   }
   void line(const Reading& r, const std::string& controller, double radius, const Metrics& m, double margin) {
-    csv_ << fmt::format("\"{}\",{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g}\n", r.name, controller, radius, m.error_peak_to_peak,
-                        m.error_rms, m.torque_rms, m.torque_peak, margin);
+    csv_ << fmt::format("\"{}\",{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g}\n", r.name, controller, radius,
+                        m.error_peak_to_peak, m.error_rms, m.torque_rms, m.torque_peak, margin);
   }
 
  private:
@@ -111,8 +111,10 @@ void sweep(const Reading& reading, const Metrics& sliding, double feedforward, T
   const NominalModel nominal = make_nominal(s);
   const double M = mean_inertia(nominal);
   const std::string name = feedforward > 0.0 ? "pid_feedforward" : "pid";
-  fmt::print("\n{}, {}\n\n| p [rad/s] | margin | error p-p [rad] | rms [rad] | torque rms [N m] | peak [N m] | sliding/PID |\n"
-             "|---|---|---|---|---|---|---|\n", reading.name, name);
+  fmt::print(
+      "\n{}, {}\n\n| p [rad/s] | margin | error p-p [rad] | rms [rad] | torque rms [N m] | peak [N m] | sliding/PID |\n"
+      "|---|---|---|---|---|---|---|\n",
+      reading.name, name);
   double before = 0.0, before_radius = 0.0;
   for (int k = 0; k <= 24; ++k) {
     const double radius = 10.0 * std::pow(10.0, k / 12.0);
@@ -123,8 +125,8 @@ void sweep(const Reading& reading, const Metrics& sliding, double feedforward, T
     table.line(reading, name, radius, m, margin);
     const double share = 100.0 * sliding.error_peak_to_peak / m.error_peak_to_peak;
     if (m.error_peak_to_peak < lost)
-      fmt::print("| {:.0f} | {:.0f}° | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.0f} % |\n", radius, margin, m.error_peak_to_peak,
-                 m.error_rms, m.torque_rms, m.torque_peak, share);
+      fmt::print("| {:.0f} | {:.0f}° | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.0f} % |\n", radius, margin,
+                 m.error_peak_to_peak, m.error_rms, m.torque_rms, m.torque_peak, share);
     else
       fmt::print("| {:.0f} | {:.0f}° | lost | | | | |\n", radius, margin);
     if (before > 0.0 && (before - 30.0) * (share - 30.0) < 0.0)
@@ -142,10 +144,11 @@ int main(int argc, char** argv) {
   for (const Reading& reading : readings()) {
     const Metrics s = track(scenario_of(reading));
     table.line(reading, "sliding", 30.0 * pi, s, 0.0);
-    fmt::print("\n## {}\n\nsliding: error p-p {:.3g}, rms {:.3g} rad; torque rms {:.3g}, peak {:.3g} N m; {:g} flank changes, "
-               "{:g} reversals in 2 s, {:.3g} s stuck, {:.3g} s outside the layer\n",
-               reading.name, s.error_peak_to_peak, s.error_rms, s.torque_rms, s.torque_peak, s.flank_changes, s.reversals,
-               s.time_stuck, s.time_outside_layer);
+    fmt::print(
+        "\n## {}\n\nsliding: error p-p {:.3g}, rms {:.3g} rad; torque rms {:.3g}, peak {:.3g} N m; {:g} flank changes, "
+        "{:g} reversals in 2 s, {:.3g} s stuck, {:.3g} s outside the layer\n",
+        reading.name, s.error_peak_to_peak, s.error_rms, s.torque_rms, s.torque_peak, s.flank_changes, s.reversals,
+        s.time_stuck, s.time_outside_layer);
     for (const double feedforward : {0.0, 1.0}) sweep(reading, s, feedforward, table);
   }
 }

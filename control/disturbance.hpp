@@ -27,8 +27,7 @@ struct DisturbanceSettings {
 class TorqueDisturbance {
  public:
   TorqueDisturbance(const DisturbanceSettings& settings, double period)
-      : settings_(settings),
-        keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0) {}
+      : settings_(settings), keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0) {}
 
   /// The torque [N m] from the k-th sample on; its variance is the same from the first sample.
   double operator()(std::uint64_t k) {

@@ -22,12 +22,13 @@ struct Variations {
     using P = Variations;
     constexpr Presence o = Presence::optional;
     constexpr Bounds share = bounds::between(0.0, 0.99);
-    return std::tuple{Field{&P::C1, "C1", unit::none, bounds::not_negative, "relative variation of C1", o},
-                      Field{&P::C2, "C2", unit::none, bounds::not_negative, "relative variation of C2", o},
-                      Field{&P::load, "load", unit::none, bounds::not_negative, "relative error of the load estimate", o},
-                      Field{&P::inertia, "gear_inertia", unit::none, share, "relative variation of Jg", o},
-                      Field{&P::friction, "friction", unit::none, share,
-                            "relative variation of the friction, instead of C1 and C2", o}};
+    return std::tuple{
+        Field{&P::C1, "C1", unit::none, bounds::not_negative, "relative variation of C1", o},
+        Field{&P::C2, "C2", unit::none, bounds::not_negative, "relative variation of C2", o},
+        Field{&P::load, "load", unit::none, bounds::not_negative, "relative error of the load estimate", o},
+        Field{&P::inertia, "gear_inertia", unit::none, share, "relative variation of Jg", o},
+        Field{&P::friction, "friction", unit::none, share, "relative variation of the friction, instead of C1 and C2",
+              o}};
   }
 };
 
@@ -45,11 +46,11 @@ inline Variations in_terms_of_C(Variations variations, const GearMesh<double>& m
 
 /// What Lemma 1 needs for one of the two branches C1, C2 [YehWu2009, eq. 20-21].
 struct BranchBounds {
-  double b_hat; ///< 1/(Jw i + C Jg), nominal [1/(kg m^2)]
-  double d_hat; ///< nominal, 1/Jg for any C [1/(kg m^2)]
-  double beta;  ///< least gain margin over the variations
-  double D;     ///< largest |d - d_hat| [1/(kg m^2)]
-  double E;     ///< largest |e - e_hat|, e_hat = 0 [rad/s^2]
+  double b_hat;  ///< 1/(Jw i + C Jg), nominal [1/(kg m^2)]
+  double d_hat;  ///< nominal, 1/Jg for any C [1/(kg m^2)]
+  double beta;   ///< least gain margin over the variations
+  double D;      ///< largest |d - d_hat| [1/(kg m^2)]
+  double E;      ///< largest |e - e_hat|, e_hat = 0 [rad/s^2]
 };
 
 /// The numbers of Lemma 1 for a nominal model and its variations.
@@ -79,13 +80,14 @@ inline Lemma1 lemma1(const NominalModel& nominal, const Variations& variations) 
         const double Ck = C[k] * (1.0 + c * share[k]), Jg = nominal.Jg * (1.0 + j * variations.inertia);
         const double inertia = nominal.Jw_i + Ck * Jg;
         const double ratio = branch.b_hat * inertia;
-        branch.beta = std::max({branch.beta, ratio, ratio > 0.0 ? 1.0 / ratio : std::numeric_limits<double>::infinity()});
+        branch.beta =
+            std::max({branch.beta, ratio, ratio > 0.0 ? 1.0 / ratio : std::numeric_limits<double>::infinity()});
         const double d = variations.inertia > 0.0 ? (Ck + nominal.surface()) / inertia : branch.d_hat;
         branch.D = std::max({branch.D, std::abs(1.0 / Jg - branch.d_hat), std::abs(d - branch.d_hat)});
         branch.E = std::max(branch.E, std::abs(Ck * load_error / inertia));
         const double surface = nominal.Jw_i / Jg;
-        result.M = std::max(result.M, surface * load_error +
-                                          std::abs(surface - nominal.surface()) * result.largest_load);
+        result.M =
+            std::max(result.M, surface * load_error + std::abs(surface - nominal.surface()) * result.largest_load);
       }
   }
   return result;

@@ -39,9 +39,9 @@ inline std::vector<Condition> conditions(const SlidingParameters& p, const Lemma
     const double beta = k == 0 ? p.beta1 : p.beta2;
     list.push_back({"beta" + n + " >= 2", beta, 2.0, "", "controller.beta" + n});
     list.push_back({"beta" + n + " >= b_hat/b, b/b_hat", beta, branch.beta, "", "controller.beta" + n});
-    list.push_back({"D" + n + " >= |d - d_hat|", bounds.D[k], branch.D, "1/(kg m^2)", "controller.D" + n + "_per_kgm2"});
-    list.push_back({"E" + n + " >= |e - e_hat|", bounds.E[k], branch.E, "rad/s^2",
-                    "controller.E" + n + "_rad_per_s2"});
+    list.push_back(
+        {"D" + n + " >= |d - d_hat|", bounds.D[k], branch.D, "1/(kg m^2)", "controller.D" + n + "_per_kgm2"});
+    list.push_back({"E" + n + " >= |e - e_hat|", bounds.E[k], branch.E, "rad/s^2", "controller.E" + n + "_rad_per_s2"});
   }
   list.push_back({"eta >= M b_hat/2 - E", p.eta, least_eta(bounds, lemma), "rad/s^2", "controller.eta_rad_per_s2"});
   return list;

@@ -1,10 +1,11 @@
 #pragma once
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string_view>
 #include <tuple>
+
+#include <Eigen/Eigenvalues>
 
 #include "control/compensation.hpp"
 #include "control/controller_signals.hpp"
@@ -29,7 +30,8 @@ struct PidParameters {
     using P = PidParameters;
     constexpr Presence o = Presence::optional;
     return std::tuple{
-        Field{&P::integral_weight, "integral_weight", unit::none, bounds::positive, "weight of the integral of e, squared"},
+        Field{&P::integral_weight, "integral_weight", unit::none, bounds::positive,
+              "weight of the integral of e, squared"},
         Field{&P::angle_weight, "angle_weight", unit::none, bounds::not_negative, "weight of e squared"},
         Field{&P::speed_weight, "speed_weight", unit::none, bounds::not_negative, "weight of e' squared"},
         Field{&P::torque_weight, "torque_weight", unit::none, bounds::positive, "weight of the torque squared", o},

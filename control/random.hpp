@@ -1,9 +1,9 @@
 #pragma once
-#include <Random123/philox.h>
-
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+
+#include <Random123/philox.h>
 
 #include "core/field.hpp"
 

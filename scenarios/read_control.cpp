@@ -53,7 +53,9 @@ class ControlReader {
     table.section("variation", [&](TableReader& variation) {
       variation.read_fields(control.variations);
       if (control.variations.friction && (control.variations.C1 > 0.0 || control.variations.C2 > 0.0))
-        variation.fault("friction", "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others");
+        variation.fault(
+            "friction",
+            "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others");
     });
     const auto kind = table.choice("kind", kinds_of<ControllerParameters>(), Presence::required);
     if (!kind) table.ignore_unknown();  // which keys it may have hangs on its kind
@@ -70,13 +72,16 @@ class ControlReader {
     require_whole(table, "delay_samples", sampling.delay);
     if (duration <= 0.0 || period <= 0.0) return;
     if (period > duration)
-      table.fault("sample_time_s", fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s", period, duration));
+      table.fault("sample_time_s",
+                  fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s", period, duration));
     else if (duration > most_samples * period)
-      table.fault("sample_time_s", fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are taken", period,
-                                               duration / period, most_samples));
+      table.fault("sample_time_s",
+                  fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are taken",
+                              period, duration / period, most_samples));
     if (sampling.offset >= duration)
-      table.fault("sample_offset_s", fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s",
-                                                 sampling.offset, duration));
+      table.fault("sample_offset_s",
+                  fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s", sampling.offset,
+                              duration));
   }
 
   /// Both branches must have a positive inertia, for the law divides by it, and the linear design a solution.
@@ -84,10 +89,13 @@ class ControlReader {
     const NominalModel nominal = make_nominal(scenario_);
     for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})
       if (nominal.inertia(C) <= 0.0)
-        table.fault("nominal", fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be greater than 0",
-                                           name, nominal.inertia(C)));
+        table.fault(
+            "nominal",
+            fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be greater than 0", name,
+                        nominal.inertia(C)));
     const auto* const pid = std::get_if<PidParameters>(&scenario_.control->law);
-    if (pid && pid->integral_weight > 0.0 && root_.faults().empty() && !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
+    if (pid && pid->integral_weight > 0.0 && root_.faults().empty() &&
+        !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
       table.fault("kind", "the weights have no stabilising gains in double precision; bring them closer to each other");
   }
 
@@ -95,9 +103,11 @@ class ControlReader {
     metrics.read_fields(window);
     const double duration = scenario_.run.duration;
     if (window.from >= window.to)
-      metrics.fault("from_s", fmt::format("metrics.from_s = {} s must be less than to_s = {} s", window.from, window.to));
+      metrics.fault("from_s",
+                    fmt::format("metrics.from_s = {} s must be less than to_s = {} s", window.from, window.to));
     else if (duration > 0.0 && window.from >= duration)
-      metrics.fault("from_s", fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration));
+      metrics.fault("from_s",
+                    fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration));
   }
 
   TableReader& root_;
@@ -110,7 +120,9 @@ class ControlReader {
 void read_control(TableReader& root, Scenario& scenario, const std::string& folder) {
   if (root.has("controller")) {
     if (!scenario.motor.terms.empty())
-      root.fault("motor", "[motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over time between samples");
+      root.fault("motor",
+                 "[motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over "
+                 "time between samples");
     if (scenario.axis == Axis::linear)
       root.fault("controller", "[controller] needs a rotary axis; mesh.axis is \"linear\"");
     ControlReader(root, scenario, folder).read();

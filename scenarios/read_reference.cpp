@@ -1,8 +1,8 @@
 #include "scenarios/read_reference.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "scenarios/read_pairs.hpp"
 #include "scenarios/variant_kinds.hpp"
@@ -15,10 +15,10 @@ void read_term(TableReader& table, Parameters& parameters, const std::string&) {
   table.read_fields(parameters);
 }
 void read_term(TableReader& table, TableReference& reference, const std::string& folder) {
-  const Pairs pairs = read_pairs(table,
-                                 {{"times", unit::second}, {"angles", unit::radian}, {"time", unit::second},
-                                  {"gear_angle", unit::radian}, 4},
-                                 folder);
+  const Pairs pairs = read_pairs(
+      table,
+      {{"times", unit::second}, {"angles", unit::radian}, {"time", unit::second}, {"gear_angle", unit::radian}, 4},
+      folder);
   if (!pairs.x.empty()) reference.table = CubicTable(pairs.x, pairs.y);
 }
 

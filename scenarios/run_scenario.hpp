@@ -13,10 +13,10 @@ namespace wormdrive {
 
 /// Who wants to see a run while it goes on; any may be empty.
 struct RunListeners {
-  std::function<void(Trajectory)> rows{};  ///< takes rows and events in portions, in order
+  std::function<void(Trajectory)> rows{};                            ///< takes rows and events in portions, in order
   std::function<void(const std::vector<ControlRecord>&)> samples{};  ///< takes the controller's samples likewise
-  std::function<void(double)> time{};      ///< called with the simulated time [s] at every row
-  bool audit = false;                      ///< re-integrate and re-scan the run afterwards
+  std::function<void(double)> time{};  ///< called with the simulated time [s] at every row
+  bool audit = false;                  ///< re-integrate and re-scan the run afterwards
 };
 
 /// What a run amounts to.

@@ -77,8 +77,13 @@ Scenario random_case(std::mt19937_64& random) {
   arm.own_inertia = between(0.0, 0.005);
   s.load = arm;
   const NominalModel believed = exact_nominal(s);
-  c.nominal = {believed.C1, believed.C2, believed.Jw_i, believed.Jg, believed.load_torque, believed.load_angle_offset, 0.0};
-  c.variations = {.C1 = 0.0, .C2 = 0.0, .load = between(0.0, 0.3), .inertia = between(0.0, 1.0) < 0.5 ? 0.0 : between(0.0, 0.2), .friction = {}};
+  c.nominal = {believed.C1, believed.C2, believed.Jw_i, believed.Jg, believed.load_torque, believed.load_angle_offset,
+               0.0};
+  c.variations = {.C1 = 0.0,
+                  .C2 = 0.0,
+                  .load = between(0.0, 0.3),
+                  .inertia = between(0.0, 1.0) < 0.5 ? 0.0 : between(0.0, 0.2),
+                  .friction = {}};
   Variations shares = c.variations;
   shares.friction = between(0.0, 0.2);
   c.variations = in_terms_of_C(shares, make_mesh(s));

@@ -30,12 +30,14 @@ SlidingParameters parameters() {
   return p;
 }
 
-ControlSignals first_sample(const SlidingParameters& p, double load, double angle, double speed, ReferencePoint desired) {
+ControlSignals first_sample(const SlidingParameters& p, double load, double angle, double speed,
+                            ReferencePoint desired) {
   return SlidingController(p, nominal(load), {})(Measurement{0.0, angle, speed, 0.0, desired});
 }
 
 /// Eq. 22-24 for the first sample, whose integral is 0, with the branches' constants chosen by the caller.
-double u_by_hand(const SlidingParameters& p, double load, double angle, double speed, ReferencePoint desired, bool forward) {
+double u_by_hand(const SlidingParameters& p, double load, double angle, double speed, ReferencePoint desired,
+                 bool forward) {
   const double e = angle - desired.angle, rate = speed - desired.speed, s = rate + 2 * p.lambda_c * e;
   const double u_hat = -load / mesh.Jg + desired.acceleration - 2 * p.lambda_c * rate - p.lambda_c * p.lambda_c * e;
   const double gain1 = p.beta1 * (*p.D1 * std::abs(load) + *p.E1 + p.eta) + (p.beta1 - 1) * std::abs(u_hat);
@@ -73,7 +75,8 @@ TEST_CASE("at zero speed the branch is that of the reference's direction") {
   for (const double towards : {0.4, -0.4}) {
     const ReferencePoint desired{0.1, towards, -3.0};
     const double angle = 0.13, load = 0.0196 * std::cos(angle);
-    REQUIRE(std::abs(first_sample(p, 0.0196, angle, 0.0, desired).u - u_by_hand(p, load, angle, 0.0, desired, towards > 0)) <= 1e-12);
+    REQUIRE(std::abs(first_sample(p, 0.0196, angle, 0.0, desired).u -
+                     u_by_hand(p, load, angle, 0.0, desired, towards > 0)) <= 1e-12);
   }
   REQUIRE(branch(0.0, 0.0) == Motion::forward);
   REQUIRE(branch(-1e-300, 1.0) == Motion::backward);
@@ -114,21 +117,22 @@ TEST_CASE("one weight alone puts the PID's poles on Butterworth's circle") {
 }
 
 TEST_CASE("the gains of the PID solve the Riccati equation") {
-  for (const PidParameters& w : {PidParameters{.integral_weight = 2e6, .angle_weight = 300, .speed_weight = 0.02},
-                                 PidParameters{.integral_weight = 1, .angle_weight = 1, .speed_weight = 1},
-                                 PidParameters{.integral_weight = 1e-3, .angle_weight = 1e4, .speed_weight = 0, .torque_weight = 7},
-                                 PidParameters{.integral_weight = 1e9, .angle_weight = 0, .speed_weight = 50, .torque_weight = 0.1}}) {
+  for (const PidParameters& w :
+       {PidParameters{.integral_weight = 2e6, .angle_weight = 300, .speed_weight = 0.02},
+        PidParameters{.integral_weight = 1, .angle_weight = 1, .speed_weight = 1},
+        PidParameters{.integral_weight = 1e-3, .angle_weight = 1e4, .speed_weight = 0, .torque_weight = 7},
+        PidParameters{.integral_weight = 1e9, .angle_weight = 0, .speed_weight = 50, .torque_weight = 0.1}}) {
     const double M = 1.53e-3, r = w.torque_weight;
     const PidGains g = lqr_gains(w, M);
     // A'P + PA - PB B'P/r + Q = 0 for the chain integral, angle, speed; K = B'P/r gives P's last column, the equation
     // its other entries from the top right on
     const double p13 = r * M * g.Ki, p23 = r * M * g.Kp, p33 = r * M * g.Kd;
-    const double p12 = r * g.Ki * g.Kd;                    // (1,3): p12 - p13 p33/(r M^2) = 0
-    const double p22 = r * g.Kp * g.Kd - p13;              // (2,3): p13 + p22 - p23 p33/(r M^2) = 0
-    const double p11 = r * g.Ki * g.Kp;                    // (1,2): p11 - p13 p23/(r M^2) = 0
-    REQUIRE(close(p13 * p13 / (r * M * M), w.integral_weight, 1e-9));                            // (1,1)
-    REQUIRE(std::abs(2 * p12 - p23 * p23 / (r * M * M) + w.angle_weight) <= 1e-9 * (2 * p12));   // (2,2)
-    REQUIRE(std::abs(2 * p23 - p33 * p33 / (r * M * M) + w.speed_weight) <= 1e-9 * (2 * p23));   // (3,3)
+    const double p12 = r * g.Ki * g.Kd;                                // (1,3): p12 - p13 p33/(r M^2) = 0
+    const double p22 = r * g.Kp * g.Kd - p13;                          // (2,3): p13 + p22 - p23 p33/(r M^2) = 0
+    const double p11 = r * g.Ki * g.Kp;                                // (1,2): p11 - p13 p23/(r M^2) = 0
+    REQUIRE(close(p13 * p13 / (r * M * M), w.integral_weight, 1e-9));  // (1,1)
+    REQUIRE(std::abs(2 * p12 - p23 * p23 / (r * M * M) + w.angle_weight) <= 1e-9 * (2 * p12));  // (2,2)
+    REQUIRE(std::abs(2 * p23 - p33 * p33 / (r * M * M) + w.speed_weight) <= 1e-9 * (2 * p23));  // (3,3)
     // and P is positive definite: of all solutions the one that stabilises
     REQUIRE(p11 > 0);
     REQUIRE(p11 * p22 - p12 * p12 > 0);
@@ -145,7 +149,8 @@ TEST_CASE("the PID is its gains times errors, with the compensation, and feeds i
   PidController law(p, n);
   const ReferencePoint desired{0.1, 0.4, -3.0};
   REQUIRE(close(law({0.0, 0.11, 0.5, 0.0, desired}).torque, -(g.Kp * 0.01 + g.Kd * 0.1) - 3.0 * M, 1e-12));
-  const double by_hand = -(g.Ki * 0.02 * 1e-3 + g.Kp * 0.02 + g.Kd * (0.004 - 0.4)) - 3.0 * M - n.C1 * 0.0196 * std::cos(0.12);
+  const double by_hand =
+      -(g.Ki * 0.02 * 1e-3 + g.Kp * 0.02 + g.Kd * (0.004 - 0.4)) - 3.0 * M - n.C1 * 0.0196 * std::cos(0.12);
   REQUIRE(close(law({1e-3, 0.12, 0.004, 1e-3, desired}).torque, by_hand, 1e-12));
 }
 

@@ -82,7 +82,8 @@ TEST_CASE("the printed gain margins 1.12 and 1.04 need the inertia of the load, 
 TEST_CASE("D is zero unless the inertia varies, whatever else does") {
   for (const double Jg : {bare, loaded})
     for (const double share : {0.0, 0.1, 0.5, 0.9})
-      for (const BranchBounds& b : lemma1(nominal(Jg), {.C1 = 0.3 * share, .C2 = share, .load = share, .inertia = 0.0, .friction = {}}).branch)
+      for (const BranchBounds& b :
+           lemma1(nominal(Jg), {.C1 = 0.3 * share, .C2 = share, .load = share, .inertia = 0.0, .friction = {}}).branch)
         REQUIRE(b.D == 0.0);
   // by hand: 1/(0.9 Jg) - 1/Jg
   const Lemma1 lemma = lemma1(nominal(bare), {.C1 = 0.0, .C2 = 0.0, .load = 0.1, .inertia = 0.1, .friction = {}});
@@ -92,7 +93,8 @@ TEST_CASE("D is zero unless the inertia varies, whatever else does") {
 }
 
 TEST_CASE("ten percent of friction are 13 percent of C1 and 8 percent of C2") {
-  const Variations v = in_terms_of_C({.C1 = 0.0, .C2 = 0.0, .load = 0.1, .inertia = 0.0, .friction = 0.1}, GearMesh<double>(table1()));
+  const Variations v =
+      in_terms_of_C({.C1 = 0.0, .C2 = 0.0, .load = 0.1, .inertia = 0.0, .friction = 0.1}, GearMesh<double>(table1()));
   // C bends: ten percent less friction change it more than ten percent more
   REQUIRE(close(v.C1, 1.0 - C_by_hand(0.225) / C1, 1e-12));
   REQUIRE(close(v.C2, C_by_hand(-0.275) / C2 - 1.0, 1e-12));

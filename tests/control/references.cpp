@@ -54,14 +54,16 @@ TEST_CASE("a sinusoid and a chirp of constant frequency are the same sine") {
 TEST_CASE("a chirp passes through its frequencies linearly and continues with the last without a jump") {
   const ChirpReference chirp{1.0, 1.0, 3.0, 4.0};
   // phase 2 pi (f0 t + (f1 - f0) t^2 / (2 T))
-  for (const double t : {0.3, 1.0, 2.2, 4.0}) REQUIRE(std::abs(chirp.at(t).angle - std::sin(2.0 * pi * (t + t * t / 4.0))) <= 1e-12);
+  for (const double t : {0.3, 1.0, 2.2, 4.0})
+    REQUIRE(std::abs(chirp.at(t).angle - std::sin(2.0 * pi * (t + t * t / 4.0))) <= 1e-12);
   REQUIRE(std::abs(chirp.at(4.5).angle - std::sin(2.0 * pi * (4.0 + 4.0 + 3.0 * 0.5))) <= 1e-12);
 }
 
 TEST_CASE("a trapezoid covers its angle with its speed and acceleration, forward and back, long or short") {
   // 1 rad at 2 rad/s and 8 rad/s^2: ramps of 0.25 s and 0.25 rad, 0.25 s of cruise
   const TrapezoidReference up{1.0, 2.0, 8.0, 0.5}, down{-1.0, 2.0, 8.0, 0.5};
-  const double times[] = {0.5, 0.625, 0.75, 0.875, 1.0, 1.125, 1.25, 2.0}, angles[] = {0.0, 0.0625, 0.25, 0.5, 0.75, 0.9375, 1.0, 1.0};
+  const double times[] = {0.5, 0.625, 0.75, 0.875, 1.0, 1.125, 1.25, 2.0},
+               angles[] = {0.0, 0.0625, 0.25, 0.5, 0.75, 0.9375, 1.0, 1.0};
   for (std::size_t k = 0; k < std::size(times); ++k) {
     REQUIRE(std::abs(up.at(times[k]).angle - angles[k]) <= 1e-14);
     REQUIRE(std::abs(down.at(times[k]).angle + angles[k]) <= 1e-14);

@@ -21,9 +21,11 @@ std::vector<double> torques(Control control, double period, double duration, Eff
   auto d = drive(table1(), fig9_load(), {}, std::move(on));
   CvodeSolver solver(d, tight(Method::adams, 1e-9));
   std::vector<double> list;
-  ClosedLoop loop(control, Reference{}, SensorSettings{}, SamplingSettings{period}, DisturbanceSettings{}, [](const ControlRecord&) {});
+  ClosedLoop loop(control, Reference{}, SensorSettings{}, SamplingSettings{period}, DisturbanceSettings{},
+                  [](const ControlRecord&) {});
   simulate(d, solver, loop, Timetable(0.0, duration, std::numeric_limits<double>::infinity(), {period, 0.0}),
-           typename decltype(d)::Instant{}, [&](const auto& system, const auto& now) { list.push_back(system.observe(now).tau_m); });
+           typename decltype(d)::Instant{},
+           [&](const auto& system, const auto& now) { list.push_back(system.observe(now).tau_m); });
   return list;
 }
 
@@ -50,7 +52,8 @@ TEST_CASE("a controller that returns no number stops the run with the time") {
 TEST_CASE("a torque beyond the limit is cut to it in the motor") {
   const auto wild = [](const Measurement& m) { return ControlSignals{.torque = m.t < 0.005 ? 1e6 : -1e6}; };
   double largest = 0.0;
-  for (const double torque : torques(wild, 1e-3, 0.01, effects(TorqueSaturation<double>{.limit = 0.2}))) largest = std::max(largest, std::abs(torque));
+  for (const double torque : torques(wild, 1e-3, 0.01, effects(TorqueSaturation<double>{.limit = 0.2})))
+    largest = std::max(largest, std::abs(torque));
   REQUIRE(largest == 0.2);
 }
 
@@ -67,7 +70,8 @@ TEST_CASE("without break-in compensation, and with an encoder of 16 counts, a ru
     std::vector<std::string> eps = shorter, coarse = shorter;
     eps.emplace_back("controller.break_in_speed_rad_per_s=0");
     coarse.emplace_back("sensor.counts=16");
-    const double good = run_scenario(load_scenario(shipped(file), eps, Purpose::run)).control->metrics.error_peak_to_peak;
+    const double good =
+        run_scenario(load_scenario(shipped(file), eps, Purpose::run)).control->metrics.error_peak_to_peak;
     REQUIRE((good > 0.0 && good < 1e-3));
     const RunSummary blind = run_scenario(load_scenario(shipped(file), coarse, Purpose::run));
     REQUIRE(std::isfinite(blind.end.theta_g));  // 0.39 rad a count: the reference is not seen at all
@@ -76,8 +80,9 @@ TEST_CASE("without break-in compensation, and with an encoder of 16 counts, a ru
 }
 
 TEST_CASE("a delay of one sample, noise and a coloured disturbance make a run that repeats to the last bit") {
-  const std::vector<std::string> changes{"run.duration_s=1.2", "controller.delay_samples=1", "sensor.noise_rad=1e-5", "sensor.counts=20000",
-                                         "disturbance.deviation_Nm=1e-3", "disturbance.time_constant_s=0.01"};
+  const std::vector<std::string> changes{
+      "run.duration_s=1.2",  "controller.delay_samples=1",    "sensor.noise_rad=1e-5",
+      "sensor.counts=20000", "disturbance.deviation_Nm=1e-3", "disturbance.time_constant_s=0.01"};
   const Scenario s = load_scenario(shipped("fig10_pid_014rad_bare.toml"), changes, Purpose::run);
   const RunSummary first = run_scenario(s), again = run_scenario(s);
   REQUIRE(first.end.theta_g == again.end.theta_g);

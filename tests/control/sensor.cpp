@@ -21,7 +21,8 @@ std::vector<ControlRecord> records(Control control, const SensorSettings& sensor
                                    const DisturbanceSettings& disturbance, int samples, Effects<double> on = {}) {
   const auto d = entered(table1(), fig9_load(), {}, std::move(on));
   std::vector<ControlRecord> list;
-  ClosedLoop loop(control, Reference{}, sensor, sampling, disturbance, [&](const ControlRecord& r) { list.push_back(r); });
+  ClosedLoop loop(control, Reference{}, sensor, sampling, disturbance,
+                  [&](const ControlRecord& r) { list.push_back(r); });
   typename std::decay_t<decltype(d)>::Instant now;
   for (int k = 0; k < samples; ++k) {
     now.t = sampling.offset + k * sampling.period;
@@ -67,7 +68,8 @@ TEST_CASE("the speed is the backward difference behind a one-pole low-pass with 
 TEST_CASE("the exact speed is the true one, the difference lags half a sample") {
   SensorSettings exact;
   exact.exact_speed = true;
-  for (const ControlRecord& r : records(ramp, exact, {1e-3}, {}, 50)) REQUIRE(r.measured.speed == 0.7 * std::cos(7.0 * r.measured.t));
+  for (const ControlRecord& r : records(ramp, exact, {1e-3}, {}, 50))
+    REQUIRE(r.measured.speed == 0.7 * std::cos(7.0 * r.measured.t));
   const auto lagging = records(ramp, {}, {1e-3}, {}, 50);
   REQUIRE(lagging[0].measured.speed == 0.0);
   for (std::size_t k = 1; k < 50; ++k)

@@ -19,9 +19,9 @@ inline constexpr Unit newton_metre_per_rad{"Nm_per_rad", "N m/rad"};
 struct PdParameters {
   static constexpr std::string_view kind = "pd";
   static constexpr std::string_view meaning = "proportional and derivative of the error";
-  double Kp{};             ///< [N m/rad]
-  double Kd{};             ///< [N m s/rad]
-  double epsilon{0.005};   ///< speed up to which eq. 25 acts [rad/s]
+  double Kp{};            ///< [N m/rad]
+  double Kd{};            ///< [N m s/rad]
+  double epsilon{0.005};  ///< speed up to which eq. 25 acts [rad/s]
 
   static constexpr auto fields() {
     using P = PdParameters;

@@ -1,4 +1,5 @@
 #include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -79,7 +80,8 @@ std::string full(const std::string& kind, const std::string& law) {
 }
 
 const std::pair<const char*, const char*> laws[] = {
-    {"sliding", "bandwidth_rad_per_s = 70\nlayer_rad_per_s = 0.4\neta_rad_per_s2 = 20\nbeta2 = 2.5\nE1_rad_per_s2 = 0.3"},
+    {"sliding",
+     "bandwidth_rad_per_s = 70\nlayer_rad_per_s = 0.4\neta_rad_per_s2 = 20\nbeta2 = 2.5\nE1_rad_per_s2 = 0.3"},
     {"pid", "integral_weight = 1e6\nangle_weight = 10\nspeed_weight = 0.01\nfeedforward = 0.5"},
     {"open_loop", "[[controller.torque]]\nkind = \"sinusoid\"\namplitude_Nm = 0.03\nfrequency_Hz = 3"}};
 
@@ -143,8 +145,8 @@ TEST_CASE("the samples in a result are those of the controller: times, delay, an
 
 TEST_CASE("an audit of a controlled run finds every event confirmed") {
   const Folder folder;
-  const Outcome outcome = folder.run({"run", shipped("fig10_sliding_014deg_bare.toml"), "--audit", "--json", "-o", "r.h5",
-                                      "--set", "run.duration_s=1.5"});
+  const Outcome outcome = folder.run({"run", shipped("fig10_sliding_014deg_bare.toml"), "--audit", "--json", "-o",
+                                      "r.h5", "--set", "run.duration_s=1.5"});
   REQUIRE(outcome.exit == 0);
   const auto json = nlohmann::json::parse(outcome.out);
   REQUIRE(json["audit"]["missed"] == 0);
@@ -161,23 +163,29 @@ TEST_CASE("check shows gains and Lemma 1, and names what fails with the value th
   const Outcome good = folder.run({"check", sliding});
   REQUIRE(good.out.find("M 0.00402609 N m, least eta 1.28672 rad/s^2") != std::string::npos);
   REQUIRE(good.out.find("FAILS") == std::string::npos);
-  const Outcome bad = folder.run({"check", sliding, "--set", "controller.eta_rad_per_s2=1", "--set", "controller.beta1=1.5"});
+  const Outcome bad =
+      folder.run({"check", sliding, "--set", "controller.eta_rad_per_s2=1", "--set", "controller.beta1=1.5"});
   REQUIRE(bad.exit == 0);
   REQUIRE(bad.out.find("FAILS by 0.2867; controller.eta_rad_per_s2 = 1.28672 would satisfy it") != std::string::npos);
   REQUIRE(bad.out.find("FAILS by 0.5; controller.beta1 = 2 would satisfy it") != std::string::npos);
-  REQUIRE(bad.out.find("warning  Lemma 1 does not hold (wormdrive check says why): beta1 >= 2; eta >= M b_hat/2 - E") != std::string::npos);
+  REQUIRE(bad.out.find("warning  Lemma 1 does not hold (wormdrive check says why): beta1 >= 2; eta >= M b_hat/2 - E") !=
+          std::string::npos);
   const auto json = nlohmann::json::parse(folder.run({"check", shipped("fig10_pid_014rad_bare.toml"), "--json"}).out);
   REQUIRE(close(json["controller"]["gains"]["Kd"], 0.3063, 1e-3));  // 2 p M
 }
 
 TEST_CASE("a run reports what it broke of Lemma 1 with its time and is no failure") {
   const Folder folder;
-  const Outcome run = folder.run({"run", shipped("fig10_sliding_014rad_bare.toml"), "-o", "r.h5", "--set", "load.torque_Nm=1.5"});
+  const Outcome run =
+      folder.run({"run", shipped("fig10_sliding_014rad_bare.toml"), "-o", "r.h5", "--set", "load.torque_Nm=1.5"});
   INFO(run.out);
   REQUIRE(run.exit == 0);
   REQUIRE(run.out.find("broken: |s| <= Phi after reaching at ") != std::string::npos);
-  REQUIRE(run.out.find("warning  Lemma 1 does not hold (wormdrive check says why): |tau_l - tau_l_hat| / |tau_l_hat|") != std::string::npos);
+  REQUIRE(
+      run.out.find("warning  Lemma 1 does not hold (wormdrive check says why): |tau_l - tau_l_hat| / |tau_l_hat|") !=
+      std::string::npos);
   const Hdf5Handle file = open_hdf5(folder / "r.h5");
   REQUIRE(!read_column(file, "controller/sliding_variable").empty());
-  for (const char* what : {"controllers", "references"}) REQUIRE(folder.run({"list", what}).out.find("required") != std::string::npos);
+  for (const char* what : {"controllers", "references"})
+    REQUIRE(folder.run({"list", what}).out.find("required") != std::string::npos);
 }
