@@ -36,7 +36,9 @@ struct Sensor {
     double t;
     std::array<double, 2> x;
   };
+  wormdrive::Effects<double> none{};
   static double measured_angle(const Instant& now) { return now.x[0]; }
+  const wormdrive::Effects<double>& effects() const { return none; }
 };
 
 struct Nobody {
@@ -47,7 +49,7 @@ ClosedLoop<SlidingController, Nobody> controller(double period) {
   const NominalModel nominal{
       .C1 = mesh.C1(), .C2 = mesh.C2(), .Jw_i = mesh.Jw * mesh.i, .Jg = mesh.Jg, .load_torque = 0.0196};
   const SlidingParameters fig_10{.lambda_c = 30 * pi, .Phi = 0.3, .eta = 30.0};
-  return {SlidingController(fig_10, nominal),
+  return {SlidingController(fig_10, nominal, wormdrive::Variations{}),
           wormdrive::Reference{{SinusoidReference{.amplitude = 0.14, .frequency = 2.0}}},
           SensorSettings{.filter_cutoff = 200.0},
           SamplingSettings{.period = period},

@@ -5,8 +5,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/describe_control.hpp"
 #include "core/statics.hpp"
-#include "scenarios/build.hpp"
+#include "scenarios/build_control.hpp"
 #include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
@@ -33,24 +34,26 @@ void list_fields(const Parameters& parameters, const std::string& path, Axis axi
 std::vector<Quantity> parameters(const Scenario& scenario) {
   std::vector<Quantity> list;
   const auto fields = [&](const auto& p, const std::string& path) { list_fields(p, path, scenario.axis, list); };
-  const auto signal = [&](const Signal& s, const std::string& path) {
-    for (std::size_t k = 0; k < s.terms.size(); ++k)
+  const auto terms = [&](const auto& sum, const std::string& path) {
+    for (std::size_t k = 0; k < sum.terms.size(); ++k)
       std::visit(
           [&](const auto& term) {
-            const std::string name = s.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
+            const std::string name = sum.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
             if constexpr (requires { term.times; })
               list.push_back({name, "1", "samples", static_cast<double>(term.times.size())});
+            else if constexpr (requires { term.table; })
+              list.push_back({name, "1", "points of the table", static_cast<double>(term.table.points().size())});
             else
               fields(term, name);
           },
-          s.terms[k]);
+          sum.terms[k]);
   };
   std::visit([&](const auto& mesh) { fields(mesh, "mesh"); }, scenario.mesh);
-  signal(scenario.motor, "motor.torque");
+  terms(scenario.motor, "motor.torque");
   std::visit(
       [&](const auto& load) {
         if constexpr (requires { load.terms; })
-          signal(load, "load");
+          terms(load, "load");
         else if constexpr (requires { load.fields(); })
           fields(load, "load");
         else
@@ -62,6 +65,25 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
   });
   fields(scenario.initial, "initial");
   if (scenario.run.duration > 0.0) fields(scenario.run, "run");
+  if (!scenario.control) return list;
+  const ControlScenario& control = *scenario.control;
+  fields(control.sampling, "controller");
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (requires { law.fields(); })
+          fields(law, "controller");
+        else
+          terms(law.torque, "controller.torque");
+      },
+      control.law);
+  const NominalModel n = make_nominal(scenario);
+  fields(NominalSettings{n.C1, n.C2, n.Jw_i, n.Jg, n.load_torque, n.load_angle_offset, n.load_constant},
+         "controller.nominal");
+  fields(control.variations, "controller.variation");
+  terms(control.reference, "reference");
+  fields(control.sensor, "sensor");
+  if (control.disturbance.deviation > 0.0) fields(control.disturbance, "disturbance");
+  fields(control.window, "metrics");
   return list;
 }
 
@@ -102,6 +124,7 @@ int check_command(const ScenarioOptions& options) {
                 {"parameters", as_json(parameters(scenario))},
                 {"derived", as_json(derived(scenario))},
                 {"regime", describe_mesh(scenario)},
+                {"controller", design_as_json(scenario)},
                 {"warnings", warnings(scenario)},
                 {"scenario", to_toml(scenario)}});
     return 0;
@@ -115,6 +138,7 @@ int check_command(const ScenarioOptions& options) {
     fmt::print("\n");
     print_item("regime", describe_mesh(scenario));
   }
+  print_design(scenario);
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/describe_control.hpp"
 #include "core/energy.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
@@ -51,7 +52,8 @@ std::vector<std::string> warnings(const Scenario& scenario) {
     list.push_back(fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
                                "{:.4f} would close it",
                                mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree));
-  if (scenario.motor.terms.empty()) list.push_back("no [motor.torque]: the motor torque is 0 throughout");
+  if (scenario.motor.terms.empty() && !scenario.control) list.push_back("no [motor.torque]: the motor torque is 0 throughout");
+  for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
   return list;
 }
 

@@ -28,18 +28,19 @@ void print_fields() {
 
 void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<18} {}\n", kind, meaning); }
 
-template <class Term>
-void print_torque() {
-  print_kind(Term::kind, Term::meaning);
-  if constexpr (requires { Term::fields(); })
-    print_fields<Term>();
-  else
-    fmt::print("      file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"\n");
-}
-
-template <std::size_t... K>
-void print_torques(std::index_sequence<K...>) {
-  (print_torque<std::variant_alternative_t<K, SignalTerm>>(), ...);
+/// Prints every alternative of a variant; one without fields is described by `otherwise`.
+template <class Variant>
+void print_kinds(std::string_view otherwise) {
+  [&]<std::size_t... K>(std::index_sequence<K...>) {
+    const auto print = [&]<class Kind>() {
+      print_kind(Kind::kind, Kind::meaning);
+      if constexpr (requires { Kind::fields(); })
+        print_fields<Kind>();
+      else
+        fmt::print("      {}\n", otherwise);
+    };
+    (print.template operator()<std::variant_alternative_t<K, Variant>>(), ...);
+  }(std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
 void list_effects() {
@@ -53,7 +54,7 @@ void list_effects() {
 
 void list_torques() {
   fmt::print("torques: [motor.torque] kind = \"...\", or several as [[motor.torque]], which add up\n");
-  print_torques(std::make_index_sequence<std::variant_size_v<SignalTerm>>());
+  print_kinds<SignalTerm>("file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"");
 }
 
 void list_loads() {
@@ -65,6 +66,27 @@ void list_loads() {
     else
       fmt::print("      file (with x_column, y_column), or angles_deg and torques_Nm\n");
   });
+}
+
+void list_controllers() {
+  fmt::print("controllers: [controller] kind = \"...\", with any kind\n");
+  print_fields<SamplingSettings>();
+  print_kinds<ControllerParameters>("torque: [[controller.torque]], any torque over time (wormdrive list torques)");
+  fmt::print("its model of the drive: [controller.nominal]\n");
+  print_fields<NominalSettings>();
+  fmt::print("what it is to withstand: [controller.variation]\n");
+  print_fields<Variations>();
+  fmt::print("what it measures: [sensor] speed = \"difference\" or \"exact\"\n");
+  print_fields<SensorSettings>();
+  fmt::print("a random torque on the worm: [disturbance]\n");
+  print_fields<DisturbanceSettings>();
+  fmt::print("when its metrics are taken: [metrics]\n");
+  print_fields<MetricsWindow>();
+}
+
+void list_references() {
+  fmt::print("references: [reference] kind = \"...\", or several as [[reference]], which add up\n");
+  print_kinds<ReferenceTerm>("file (with x_column, y_column), or times_s and angles_rad");
 }
 
 /// The installed scenarios, or those of the source tree that built this program.
@@ -86,6 +108,8 @@ int list_command(const std::string& what) {
   if (what == "effects") list_effects();
   if (what == "torques") list_torques();
   if (what == "loads") list_loads();
+  if (what == "controllers") list_controllers();
+  if (what == "references") list_references();
   if (what == "scenarios") list_scenarios();
   return 0;
 }

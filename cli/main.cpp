@@ -137,10 +137,10 @@ int main(int argc, char** argv) {
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
 
   std::string what;
-  CLI::App* const list_app = app.add_subcommand("list", "list effects, loads, torques or scenarios");
-  list_app->add_option("what", what, "effects, loads, torques or scenarios")
+  CLI::App* const list_app = app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
+  list_app->add_option("what", what, "effects, loads, torques, controllers, references or scenarios")
       ->required()
-      ->check(CLI::IsMember({"effects", "loads", "torques", "scenarios"}));
+      ->check(CLI::IsMember({"effects", "loads", "torques", "controllers", "references", "scenarios"}));
 
   if (const auto fault = unknown_command(app, argc, argv)) {
     std::cerr << *fault << '\n';

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/describe_control.hpp"
 #include "cli/progress.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
@@ -25,6 +26,7 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
                         {"gear_speed", summary.end.omega_g}};
   for (const EventKind kind : {EventKind::break_away, EventKind::stop, EventKind::reversal, EventKind::flank_change})
     result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
+  if (summary.control) result["control"] = as_json(*summary.control);
   if (summary.audit)
     result["audit"] = {{"guards", summary.audit->guards},
                        {"events", summary.audit->events},
@@ -40,8 +42,10 @@ RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& o
   Progress progress(scenario.run.duration, options.scenario.quiet || options.scenario.json);
   try {
     RunSummary summary = run_scenario(scenario, {.rows = [&](const Trajectory& part) { file.append(part); },
+                                                 .samples = [&](const auto& part) { file.append(part); },
                                                  .time = [&](double t) { progress.at(t); },
                                                  .audit = options.audit});
+    if (summary.control) file.describe(*summary.control);
     file.finish(describe_solver(scenario.run), summary.statistics);
     return summary;
   } catch (const Halt& halt) {
@@ -62,7 +66,8 @@ int run_command(const RunOptions& options) {
     if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
     for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   }
-  RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis);
+  RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
+               scenario.control.has_value());
   if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth)
     write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
   const RunSummary summary = run_into(file, scenario, options);
@@ -71,6 +76,7 @@ int run_command(const RunOptions& options) {
   print_item("run", fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration,
                                 describe_solver(scenario.run), summary.statistics.evaluations,
                                 describe_events(summary)));
+  if (summary.control) print_control(*summary.control);
   if (summary.audit) print_item("audit", describe_audit(*summary.audit, scenario));
   print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, output));
   return 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -30,7 +31,7 @@ struct ControlRecord {
   double gear_angle;  ///< the true one [rad]
   Measurement measured;
   ControlSignals decided;
-  double applied;  ///< motor torque held from this sample on, disturbance included [N m]
+  double applied;  ///< motor torque held from this sample on: delayed, disturbed, limited [N m]
 };
 
 /// A sampled controller with its sensor, reference and disturbance: everything between the gear angle and the held
@@ -59,7 +60,8 @@ class ClosedLoop {
                         reference_.at(now.t)};
     const ControlSignals decided = control_(m);
     const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
-    const double applied = torque + disturbance_(k_++);
+    const double limit = system.effects().torque_limit();
+    const double applied = std::clamp(torque + disturbance_(k_++), -limit, limit);
     listener_(ControlRecord{now.x[0], m, decided, applied});
     return applied;
   }

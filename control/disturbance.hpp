@@ -20,15 +20,14 @@ struct DisturbanceSettings {
     return std::tuple{
         Field{&P::deviation, "deviation", unit::newton_metre, bounds::not_negative, "standard deviation"},
         Field{&P::time_constant, "time_constant", unit::second, bounds::not_negative, "colouring; 0 is white", o},
-        Field{&P::seed, "seed", unit::none, bounds::not_negative, "seed of the random torque", o}};
+        Field{&P::seed, "seed", unit::none, seeds, "seed of the random torque", o}};
   }
 };
 
 class TorqueDisturbance {
  public:
   TorqueDisturbance(const DisturbanceSettings& settings, double period)
-      : settings_(settings),
-        keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0) {}
+      : settings_(settings), keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0) {}
 
   /// The torque [N m] from the k-th sample on; its variance is the same from the first sample.
   double operator()(std::uint64_t k) {

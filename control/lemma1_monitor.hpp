@@ -1,20 +1,22 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "control/closed_loop.hpp"
-#include "control/lemma1.hpp"
+#include "control/lemma1_conditions.hpp"
 
 namespace wormdrive {
 
 /// A promise of Lemma 1 that a run broke.
 struct Violation {
-  std::string_view promise;
+  std::string_view name;     ///< one word, "layer"
+  std::string_view promise;  ///< in symbols
   long count = 0;
   double first = std::numeric_limits<double>::quiet_NaN();  ///< time of the first sample that broke it [s]
-  double worst = 0.0;                                       ///< largest value seen
+  double worst = 0.0;                                       ///< largest value seen, of |u| the smallest
   double limit = 0.0;                                       ///< what was promised
 };
 
@@ -26,10 +28,10 @@ class Lemma1Monitor {
       : Phi_(p.Phi),
         M_(lemma.M),
         settling_(10.0 / p.lambda_c),
-        violations_{{{.promise = "|s| <= Phi after reaching", .limit = p.Phi},
-                     {.promise = "|e| <= 2 Phi/lambda_c", .limit = guaranteed_precision(p)},
-                     {.promise = "|e| <= 2 Phi/(e lambda_c)", .limit = sharp_precision(p)},
-                     {.promise = "u beyond the surface outside the layer", .limit = lemma.M}}} {}
+        violations_{{{.name = "layer", .promise = "|s| <= Phi after reaching", .limit = p.Phi},
+                     {.name = "precision", .promise = "|e| <= 2 Phi/lambda_c", .limit = guaranteed_precision(p)},
+                     {.name = "sharp_precision", .promise = "|e| <= 2 Phi/(e lambda_c)", .limit = sharp_precision(p)},
+                     {.name = "definition", .promise = "|u| >= M outside the layer", .limit = lemma.M}}} {}
 
   void sample(const ControlRecord& record) {
     const double t = record.measured.t, s = record.decided.s, u = record.decided.u;

@@ -35,7 +35,8 @@ struct Metrics {
   static constexpr auto fields() {
     using P = Metrics;
     return std::tuple{
-        Field{&P::error_peak_to_peak, "error_peak_to_peak", unit::radian, bounds::any, "tracking error, largest minus smallest"},
+        Field{&P::error_peak_to_peak, "error_peak_to_peak", unit::radian, bounds::any,
+              "tracking error, largest minus smallest"},
         Field{&P::error_rms, "error_rms", unit::radian, bounds::any, "tracking error, root mean square"},
         Field{&P::error_max, "error_max", unit::radian, bounds::any, "tracking error, largest magnitude"},
         Field{&P::torque_peak, "torque_peak", unit::newton_metre, bounds::any, "motor torque, largest magnitude"},
@@ -79,11 +80,20 @@ class MetricsMeter {
   }
 
   Metrics result() const {
-    if (samples_ == 0) return {};
+    if (samples_ == 0) {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      return {none, none, none, none, none, none, none, none, none};
+    }
     const double n = static_cast<double>(samples_);
-    return {highest_ - lowest_, std::sqrt(squares_ / n), std::max(std::abs(highest_), std::abs(lowest_)), peak_,
-            std::sqrt(torque_squares_ / n), static_cast<double>(reversals_), static_cast<double>(flank_changes_),
-            stuck_, outside_};
+    return {highest_ - lowest_,
+            std::sqrt(squares_ / n),
+            std::max(std::abs(highest_), std::abs(lowest_)),
+            peak_,
+            std::sqrt(torque_squares_ / n),
+            static_cast<double>(reversals_),
+            static_cast<double>(flank_changes_),
+            stuck_,
+            outside_};
   }
 
  private:

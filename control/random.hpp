@@ -1,11 +1,16 @@
 #pragma once
-#include <Random123/philox.h>
-
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
+#include <Random123/philox.h>
+
+#include "core/field.hpp"
+
 namespace wormdrive {
+
+/// Seeds are whole numbers that a double holds exactly.
+inline constexpr Bounds seeds = bounds::between(0.0, 0x1p53);
 
 /// What a random number is for: streams of one seed never overlap.
 enum class Stream : std::uint64_t { encoder_noise = 1, torque_disturbance = 2, reference = 3 };

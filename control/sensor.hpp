@@ -11,8 +11,8 @@ namespace wormdrive {
 
 /// How the gear angle reaches the controller, and how the speed is made from it.
 struct SensorSettings {
-  double counts{0.0};         ///< of the encoder per turn of the gear; 0: exact
-  double noise{0.0};          ///< standard deviation [rad]
+  double counts{0.0};  ///< of the encoder per turn of the gear; 0: exact
+  double noise{0.0};   ///< standard deviation [rad]
   double seed{1};
   double filter_cutoff{0.0};  ///< of the one-pole low-pass behind the difference [Hz]; 0: none
   bool exact_speed = false;   ///< the true speed instead of the filtered difference
@@ -21,9 +21,10 @@ struct SensorSettings {
     using P = SensorSettings;
     constexpr Presence o = Presence::optional;
     return std::tuple{
-        Field{&P::counts, "counts", unit::none, bounds::not_negative, "encoder counts per turn of the gear; 0 is exact", o},
+        Field{&P::counts, "counts", unit::none, bounds::not_negative, "encoder counts per turn of the gear; 0 is exact",
+              o},
         Field{&P::noise, "noise", unit::radian, bounds::not_negative, "standard deviation of the measured angle", o},
-        Field{&P::seed, "seed", unit::none, bounds::not_negative, "seed of the noise", o},
+        Field{&P::seed, "seed", unit::none, seeds, "seed of the noise", o},
         Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
               "cut-off of the speed's low-pass; 0 is none", o}};
   }

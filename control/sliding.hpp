@@ -1,11 +1,14 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
 #include "control/compensation.hpp"
 #include "control/controller_signals.hpp"
+#include "control/lemma1.hpp"
 #include "control/nominal.hpp"
 #include "core/field.hpp"
 
@@ -19,9 +22,9 @@ struct SlidingParameters {
   double Phi{};       ///< boundary layer [rad/s]
   double eta{};       ///< reaching rate [rad/s^2]
   double beta1{2.0}, beta2{2.0};
-  double D1{0.0}, D2{0.0};  ///< bounds of |d_k - d_k_hat| [1/(kg m^2)]
-  double E1{0.0}, E2{0.0};  ///< bounds of |e_k - e_k_hat| [rad/s^2]
-  double epsilon{0.005};    ///< speed below which eq. 25 acts [rad/s]
+  std::optional<double> D1{}, D2{};  ///< bounds of |d_k - d_k_hat| [1/(kg m^2)]; those of the variations if not stated
+  std::optional<double> E1{}, E2{};  ///< bounds of |e_k - e_k_hat| [rad/s^2]; likewise
+  double epsilon{0.005};         ///< speed up to which eq. 25 acts [rad/s]
 
   static constexpr auto fields() {
     using P = SlidingParameters;
@@ -44,11 +47,20 @@ struct SlidingParameters {
   }
 };
 
+/// The bounds that a sliding controller works with: as stated, else as the variations ask.
+struct SlidingBounds {
+  std::array<double, 2> D, E;  ///< of the branches C1 and C2
+
+  SlidingBounds(const SlidingParameters& p, const Lemma1& lemma)
+      : D{p.D1.value_or(lemma.branch[0].D), p.D2.value_or(lemma.branch[1].D)},
+        E{p.E1.value_or(lemma.branch[0].E), p.E2.value_or(lemma.branch[1].E)} {}
+};
+
 /// The sliding controller with smoothing inside the boundary layer [YehWu2009, eq. 20-24] and compensation [eq. 25].
 class SlidingController {
  public:
-  SlidingController(const SlidingParameters& parameters, const NominalModel& nominal)
-      : p_(parameters), nominal_(nominal) {}
+  SlidingController(const SlidingParameters& parameters, const NominalModel& nominal, const Variations& variations)
+      : p_(parameters), nominal_(nominal), bounds_(parameters, lemma1(nominal, variations)) {}
 
   ControlSignals operator()(const Measurement& m) {
     const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
@@ -75,14 +87,21 @@ class SlidingController {
     const double C = nominal_.C(motion, flank), inertia = nominal_.inertia(C);
     const double d = (C + nominal_.surface()) / inertia;
     const double u_hat = wanted - d * load;
-    const bool first = sign(motion) * sign(flank) > 0;
-    const double beta = first ? p_.beta1 : p_.beta2, D = first ? p_.D1 : p_.D2, E = first ? p_.E1 : p_.E2;
-    return {inertia, u_hat, beta * (D * std::abs(load) + E + p_.eta) + (beta - 1.0) * std::abs(u_hat)};
+    const std::size_t k = sign(motion) * sign(flank) > 0 ? 0 : 1;
+    const double beta = k == 0 ? p_.beta1 : p_.beta2;
+    return {inertia, u_hat,
+            beta * (bounds_.D[k] * std::abs(load) + bounds_.E[k] + p_.eta) + (beta - 1.0) * std::abs(u_hat)};
   }
 
   SlidingParameters p_;
   NominalModel nominal_;
+  SlidingBounds bounds_;
   double integral_ = 0.0;
 };
+
+inline SlidingController make_controller(const SlidingParameters& p, const NominalModel& nominal,
+                                         const Variations& variations) {
+  return {p, nominal, variations};
+}
 
 }  // namespace wormdrive

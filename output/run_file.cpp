@@ -86,12 +86,35 @@ const std::vector<Column<Event>>& event_columns() {
   return columns;
 }
 
+const std::vector<Column<ControlRecord>>& controller_columns() {
+  using C = ControlRecord;
+  static const std::vector<Column<C>> columns{
+      {{"time", "s", "time of the sample"}, [](const C& c) { return c.measured.t; }},
+      {{"reference_angle", "rad", "reference theta_d"}, [](const C& c) { return c.measured.desired.angle; }},
+      {{"reference_speed", "rad/s", "reference speed theta_d'"}, [](const C& c) { return c.measured.desired.speed; }},
+      {{"gear_angle", "rad", "true gear angle theta_g"}, [](const C& c) { return c.gear_angle; }},
+      {{"measured_angle", "rad", "gear angle as the encoder shows it"}, [](const C& c) { return c.measured.angle; }},
+      {{"measured_speed", "rad/s", "gear speed as the controller knows it"},
+       [](const C& c) { return c.measured.speed; }},
+      {{"sliding_variable", "rad/s", "sliding variable s, 0 for other controllers"},
+       [](const C& c) { return c.decided.s; }},
+      {{"input", "N m", "input u = tau_m - (Jw i/Jg) tau_l_hat of the sliding law, 0 for other controllers"},
+       [](const C& c) { return c.decided.u; }},
+      {{"compensation", "N m", "part of the torque that is break-in compensation"},
+       [](const C& c) { return c.decided.compensation; }},
+      {{"torque", "N m", "motor torque that the controller decided"}, [](const C& c) { return c.decided.torque; }},
+      {{"applied_torque", "N m", "motor torque held from this sample on: delayed, disturbed, limited"},
+       [](const C& c) { return c.applied; }}};
+  return columns;
+}
+
 }  // namespace
 
-RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis) : file_(path) {
+RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, bool controlled) : file_(path) {
   write_provenance(file_.file(), provenance);
   trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(), axis));
   events_.emplace(file_.file(), "events", descriptions(event_columns(), axis));
+  if (controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
   file_.flush();
   flushed_ = Clock::now();
 }
@@ -106,6 +129,26 @@ void RunFile::append(const Trajectory& part) {
   flushed_ = Clock::now();
 }
 
+void RunFile::append(const std::vector<ControlRecord>& samples) {
+  if (controller_) controller_->append(values(controller_columns(), samples));
+}
+
+void RunFile::describe(const ControlSummary& summary) {
+  const hid_t group = controller_->group();
+  for_each_field<Metrics>([&](const auto& field) {
+    write_attribute(group, std::string(field.name), summary.metrics.*field.member);
+  });
+  if (!summary.lemma) return;
+  write_attribute(group, "layer_reached", summary.lemma->reached());
+  for (const Violation& v : summary.lemma->violations()) {
+    const std::string name(v.name);
+    write_attribute(group, name + "_violations", std::int64_t{v.count});
+    write_attribute(group, name + "_first", v.first);
+    write_attribute(group, name + "_worst", v.worst);
+    write_attribute(group, name + "_limit", v.limit);
+  }
+}
+
 void RunFile::finish(const std::string& solver, const SolverStatistics& statistics) {
   const hid_t file = file_.file();
   write_attribute(file, "solver", solver);
@@ -117,6 +160,7 @@ void RunFile::finish(const std::string& solver, const SolverStatistics& statisti
   write_attribute(file, "solver_restarts", std::int64_t{statistics.restarts});
   trajectory_.reset();
   events_.reset();
+  controller_.reset();
   file_.finish();
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "control/closed_loop.hpp"
+#include "control/control_summary.hpp"
 #include "events/solver_settings.hpp"
 #include "output/part_file.hpp"
 #include "output/table.hpp"
@@ -20,10 +22,15 @@ std::string units_on(Axis axis, const std::string& rotary);
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.
 class RunFile {
  public:
-  RunFile(const std::string& path, const Provenance& provenance, Axis axis);
+  /// controlled: whether there will be samples of a controller.
+  RunFile(const std::string& path, const Provenance& provenance, Axis axis, bool controlled = false);
 
   /// Appends rows and events; what is older than a second is safe if the program dies.
   void append(const Trajectory& part);
+  /// Appends samples of the controller.
+  void append(const std::vector<ControlRecord>& samples);
+  /// Writes how well the controller did.
+  void describe(const ControlSummary& summary);
   /// Writes the statistics and gives the file its final name.
   void finish(const std::string& solver, const SolverStatistics& statistics);
 
@@ -33,7 +40,7 @@ class RunFile {
   using Clock = std::chrono::steady_clock;
 
   PartFile file_;
-  std::optional<GrowingTable> trajectory_, events_;
+  std::optional<GrowingTable> trajectory_, events_, controller_;
   Clock::time_point flushed_;
 };
 

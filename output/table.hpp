@@ -28,6 +28,9 @@ class GrowingTable {
   /// Appends rows, given column by column in the order of the descriptions; flags are rounded to int8.
   void append(const std::vector<std::vector<double>>& columns);
 
+  /// The group, for attributes of the table as a whole.
+  hid_t group() const { return group_; }
+
  private:
   std::vector<ColumnDescription> descriptions_;
   Hdf5Handle group_;

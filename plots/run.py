@@ -1,4 +1,4 @@
-"""The picture of a run: gear angle, gear speed with its modes, torques with the switching surface."""
+"""The picture of a run: gear angle, gear speed with its modes, torques with the switching surface, tracking error."""
 
 from typing import NamedTuple
 
@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+import controller
 import style
 from result import NotAResult, attribute, column, columns, flags, group, number, text, units
 
@@ -143,7 +144,13 @@ def draw(result):
         other, label = load, f"load {word}"
 
     figure = style.new_figure(text(attribute(result, "title")))
-    panels = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [1.0, 1.25, 1.25]})
+    samples = controller.samples(result)
+    heights = [1.0, 1.25, 1.25] + ([0.9] if samples else [])
+    panels = figure.subplots(len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights})
+    legend = []
+    if samples:
+        controller.draw_error(panels[3], samples)
+        legend = [controller.draw_reference(panels[0], samples, angle_factor)]
     draw_curve(panels[0], time, angle_factor * angle, style.INK)
     panels[0].set(ylabel=f"{angle_name} [{angle_unit}]", ylim=style.limits(angle_factor * angle))
     draw_curve(panels[1], time, speed_factor * speed, style.INK)
@@ -159,14 +166,17 @@ def draw(result):
     if few and event_time.size:
         curves = [(panels[1], speed_factor * column(events, "gear_speed")),
                   (panels[2], torque_factor * column(events, "motor_torque_after"))]
-        style.header(panels[0], draw_events(panels, curves, event_time, kinds))
+        legend += draw_events(panels, curves, event_time, kinds)
     elif not few:
         counts = ", ".join(f"{rows.size} × {EVENTS[kind][0]}" for kind, rows in kinds.items())
         note = f"{event_time.size} events, not drawn: {counts}" + ("; white: modes too brief" if skipped else "")
-        style.header(panels[0], [Line2D([], [], linestyle="none", label=note)], handlelength=0.0, handletextpad=0.0)
+        legend.append(Line2D([], [], linestyle="none", label=note))
+    if legend:
+        bare = len(legend) == 1 and not few  # a note alone has no line to show
+        style.header(panels[0], legend, **({"handlelength": 0.0, "handletextpad": 0.0} if bare else {}))
 
     for panel in panels:
         style.few_ticks(panel.yaxis)
-    panels[2].set(xlabel="time [s]", xlim=(time[0], time[-1]) if span > 0.0 else (time[0] - 0.5, time[0] + 0.5))
+    panels[-1].set(xlabel="time [s]", xlim=(time[0], time[-1]) if span > 0.0 else (time[0] - 0.5, time[0] + 0.5))
     figure.align_ylabels()
     return figure

@@ -6,6 +6,7 @@
 
 #include "scenarios/build.hpp"
 #include "scenarios/document.hpp"
+#include "scenarios/read_control.hpp"
 #include "scenarios/read_load.hpp"
 #include "scenarios/read_signal.hpp"
 #include "scenarios/table_reader.hpp"
@@ -26,30 +27,21 @@ class ScenarioReader {
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());
     read_effects();
-    section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
+    root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
+    read_control(root_, scenario_, folder());
     root_.finish();
     if (purpose == Purpose::run) refuse_what_does_not_move();
     return std::move(scenario_);
   }
 
  private:
-  /// Reads a table of the root; one that is not there may still be told to be required.
-  template <class Read>
-  void section(const std::string& key, Read&& read) {
-    const toml::table* table = root_.table(key);
-    if (root_.has(key) && !table) return;  // of another type, which was told
-    TableReader reader(table, key, scenario_.axis, faults_, {name_});
-    read(reader);
-    reader.finish();
-  }
-
   std::string folder() const { return std::filesystem::path(name_).parent_path().string(); }
 
   /// Which keys the mesh has, and how all quantities are spelled, hangs on two words: if one is wrong, the rest cannot
   /// be judged.
   void read_mesh() {
-    section("mesh", [&](TableReader& mesh) {
+    root_.section("mesh", [&](TableReader& mesh) {
       const auto kind = mesh.choice("kind", {"worm", "none"}, Presence::optional);
       if (!kind) faults_.raise();
       if (kind == "worm") {
@@ -74,14 +66,14 @@ class ScenarioReader {
 
   Signal read_motor() {
     Signal signal;
-    section("motor", [&](TableReader& motor) {
+    root_.section("motor", [&](TableReader& motor) {
       signal = read_signal(motor.tables("torque"), "motor.torque", motor, folder());
     });
     return signal;
   }
 
   void read_effects() {
-    section("effect", [&](TableReader& effects) {
+    root_.section("effect", [&](TableReader& effects) {
       scenario_.effects.for_each([&](auto& effect) {
         using Effect = typename std::decay_t<decltype(effect)>::value_type;
         const toml::table* table = effects.table(std::string(Effect::id));
@@ -98,7 +90,7 @@ class ScenarioReader {
 
   void read_run(Purpose purpose) {
     if (purpose == Purpose::look && !root_.has("run")) return;
-    section("run", [&](TableReader& run) {
+    root_.section("run", [&](TableReader& run) {
       run.read_fields(scenario_.run);
       if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
         scenario_.run.solver = SolverKind::taylor;

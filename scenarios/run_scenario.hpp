@@ -2,18 +2,21 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <vector>
 
+#include "control/control_summary.hpp"
 #include "events/audit.hpp"
 #include "output/trajectory.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace wormdrive {
 
-/// Who wants to see a run while it goes on; either may be empty.
+/// Who wants to see a run while it goes on; any may be empty.
 struct RunListeners {
-  std::function<void(Trajectory)> rows{};  ///< takes rows and events in portions, in order
-  std::function<void(double)> time{};      ///< called with the simulated time [s] at every row
-  bool audit = false;                      ///< re-integrate and re-scan the run afterwards
+  std::function<void(Trajectory)> rows{};                            ///< takes rows and events in portions, in order
+  std::function<void(const std::vector<ControlRecord>&)> samples{};  ///< takes the controller's samples likewise
+  std::function<void(double)> time{};  ///< called with the simulated time [s] at every row
+  bool audit = false;                  ///< re-integrate and re-scan the run afterwards
 };
 
 /// What a run amounts to.
@@ -22,6 +25,7 @@ struct RunSummary {
   std::array<long, 4> events{};  ///< by EventKind
   Observation end{};
   std::optional<AuditReport> audit;
+  std::optional<ControlSummary> control;
 
   long total_events() const { return events[0] + events[1] + events[2] + events[3]; }
 };

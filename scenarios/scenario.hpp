@@ -11,6 +11,7 @@
 #include "core/signal.hpp"
 #include "events/solver_settings.hpp"
 #include "output/run_file.hpp"
+#include "scenarios/control_scenario.hpp"
 
 namespace wormdrive {
 
@@ -78,6 +79,7 @@ struct Scenario {
   Signal motor;
   InitialState initial;
   RunSettings run;
+  std::optional<ControlScenario> control;  ///< nothing: the motor's signal alone
 };
 
 }  // namespace wormdrive

@@ -55,7 +55,7 @@ std::string rule(const Bounds& bounds, const Unit& unit) {
 TableReader::TableReader(const toml::table* table, std::string path, Axis axis, Faults& faults, Location missing_at)
     : present_(table != nullptr), table_(table ? *table : nothing), path_(std::move(path)), axis_(axis),
       faults_(faults), here_(location(table_.source())) {
-  if (here_.file.empty()) here_ = std::move(missing_at);
+  if (here_.file.empty() || path_.empty()) here_ = std::move(missing_at);  // the root is the whole file
 }
 
 std::string TableReader::table_name() const {
@@ -196,6 +196,7 @@ void TableReader::lacks(const std::string& what) { faults_.add(here_, fmt::forma
 
 void TableReader::finish() {
   for (const auto& [key, node] : table_) {
+    if (!knows_all_) break;
     const std::string name(key.str());
     if (std::find(valid_.begin(), valid_.end(), name) != valid_.end()) continue;
     Location at = location(key.source());

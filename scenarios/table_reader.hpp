@@ -47,6 +47,16 @@ class TableReader {
   /// The tables of an array of tables, or the one table; another type is a fault.
   std::vector<const toml::table*> tables(const std::string& key);
 
+  /// Reads a sub-table with read(reader); one that is not there may still be told to be required.
+  template <class Read>
+  void section(const std::string& key, Read&& read) {
+    const toml::table* const sub = table(key);
+    if (has(key) && !sub) return;  // of another type, which was told
+    TableReader reader(sub, path_of(key), axis_, faults_, here_);
+    read(reader);
+    reader.finish();
+  }
+
   /// The text of a key that another call will read and check.
   std::optional<std::string> peek(const std::string& key) const { return table_[key].value<std::string>(); }
   bool has(const std::string& key) const { return table_.contains(key); }
@@ -58,6 +68,8 @@ class TableReader {
   void fault(const std::string& key, std::string what) { faults_.add(where(key), std::move(what)); }
   /// Notes what the table as a whole lacks.
   void lacks(const std::string& what);
+  /// Which keys may stand here is not known: none is unknown.
+  void ignore_unknown() { knows_all_ = false; }
   /// Notes every key that no call has asked for, and every one that had to be there and is not.
   void finish();
 
@@ -81,6 +93,7 @@ class TableReader {
   Axis axis_;
   Faults& faults_;
   Location here_;
+  bool knows_all_ = true;
   std::vector<std::string> valid_;
   std::vector<Missing> missing_;
 };

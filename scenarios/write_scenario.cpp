@@ -103,6 +103,48 @@ void write_load(Writer& out, const Load& load) {
   }
 }
 
+void write_reference(Writer& out, const Reference& reference) {
+  for (const ReferenceTerm& term : reference.terms)
+    std::visit(
+        [&](const auto& t) {
+          out.table("[[reference]]");
+          out.text("kind", std::string(t.kind));
+          if constexpr (requires { t.fields(); }) {
+            out.fields(t);
+          } else {
+            out.values("times", unit::second, t.table.points());
+            out.values("angles", unit::radian, t.table.values());
+          }
+        },
+        term);
+}
+
+void write_control(Writer& out, const ControlScenario& control) {
+  out.table("[controller]");
+  std::visit(
+      [&](const auto& law) {
+        out.text("kind", std::string(law.kind));
+        out.fields(control.sampling);
+        if constexpr (requires { law.fields(); })
+          out.fields(law);
+        else
+          write_signal(out, "controller.torque", law.torque);
+      },
+      control.law);
+  out.table("[controller.nominal]");
+  out.fields(control.nominal);
+  out.table("[controller.variation]");
+  out.fields(control.variations);
+  write_reference(out, control.reference);
+  out.table("[sensor]");
+  out.text("speed", control.sensor.exact_speed ? "exact" : "difference");
+  out.fields(control.sensor);
+  out.table("[disturbance]");
+  out.fields(control.disturbance);
+  out.table("[metrics]");
+  out.fields(control.window);
+}
+
 }  // namespace
 
 std::string to_toml(const Scenario& scenario) {
@@ -126,6 +168,7 @@ std::string to_toml(const Scenario& scenario) {
   out.text("solver", scenario.run.solver == SolverKind::taylor ? "taylor" : "cvode");
   out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
   out.fields(scenario.run);
+  if (scenario.control) write_control(out, *scenario.control);
   return out.take();
 }
 

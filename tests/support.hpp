@@ -31,6 +31,11 @@ struct Deviation {
   }
 };
 
+/// Whether a value is the expected one within a share of it.
+inline bool close(double value, double expected, double share) {
+  return std::abs(value - expected) <= share * std::abs(expected);
+}
+
 // ---- drives -----------------------------------------------------------------------------------------------------
 
 /// The worm gear of the paper's Table 1 with its identified friction.

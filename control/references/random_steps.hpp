@@ -21,10 +21,9 @@ struct RandomStepsReference {
 
   static constexpr auto fields() {
     using P = RandomStepsReference;
-    return std::tuple{
-        Field{&P::amplitude, "amplitude", unit::radian, bounds::any, "largest angle, either sign"},
-        Field{&P::interval, "interval", unit::second, bounds::positive, "time between two steps"},
-        Field{&P::seed, "seed", unit::none, bounds::not_negative, "seed of the random angles", Presence::optional}};
+    return std::tuple{Field{&P::amplitude, "amplitude", unit::radian, bounds::any, "largest angle, either sign"},
+                      Field{&P::interval, "interval", unit::second, bounds::positive, "time between two steps"},
+                      Field{&P::seed, "seed", unit::none, seeds, "seed of the random angles", Presence::optional}};
   }
   ReferencePoint at(double t) const {
     const auto k = static_cast<std::uint64_t>(std::max(0.0, std::floor(t / interval)));

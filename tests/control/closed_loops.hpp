@@ -31,7 +31,8 @@ inline SlidingController sliding() {
            .E1 = E(nominal.C1),
            .E2 = E(nominal.C2),
            .epsilon = 0.02},
-          nominal};
+          nominal,
+          Variations{}};
 }
 
 /// 0.14 sin(4 pi t), exact encoder, speed filtered at 200 Hz; every sample is told to the listener.

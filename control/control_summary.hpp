@@ -1,0 +1,30 @@
+#pragma once
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "control/controller.hpp"
+#include "control/lemma1_monitor.hpp"
+#include "control/metrics.hpp"
+
+namespace wormdrive {
+
+/// What a controlled run amounts to.
+struct ControlSummary {
+  Metrics metrics;
+  std::optional<Lemma1Monitor> lemma;  ///< of a sliding controller
+};
+
+/// Half width of a controller's boundary layer [rad/s], infinity for one without.
+inline double boundary_layer(const ControllerParameters& law) {
+  const auto* const sliding = std::get_if<SlidingParameters>(&law);
+  return sliding ? sliding->Phi : std::numeric_limits<double>::infinity();
+}
+
+/// What Lemma 1 promises of a controller, to be watched; nothing for another controller than the sliding one.
+inline std::optional<Lemma1Monitor> make_monitor(const ControllerParameters& law, const Lemma1& lemma) {
+  const auto* const sliding = std::get_if<SlidingParameters>(&law);
+  return sliding ? std::optional(Lemma1Monitor(*sliding, lemma)) : std::nullopt;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,68 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "control/sliding.hpp"
+
+namespace wormdrive {
+
+/// One condition of Lemma 1: it holds if the actual value is at least, or at most, the limit.
+struct Condition {
+  std::string rule;
+  double actual, limit;
+  std::string unit;
+  std::string key;  ///< what to change if it does not hold: the limit satisfies it
+  bool at_most = false;
+
+  double margin() const { return at_most ? limit - actual : actual - limit; }
+  bool holds() const { return margin() >= 0.0; }
+};
+
+/// Least eta [rad/s^2] with which the law is well defined whatever the load is: at zero load D |tau_l_hat| does not
+/// help.
+inline double least_eta(const SlidingBounds& bounds, const Lemma1& lemma) {
+  double least = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) least = std::max(least, 0.5 * lemma.M * lemma.branch[k].b_hat - bounds.E[k]);
+  return least;
+}
+
+/// The conditions of Lemma 1 on the numbers of a sliding controller [YehWu2009, Lemma 1].
+inline std::vector<Condition> conditions(const SlidingParameters& p, const Lemma1& lemma) {
+  const SlidingBounds bounds(p, lemma);
+  std::vector<Condition> list;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string n = std::to_string(k + 1);
+    const BranchBounds& branch = lemma.branch[k];
+    const double beta = k == 0 ? p.beta1 : p.beta2;
+    list.push_back({"beta" + n + " >= 2", beta, 2.0, "", "controller.beta" + n});
+    list.push_back({"beta" + n + " >= b_hat/b, b/b_hat", beta, branch.beta, "", "controller.beta" + n});
+    list.push_back(
+        {"D" + n + " >= |d - d_hat|", bounds.D[k], branch.D, "1/(kg m^2)", "controller.D" + n + "_per_kgm2"});
+    list.push_back({"E" + n + " >= |e - e_hat|", bounds.E[k], branch.E, "rad/s^2", "controller.E" + n + "_rad_per_s2"});
+  }
+  list.push_back({"eta >= M b_hat/2 - E", p.eta, least_eta(bounds, lemma), "rad/s^2", "controller.eta_rad_per_s2"});
+  return list;
+}
+
+/// Whether a drive lies within the stated variations of a nominal model. load_error: largest |tau_l - tau_l_hat| [N m].
+inline std::vector<Condition> conditions_on_drive(const NominalModel& nominal, const Variations& v,
+                                                  const NominalModel& drive, double load_error) {
+  const auto share = [](double actual, double estimate) {
+    return actual == estimate ? 0.0 : std::abs(actual / estimate - 1.0);
+  };
+  const double largest = std::abs(nominal.load_torque) + std::abs(nominal.load_constant);
+  return {{"|C1/C1_hat - 1|", share(drive.C1, nominal.C1), v.C1, "", "controller.variation.C1", true},
+          {"|C2/C2_hat - 1|", share(drive.C2, nominal.C2), v.C2, "", "controller.variation.C2", true},
+          {"|Jg/Jg_hat - 1|", share(drive.Jg, nominal.Jg), v.inertia, "", "controller.variation.gear_inertia", true},
+          {"|tau_l - tau_l_hat| / |tau_l_hat|", load_error > 0.0 ? load_error / largest : 0.0, v.load, "",
+           "controller.variation.load", true}};
+}
+
+/// Guaranteed tracking precision [rad]: 2 Phi/lambda_c, and the sharp L1 bound 2 Phi/(e lambda_c).
+inline double guaranteed_precision(const SlidingParameters& p) { return 2.0 * p.Phi / p.lambda_c; }
+inline double sharp_precision(const SlidingParameters& p) { return guaranteed_precision(p) / std::numbers::e; }
+
+}  // namespace wormdrive

@@ -1,0 +1,78 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "control/lemma1_conditions.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/control_scenario.hpp"
+
+namespace wormdrive {
+
+/// The sum of constant torques [N m]; nothing if one of the terms varies.
+inline std::optional<double> constant_torque(const Signal& signal) {
+  double sum = 0.0;
+  for (const SignalTerm& term : signal.terms)
+    if (const auto* constant = std::get_if<Constant>(&term))
+      sum += constant->torque;
+    else
+      return std::nullopt;
+  return sum;
+}
+
+/// The nominal model that knows the drive exactly; a load other than an arm or a constant is taken for 0.
+inline NominalModel exact_nominal(const Scenario& scenario) {
+  const GearMesh<double> mesh = make_mesh(scenario);
+  NominalModel exact{mesh.C1(), mesh.C2(), mesh.Jw * mesh.i, total_gear_inertia(scenario)};
+  if (const auto* arm = std::get_if<GravityArm>(&scenario.load)) {
+    exact.load_torque = arm->torque_amplitude();
+    exact.load_angle_offset = arm->offset;
+  } else if (const auto* signal = std::get_if<Signal>(&scenario.load)) {
+    exact.load_constant = constant_torque(*signal).value_or(0.0);
+  }
+  return exact;
+}
+
+/// What the controller believes: as stated, else what the drive is.
+inline NominalModel make_nominal(const Scenario& scenario) {
+  return completed(scenario.control->nominal, exact_nominal(scenario));
+}
+inline Variations make_variations(const Scenario& scenario) {
+  return in_terms_of_C(scenario.control->variations, make_mesh(scenario));
+}
+
+/// Whether the load is one that a nominal model can describe.
+inline bool is_estimable(const LoadParameters& load) {
+  const auto* signal = std::get_if<Signal>(&load);
+  return std::holds_alternative<GravityArm>(load) || (signal && constant_torque(*signal));
+}
+
+/// Largest |tau_l - tau_l_hat| [N m] over all angles; unknown, infinity, for a load that no nominal model describes.
+inline double largest_load_error(const Scenario& scenario) {
+  if (!is_estimable(scenario.load)) return std::numeric_limits<double>::infinity();
+  const NominalModel exact = exact_nominal(scenario), nominal = make_nominal(scenario);
+  const auto arm = [](const NominalModel& n) { return std::polar(1.0, n.load_angle_offset) * n.load_torque; };
+  return std::abs(arm(exact) - arm(nominal)) + std::abs(exact.load_constant - nominal.load_constant);
+}
+
+/// The numbers of Lemma 1 for a scenario whose controller has them.
+inline Lemma1 make_lemma1(const Scenario& scenario) {
+  return lemma1(make_nominal(scenario), make_variations(scenario));
+}
+
+/// Every condition of Lemma 1: on the law's numbers, then on the drive; none for other controllers.
+inline std::vector<Condition> lemma1_conditions(const Scenario& scenario) {
+  if (!scenario.control) return {};
+  const auto* const law = std::get_if<SlidingParameters>(&scenario.control->law);
+  if (!law) return {};
+  std::vector<Condition> list = conditions(*law, make_lemma1(scenario));
+  const std::vector<Condition> drive = conditions_on_drive(make_nominal(scenario), make_variations(scenario),
+                                                           exact_nominal(scenario), largest_load_error(scenario));
+  list.insert(list.end(), drive.begin(), drive.end());
+  return list;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,110 @@
+#include "cli/bad_input.hpp"
+
+// What the program says about controllers that it cannot run.
+
+using namespace wormdrive::test;
+
+namespace {
+
+const std::string motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
+/// Without a fault; line numbers count from its first line: [controller] is on line 11.
+const std::string controlled = good_but(motor, R"([controller]
+kind = "sliding"
+sample_time_s = 1e-3
+bandwidth_rad_per_s = 94
+layer_rad_per_s = 0.3
+eta_rad_per_s2 = 30
+[reference]
+kind = "sinusoid"
+amplitude_rad = 0.14
+frequency_Hz = 2
+[sensor]
+speed_filter_Hz = 200
+)");
+const std::string sliding = "kind = \"sliding\"\nsample_time_s = 1e-3\nbandwidth_rad_per_s = 94\nlayer_rad_per_s = 0.3\neta_rad_per_s2 = 30\n";
+const std::string reference = "kind = \"sinusoid\"\namplitude_rad = 0.14\nfrequency_Hz = 2\n";
+
+std::string but(const std::string& part, const std::string& by) { return edited(controlled, part, by); }
+
+}  // namespace
+
+TEST_CASE("the scenario with a controller that the others spoil is a good one") {
+  const Folder folder;
+  folder.write("s.toml", controlled);
+  REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);
+}
+
+TEST_CASE("controller tables in the wrong company are told what to keep") {
+  refuse_all(Folder(), {
+      {"a motor torque too", good_scenario + controlled.substr(controlled.find("[controller]"), controlled.find("[load]") - controlled.find("[controller]")),
+       "s.toml:11:1: error: [motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over time between samples"},
+      {"a sensor alone", good_scenario + "[sensor]\ncounts = 16\n", "s.toml:19:1: error: [sensor] belongs to a [controller], and there is none"},
+      {"a reference alone", good_scenario + "[[reference]]\nkind = \"step\"\n",
+       "s.toml:19:1: error: [reference] belongs to a [controller], and there is none"},
+      {"no reference", but("[reference]\n" + reference, ""), "s.toml:11:1: error: [controller] lacks a [reference] to follow"},
+      {"no torque to hold", but(sliding, "kind = \"open_loop\"\nsample_time_s = 1e-3\n"),
+       "s.toml:11:1: error: [controller] lacks 'torque' (the torque over time that is to be held)"},
+      {"a linear axis", "title = \"x\"\n[mesh]\nkind = \"none\"\naxis = \"linear\"\nmass_kg = 1\n[run]\nduration_s = 1\n[controller]\nkind = \"open_loop\"\n"
+       "sample_time_s = 1\n[controller.torque]\nkind = \"constant\"\nforce_N = 1\n",
+       "s.toml:8:1: error: [controller] needs a rotary axis; mesh.axis is \"linear\""}});
+}
+
+TEST_CASE("keys of a controller that are unknown, missing or out of their limits are told") {
+  refuse_all(Folder(), {
+      {"no kind", but("kind = \"sliding\"\n", ""),
+       "s.toml:11:1: error: [controller] lacks 'kind' (one of \"sliding\", \"pid\", \"open_loop\")"},
+      {"unknown kind", but("\"sliding\"", "\"smc\""),
+       "s.toml:12:8: error: controller.kind = \"smc\" must be one of \"sliding\", \"pid\", \"open_loop\""},
+      {"misspelled", but("layer_rad_per_s", "layer"), "s.toml:15:1: error: unknown key 'layer' in [controller]; did you mean 'layer_rad_per_s'?"},
+      {"missing", but("eta_rad_per_s2 = 30\n", ""), "s.toml:11:1: error: [controller] lacks 'eta_rad_per_s2' (reaching rate eta)"},
+      {"no sample time", but("sample_time_s = 1e-3\n", ""), "s.toml:11:1: error: [controller] lacks 'sample_time_s' (time between two samples)"},
+      {"a negative layer", but("layer_rad_per_s = 0.3", "layer_rad_per_s = -0.3"),
+       "s.toml:15:19: error: controller.layer_rad_per_s = -0.3 rad/s must be greater than 0 rad/s"},
+      {"a small beta", but("eta_rad_per_s2 = 30", "eta_rad_per_s2 = 30\nbeta1 = 0.5"), "s.toml:17:9: error: controller.beta1 = 0.5 must be at least 1"},
+      {"two samples of delay", but("eta_rad_per_s2 = 30", "eta_rad_per_s2 = 30\ndelay_samples = 2"),
+       "s.toml:17:17: error: controller.delay_samples = 2 must be at least 0 and at most 1"},
+      {"half a sample of delay", but("eta_rad_per_s2 = 30", "eta_rad_per_s2 = 30\ndelay_samples = 0.5"),
+       "s.toml:17:17: error: controller.delay_samples = 0.5 must be a whole number"},
+      {"a nominal model that is none", but("[reference]", "[controller.nominal]\nC1 = -7\n[reference]"),
+       "s.toml:17:1: error: the nominal model violates eq. 17: Jw i + C1 Jg = -0.003655 kg m^2 must be greater than 0"},
+      {"friction and C1", but("[reference]", "[controller.variation]\nfriction = 0.1\nC1 = 0.1\n[reference]"),
+       "s.toml:18:12: error: controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"},
+      {"PID without weights", but(sliding, "kind = \"pid\"\nsample_time_s = 1e-3\n"),
+       "s.toml:11:1: error: [controller] lacks 'integral_weight' (weight of the integral of e, squared)\n"
+       "s.toml:11:1: error: [controller] lacks 'angle_weight' (weight of e squared)\n"
+       "s.toml:11:1: error: [controller] lacks 'speed_weight' (weight of e' squared)"}});
+}
+
+TEST_CASE("sample times that do not fit the run are told") {
+  refuse_all(Folder(), {
+      {"longer than the run", but("sample_time_s = 1e-3", "sample_time_s = 1"),
+       "s.toml:13:17: error: controller.sample_time_s = 1 s must be at most the duration, 0.01 s"},
+      {"too many", but("sample_time_s = 1e-3", "sample_time_s = 1e-12"),
+       "s.toml:13:17: error: controller.sample_time_s = 1e-12 s would give 1e+10 samples; at most 1e+09 are taken"},
+      {"zero", but("sample_time_s = 1e-3", "sample_time_s = 0"), "s.toml:13:17: error: controller.sample_time_s = 0 s must be greater than 0 s"},
+      {"starting too late", but("sample_time_s = 1e-3", "sample_time_s = 1e-3\nsample_offset_s = 0.01"),
+       "s.toml:14:19: error: controller.sample_offset_s = 0.01 s must be less than the duration, 0.01 s"}});
+}
+
+TEST_CASE("faults of references, sensors, disturbances and windows are told") {
+  refuse_all(Folder(), {
+      {"unknown reference", but("\"sinusoid\"", "\"sine\""),
+       "s.toml:18:8: error: reference.kind = \"sine\" must be one of \"sinusoid\", \"step\", \"trapezoid\", \"chirp\", \"multisine\", "
+       "\"random_steps\", \"table\""},
+      {"an angle twice", but("amplitude_rad = 0.14", "amplitude_rad = 0.14\namplitude_deg = 8"),
+       "s.toml:20:17: error: reference.amplitude_deg is stated twice, also as amplitude_rad; keep one"},
+      {"a short table", but(reference, "kind = \"table\"\ntimes_s = [0, 1, 2]\nangles_deg = [0, 1, 2]\n"),
+       "s.toml:19:11: error: reference.times_s has 3 values; at least 4 are needed"},
+      {"half a sine", but(reference, "kind = \"multisine\"\namplitude_rad = 1\nlowest_frequency_Hz = 1\nhighest_frequency_Hz = 2\ncount = 1.5\n"),
+       "s.toml:22:9: error: reference.count = 1.5 must be a whole number"},
+      {"second of two", but("[reference]\n" + reference, "[[reference]]\n" + reference + "[[reference]]\n" + edited(reference, "2\n", "0\n")),
+       "s.toml:24:16: error: reference[1].frequency_Hz = 0 Hz must be greater than 0 Hz"},
+      {"unknown speed", but("[sensor]", "[sensor]\nspeed = \"true\""),
+       "s.toml:22:9: error: sensor.speed = \"true\" must be one of \"difference\", \"exact\""},
+      {"half a count", but("[sensor]", "[sensor]\ncounts = 16.5"), "s.toml:22:10: error: sensor.counts = 16.5 must be a whole number"},
+      {"no deviation", but("[sensor]", "[disturbance]\nseed = 3\n[sensor]"), "s.toml:21:1: error: [disturbance] lacks 'deviation_Nm' (standard deviation)"},
+      {"a window beyond the end", but("[sensor]", "[metrics]\nfrom_s = 1\n[sensor]"),
+       "s.toml:22:10: error: metrics.from_s = 1 s must be less than the duration, 0.01 s"},
+      {"a window the wrong way round", but("[sensor]", "[metrics]\nfrom_s = 0.005\nto_s = 0.002\n[sensor]"),
+       "s.toml:22:10: error: metrics.from_s = 0.005 s must be less than to_s = 0.002 s"}});
+}
