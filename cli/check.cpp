@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -27,7 +27,8 @@ void list_fields(const Parameters& parameters, const std::string& path, Axis axi
     const std::optional<double> value = parameters.*field.member;
     if (!value || !std::isfinite(*value)) return;  // unlimited: nothing to show
     const Spelling s = spellings(field.name, field.unit, axis).front();
-    list.push_back({path + "." + s.key, std::string(s.unit.symbol), in_words_of(axis, field.meaning), *value / s.unit.si});
+    list.push_back(
+        {path + "." + s.key, std::string(s.unit.symbol), in_words_of(axis, field.meaning), *value / s.unit.si});
   });
 }
 
@@ -110,8 +111,7 @@ void print(const std::vector<Quantity>& list) {
 
 nlohmann::json as_json(const std::vector<Quantity>& list) {
   nlohmann::json result = nlohmann::json::object();
-  for (const Quantity& q : list)
-    result[q.name] = {{"value", q.value}, {"unit", q.unit}, {"meaning", q.meaning}};
+  for (const Quantity& q : list) result[q.name] = {{"value", q.value}, {"unit", q.unit}, {"meaning", q.meaning}};
   return result;
 }
 

@@ -1,10 +1,10 @@
 #include "cli/describe.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/describe_control.hpp"
@@ -49,10 +49,12 @@ std::vector<std::string> warnings(const Scenario& scenario) {
   std::vector<std::string> list;
   const GearMesh<double> mesh = make_mesh(scenario);
   if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
-    list.push_back(fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
-                               "{:.4f} would close it",
-                               mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree));
-  if (scenario.motor.terms.empty() && !scenario.control) list.push_back("no [motor.torque]: the motor torque is 0 throughout");
+    list.push_back(
+        fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
+                    "{:.4f} would close it",
+                    mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree));
+  if (scenario.motor.terms.empty() && !scenario.control)
+    list.push_back("no [motor.torque]: the motor torque is 0 throughout");
   for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
   return list;
 }
@@ -60,9 +62,10 @@ std::vector<std::string> warnings(const Scenario& scenario) {
 std::string describe_events(const RunSummary& summary) {
   if (summary.total_events() == 0) return "no events";
   std::vector<std::string> parts;
-  for (const auto& [kind, singular] :
-       {std::pair{EventKind::break_away, "break-away"}, {EventKind::flank_change, "flank change"},
-        {EventKind::reversal, "reversal"}, {EventKind::stop, "stop"}})
+  for (const auto& [kind, singular] : {std::pair{EventKind::break_away, "break-away"},
+                                       {EventKind::flank_change, "flank change"},
+                                       {EventKind::reversal, "reversal"},
+                                       {EventKind::stop, "stop"}})
     if (const long count = summary.events[static_cast<std::size_t>(kind)]; count > 0)
       parts.push_back(plural(count, singular));
   return fmt::format("{}: {}", plural(summary.total_events(), "event"), fmt::join(parts, ", "));
@@ -70,8 +73,8 @@ std::string describe_events(const RunSummary& summary) {
 
 std::string describe_audit(const AuditReport& report, const Scenario& scenario) {
   const bool linear = scenario.axis == Axis::linear;
-  std::string text = fmt::format("{}, {}, {} missed", plural(report.guards, "guard"), plural(report.events, "guard event"),
-                                 report.missed());
+  std::string text = fmt::format("{}, {}, {} missed", plural(report.guards, "guard"),
+                                 plural(report.events, "guard event"), report.missed());
   for (const AuditFinding& finding : report.findings)
     text += fmt::format("; {} at {:.9g} s: {}, {}", finding.missed ? "missed" : "not confirmed", finding.t,
                         finding.guard, describe(finding.mode));

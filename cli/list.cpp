@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
 #include "scenarios/keys.hpp"
@@ -20,7 +20,8 @@ void print_fields() {
     const Spelling s = spellings(field.name, field.unit, Axis::rotary).front();
     const std::optional<double> value = defaults.*field.member;
     std::string note = field.presence == Presence::required ? ", required" : "";
-    if (field.presence == Presence::optional && value && std::isfinite(*value)) note = fmt::format(", default {:g}", *value / s.unit.si);
+    if (field.presence == Presence::optional && value && std::isfinite(*value))
+      note = fmt::format(", default {:g}", *value / s.unit.si);
     const bool bounded = std::isfinite(field.bounds.low) || std::isfinite(field.bounds.high);
     fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note, bounded ? "; " + rule(field.bounds, s.unit) : "");
   });
@@ -40,7 +41,8 @@ void print_kinds(std::string_view otherwise) {
         fmt::print("      {}\n", otherwise);
     };
     (print.template operator()<std::variant_alternative_t<K, Variant>>(), ...);
-  }(std::make_index_sequence<std::variant_size_v<Variant>>());
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
 void list_effects() {
@@ -54,7 +56,8 @@ void list_effects() {
 
 void list_torques() {
   fmt::print("torques: [motor.torque] kind = \"...\", or several as [[motor.torque]], which add up\n");
-  print_kinds<SignalTerm>("file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"");
+  print_kinds<SignalTerm>(
+      "file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"");
 }
 
 void list_loads() {

@@ -1,7 +1,3 @@
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -12,6 +8,10 @@
 #include <iostream>
 #include <optional>
 #include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
 #include "events/halt.hpp"
@@ -37,7 +37,10 @@ std::string command_line(int argc, char** argv) {
 
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "scenario (.toml), or a result file that carries one (.h5)")->required();
-  command.add_option("--set", options.overrides, "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set motor.torque[1].amplitude_Nm=0.06; may be repeated")
+  command
+      .add_option("--set", options.overrides,
+                  "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set "
+                  "motor.torque[1].amplitude_Nm=0.06; may be repeated")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->allow_extra_args(false);
@@ -110,11 +113,13 @@ int main(int argc, char** argv) {
   run_app->add_flag("--audit", run.audit, "integrate again with another method and look for missed events");
 
   ScenarioOptions check;
-  CLI::App* const check_app = app.add_subcommand("check", "show resolved parameters, what follows from them, and warnings");
+  CLI::App* const check_app =
+      app.add_subcommand("check", "show resolved parameters, what follows from them, and warnings");
   add_scenario_options(*check_app, check);
 
   StaticsOptions statics;
-  CLI::App* const statics_app = app.add_subcommand("statics", "locking regime and break-in torques over the load torque");
+  CLI::App* const statics_app =
+      app.add_subcommand("statics", "locking regime and break-in torques over the load torque");
   add_scenario_options(*statics_app, statics.scenario);
   statics_app->add_option("-o,--output", statics.output, "also write the map as HDF5");
   statics_app->add_option("--max-load", statics.max_load, "largest load torque [N m]")->check(positive);
@@ -124,20 +129,26 @@ int main(int argc, char** argv) {
   CLI::App* const steady_app = app.add_subcommand("steady", "motor torque needed to run at constant speed");
   add_scenario_options(*steady_app, steady.scenario);
   steady_app->add_option("-o,--output", steady.output, "also write curve and records as HDF5");
-  steady_app->add_option("--data", steady.data, "CSV: record, worm_speed_rad_per_s, motor_torque_Nm; compared with the model");
+  steady_app->add_option("--data", steady.data,
+                         "CSV: record, worm_speed_rad_per_s, motor_torque_Nm; compared with the model");
   steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(positive);
   steady_app->add_option("--points", steady.points, "speeds in each direction")->check(CLI::Range(1, 100000));
 
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
-  plot_app->add_option("files", plot.files, "result of run, statics or steady (.h5); a statics result and runs: their break-aways in its map")
+  plot_app
+      ->add_option("files", plot.files,
+                   "result of run, statics or steady (.h5); a statics result and runs: their break-aways in its map")
       ->required();
-  plot_app->add_option("--over", plot.over, "draw runs over the motor torque instead of time, one or several in one picture")
+  plot_app
+      ->add_option("--over", plot.over,
+                   "draw runs over the motor torque instead of time, one or several in one picture")
       ->check(CLI::IsMember({"motor_torque"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
 
   std::string what;
-  CLI::App* const list_app = app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
+  CLI::App* const list_app =
+      app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
   list_app->add_option("what", what, "effects, loads, torques, controllers, references or scenarios")
       ->required()
       ->check(CLI::IsMember({"effects", "loads", "torques", "controllers", "references", "scenarios"}));

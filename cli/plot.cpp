@@ -1,9 +1,9 @@
+#include <cstring>
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
-
-#include <cstring>
-#include <filesystem>
 
 #include "cli/commands.hpp"
 #include "output/hdf5.hpp"
@@ -34,7 +34,8 @@ int plot_command(const PlotOptions& options) {
   std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
   words.insert(words.end(), options.files.begin(), options.files.end());
   words.insert(words.end(),
-               {"-o", options.output.empty() ? std::filesystem::path(first).replace_extension(".png").string() : options.output});
+               {"-o", options.output.empty() ? std::filesystem::path(first).replace_extension(".png").string()
+                                             : options.output});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <filesystem>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -16,14 +16,10 @@ namespace wormdrive {
 namespace {
 
 nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, const std::string& output) {
-  nlohmann::json result{{"title", scenario.title},
-                        {"output", output},
-                        {"warnings", warnings(scenario)},
-                        {"solver", describe_solver(scenario.run)},
-                        {"steps", summary.statistics.steps},
-                        {"evaluations", summary.statistics.evaluations},
-                        {"gear_angle", summary.end.theta_g},
-                        {"gear_speed", summary.end.omega_g}};
+  nlohmann::json result{{"title", scenario.title},           {"output", output},
+                        {"warnings", warnings(scenario)},    {"solver", describe_solver(scenario.run)},
+                        {"steps", summary.statistics.steps}, {"evaluations", summary.statistics.evaluations},
+                        {"gear_angle", summary.end.theta_g}, {"gear_speed", summary.end.omega_g}};
   for (const EventKind kind : {EventKind::break_away, EventKind::stop, EventKind::reversal, EventKind::flank_change})
     result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
   if (summary.control) result["control"] = as_json(*summary.control);
@@ -73,9 +69,9 @@ int run_command(const RunOptions& options) {
   const RunSummary summary = run_into(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return 0;
-  print_item("run", fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration,
-                                describe_solver(scenario.run), summary.statistics.evaluations,
-                                describe_events(summary)));
+  print_item("run",
+             fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration, describe_solver(scenario.run),
+                         summary.statistics.evaluations, describe_events(summary)));
   if (summary.control) print_control(*summary.control);
   if (summary.audit) print_item("audit", describe_audit(*summary.audit, scenario));
   print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, output));

@@ -1,8 +1,8 @@
 #include "core/statics.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -46,8 +46,12 @@ void write(const std::string& output, const Scenario& scenario, const StaticsMap
   PartFile file(output);
   write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.command_line});
   write_attribute(file.file(), "regime", name(mesh.regime()));
-  for (const auto& [key, value] : {std::pair{"C1", mesh.C1()}, {"C2", mesh.C2()}, {"H", mesh.H()}, {"mu", mesh.mu},
-                                   {"mu_w", mesh.mu_w()}, {"mu_g", mesh.mu_g()}})
+  for (const auto& [key, value] : {std::pair{"C1", mesh.C1()},
+                                   {"C2", mesh.C2()},
+                                   {"H", mesh.H()},
+                                   {"mu", mesh.mu},
+                                   {"mu_w", mesh.mu_w()},
+                                   {"mu_g", mesh.mu_g()}})
     write_attribute(file.file(), key, value);
   write_attribute(file.file(), "stuck_outside",
                   std::int64_t{mesh.regime() == LockingRegime::worm_self_locking ? 1 : 0});
@@ -75,8 +79,7 @@ int statics_command(const StaticsOptions& options) {
   refuse_to_overwrite(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
-  if (!mesh.has_teeth)
-    refuse({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");
+  if (!mesh.has_teeth) refuse({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");
   const StaticsMap map = make_map(mesh, options.max_load.value_or(sensible_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
   if (!options.output.empty()) write(options.output, scenario, map, options.scenario);
@@ -95,8 +98,9 @@ int statics_command(const StaticsOptions& options) {
   if (options.scenario.quiet) return 0;
   fmt::print("{}\n", scenario.title);
   print_item("regime", describe_mesh(scenario));
-  print_item("break-in", outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
-                                 : "motor torque at which the gear starts to turn, over the load torque:");
+  print_item("break-in",
+             outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
+                     : "motor torque at which the gear starts to turn, over the load torque:");
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   print_table(map, outside);
   if (!options.output.empty())

@@ -1,9 +1,9 @@
 #include "core/steady.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -105,7 +105,9 @@ void write(const std::string& output, const Scenario& scenario, const Curve& cur
 }
 
 nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::optional<Comparison>& comparison) {
-  const auto key = [&](std::string_view name, const Unit& unit) { return spellings(name, unit, scenario.axis).front().key; };
+  const auto key = [&](std::string_view name, const Unit& unit) {
+    return spellings(name, unit, scenario.axis).front().key;
+  };
   nlohmann::json result{{"title", scenario.title},
                         {key("worm_speed", unit::radian_per_second), curve.speed},
                         {key("motor_torque", unit::newton_metre), curve.torque}};
@@ -128,7 +130,8 @@ nlohmann::json as_json(const Scenario& scenario, const Curve& curve, const std::
 }
 
 void print_curve(const Curve& curve, Axis axis) {
-  fmt::print("\n  {:>20} {:>20}\n", fmt::format("{} [{}]", axis == Axis::linear ? "speed" : "worm speed", units_on(axis, "rad/s")),
+  fmt::print("\n  {:>20} {:>20}\n",
+             fmt::format("{} [{}]", axis == Axis::linear ? "speed" : "worm speed", units_on(axis, "rad/s")),
              fmt::format("motor {} [{}]", axis == Axis::linear ? "force" : "torque", units_on(axis, "N m")));
   const std::size_t stride = std::max<std::size_t>(1, curve.speed.size() / 10);
   for (std::size_t k = stride / 2; k < curve.speed.size(); k += stride)
@@ -138,12 +141,13 @@ void print_curve(const Curve& curve, Axis axis) {
 void print_comparison(const Comparison& comparison, const std::string& data) {
   for (const SpeedTorqueRecord& record : comparison.records)
     for (const ImplausibleSample& s : record.left_out)
-      print_item("left out", fmt::format("{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations "
-                                         "from its record's median (limit {:.0f})",
-                                         data, s.line, record.name, s.torque, s.deviations, implausible_deviations));
-  print_item("compared", fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m",
-                                     1e3 * comparison.rms_error, comparison.records.size(),
-                                     1e3 * comparison.rms_torque));
+      print_item("left out",
+                 fmt::format("{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations "
+                             "from its record's median (limit {:.0f})",
+                             data, s.line, record.name, s.torque, s.deviations, implausible_deviations));
+  print_item("compared",
+             fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m", 1e3 * comparison.rms_error,
+                         comparison.records.size(), 1e3 * comparison.rms_torque));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
-#include <hdf5.h>
-
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <hdf5.h>
 
 namespace wormdrive {
 

@@ -1,18 +1,17 @@
 #include "output/part_file.hpp"
 
-#include <fcntl.h>
-#include <sundials/sundials_version.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <Eigen/Core>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <unistd.h>
 
+#include <Eigen/Core>
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sundials/sundials_version.h>
+#include <sys/file.h>
 
 #include "commit.hpp"
 
@@ -100,9 +99,9 @@ void write_provenance(hid_t file, const Provenance& provenance) {
   write_attribute(file, "command_line", provenance.command_line);
   write_attribute(file, "wormdrive_version", std::string(version));
   write_attribute(file, "commit", std::string(commit));
-  write_attribute(file, "libraries", fmt::format("SUNDIALS {}, HDF5 {}.{}.{}, Eigen {}.{}.{}", SUNDIALS_VERSION,
-                                                 major, minor, release, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                                                 EIGEN_MINOR_VERSION));
+  write_attribute(file, "libraries",
+                  fmt::format("SUNDIALS {}, HDF5 {}.{}.{}, Eigen {}.{}.{}", SUNDIALS_VERSION, major, minor, release,
+                              EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   write_attribute(file, "created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
 }
 

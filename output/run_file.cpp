@@ -1,8 +1,8 @@
 #include "output/run_file.hpp"
 
-#include <fmt/format.h>
-
 #include <functional>
+
+#include <fmt/format.h>
 
 namespace wormdrive {
 
@@ -56,7 +56,8 @@ const std::vector<Column<Row>>& trajectory_columns() {
       {{"load_torque", "N m", "load torque tau_l on the gear"}, [](const Row& r) { return r.at.tau_l; }},
       {{"normal_force", "N", "normal force Wn between the teeth"}, [](const Row& r) { return r.at.normal_force; }},
       {{"motion", "", "sign of the gear speed", motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
-      {{"flank", "", "flank that carries the load", flanks, signs}, [](const Row& r) { return sign(r.at.mode.flank); }}};
+      {{"flank", "", "flank that carries the load", flanks, signs},
+       [](const Row& r) { return sign(r.at.mode.flank); }}};
   return columns;
 }
 
@@ -135,9 +136,8 @@ void RunFile::append(const std::vector<ControlRecord>& samples) {
 
 void RunFile::describe(const ControlSummary& summary) {
   const hid_t group = controller_->group();
-  for_each_field<Metrics>([&](const auto& field) {
-    write_attribute(group, std::string(field.name), summary.metrics.*field.member);
-  });
+  for_each_field<Metrics>(
+      [&](const auto& field) { write_attribute(group, std::string(field.name), summary.metrics.*field.member); });
   if (!summary.lemma) return;
   write_attribute(group, "layer_reached", summary.lemma->reached());
   for (const Violation& v : summary.lemma->violations()) {

@@ -1,9 +1,9 @@
 #include "output/table.hpp"
 
-#include <hdf5_hl.h>
-
 #include <cerrno>
 #include <cmath>
+
+#include <hdf5_hl.h>
 
 namespace wormdrive {
 namespace {
@@ -61,8 +61,8 @@ void write_texts(hid_t group, const std::string& name, const std::string& long_n
   H5Tset_size(type, H5T_VARIABLE);
   H5Tset_cset(type, H5T_CSET_UTF8);
   const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, action);
-  const Hdf5Handle dataset(
-      H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, action);
+  const Hdf5Handle dataset(H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Dclose, action);
   write_attribute(dataset, "long_name", long_name);
   check_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), action);
 }

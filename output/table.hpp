@@ -12,8 +12,8 @@ namespace wormdrive {
 /// How a column of a table stands in the file.
 struct ColumnDescription {
   std::string name;
-  std::string units;      ///< "rad/s", "1" for pure numbers; empty for flags
-  std::string long_name;  ///< one phrase
+  std::string units;               ///< "rad/s", "1" for pure numbers; empty for flags
+  std::string long_name;           ///< one phrase
   std::string flag_meanings = {};  ///< for flags: one word a value, separated by blanks (CF conventions)
   std::vector<std::int8_t> flag_values = {};
 

@@ -14,8 +14,7 @@ inline GearMesh<double> make_mesh(const Scenario& scenario) {
 
 /// Inertia of the gear side with the load's own [kg m^2].
 inline double total_gear_inertia(const Scenario& scenario) {
-  return make_mesh(scenario).Jg +
-         std::visit([](const auto& load) { return make_load(load).inertia(); }, scenario.load);
+  return make_mesh(scenario).Jg + std::visit([](const auto& load) { return make_load(load).inertia(); }, scenario.load);
 }
 
 /// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on.

@@ -1,14 +1,14 @@
 #include "scenarios/csv.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenarios/document.hpp"
 #include "scenarios/faults.hpp"

@@ -1,10 +1,10 @@
 #include "scenarios/keys.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace wormdrive {
 namespace {
@@ -62,8 +62,12 @@ std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis ax
 std::string in_words_of(Axis axis, std::string_view meaning) {
   std::string words(meaning);
   if (axis == Axis::linear)
-    for (const auto& [rotary, straight] : {std::pair{"torque", "force"}, {"inertia", "mass"}, {"gear angle", "position"},
-                                           {"gear speed", "speed"}, {"rad/s", "m/s"}, {"rad ", "m "}})
+    for (const auto& [rotary, straight] : {std::pair{"torque", "force"},
+                                           {"inertia", "mass"},
+                                           {"gear angle", "position"},
+                                           {"gear speed", "speed"},
+                                           {"rad/s", "m/s"},
+                                           {"rad ", "m "}})
       words = replaced(words, rotary, straight);
   return words;
 }

@@ -1,8 +1,8 @@
 #include "scenarios/load_scenario.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "scenarios/build.hpp"
 #include "scenarios/document.hpp"
@@ -94,14 +94,17 @@ class ScenarioReader {
       run.read_fields(scenario_.run);
       if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
         scenario_.run.solver = SolverKind::taylor;
-      scenario_.run.method = run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
+      scenario_.run.method =
+          run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
       if (duration > 0.0 && every > duration)
         run.fault("report_interval_s",
                   fmt::format("run.report_interval_s = {} s must be at most the duration, {} s", every, duration));
       else if (duration > most_rows * every)
-        run.fault("report_interval_s", fmt::format("run.report_interval_s = {} s would give {:.3g} rows; at most {:g} are "
-                                                   "written", every, duration / every, most_rows));
+        run.fault("report_interval_s",
+                  fmt::format("run.report_interval_s = {} s would give {:.3g} rows; at most {:g} are "
+                              "written",
+                              every, duration / every, most_rows));
     });
   }
 
@@ -119,11 +122,12 @@ class ScenarioReader {
     }
     const double Jg = total_gear_inertia(scenario_), surface = mesh.Jw * mesh.i / Jg;
     if (mesh.C1() <= -surface)
-      faults_.add(friction_at_,
-                  fmt::format("mesh.friction = {} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
-                              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 "
-                              "or lower the gear-side inertia below {:.6g} kg m^2",
-                              mesh.mu, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
+      faults_.add(
+          friction_at_,
+          fmt::format("mesh.friction = {} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
+                      "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 "
+                      "or lower the gear-side inertia below {:.6g} kg m^2",
+                      mesh.mu, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
   }
 
   std::string name_;

@@ -1,11 +1,11 @@
 #include "scenarios/override.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <variant>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "scenarios/faults.hpp"
 
@@ -83,8 +83,7 @@ class Override {
     toml::array* const array = node.as_array();
     if (array && array->size() == 1) return next(*array->get(0), key, path, last);  // results write a single term so
     toml::table* const table = node.as_table();
-    if (array)
-      refuse(where_, fmt::format("{0} is an array; name one of its elements, as in {0}[0]", path));
+    if (array) refuse(where_, fmt::format("{0} is an array; name one of its elements, as in {0}[0]", path));
     if (!table) refuse(where_, fmt::format("{} is not a table", path));
     path += path.empty() ? key : "." + key;
     toml::key origin(key, value_.get("value")->source());

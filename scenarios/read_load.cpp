@@ -11,8 +11,11 @@ namespace {
 
 AngleTable read_table(TableReader& table, const std::string& folder) {
   const Pairs pairs = read_pairs(table,
-                                 {{"angles", unit::degrees}, {"torques", unit::newton_metre},
-                                  {"gear_angle", unit::radian}, {"load_torque", unit::newton_metre}, 4},
+                                 {{"angles", unit::degrees},
+                                  {"torques", unit::newton_metre},
+                                  {"gear_angle", unit::radian},
+                                  {"load_torque", unit::newton_metre},
+                                  4},
                                  folder);
   return {pairs.x, pairs.y};
 }
@@ -28,7 +31,8 @@ template <class Load>
 void check_together(TableReader&, const Load&) {}
 void check_together(TableReader& table, const GravityArm&) {
   if (table.has("torque_Nm") && (table.has("mass_kg") || table.has("arm_m")))
-    table.fault("torque_Nm", "load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others");
+    table.fault("torque_Nm",
+                "load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others");
   else if (!table.has("torque_Nm") && !(table.has("mass_kg") && table.has("arm_m")))
     table.lacks("'torque_Nm', or 'mass_kg' and 'arm_m'");
 }

@@ -1,8 +1,8 @@
 #include "scenarios/read_pairs.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "scenarios/csv.hpp"
 
@@ -31,8 +31,8 @@ Pairs from_file(TableReader& table, const PairSource& source, const std::string&
     // A wrong line is put right in the file, a wrong name in the scenario.
     for (const Fault& f : fault.faults)
       if (f.where.line > 0)
-        table.faults().add(f.where, fmt::format("{} ({} at {})", f.what, table.path_of("file"),
-                                                to_string(table.where("file"))));
+        table.faults().add(f.where,
+                           fmt::format("{} ({} at {})", f.what, table.path_of("file"), to_string(table.where("file"))));
       else
         table.fault("file", fmt::format("{} {}", stated, f.what));
   }
@@ -55,8 +55,8 @@ Pairs inline_pairs(TableReader& table, const PairSource& source) {
     return {};
   }
   if (x->size() < source.at_least) {
-    table.fault(x_key->key, fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"),
-                                        source.at_least));
+    table.fault(x_key->key,
+                fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"), source.at_least));
     return {};
   }
   for (std::size_t k = 1; k < x->size(); ++k) {

@@ -11,8 +11,11 @@ namespace {
 /// y_column: what the CSV column holds, "motor_torque" or "load_torque".
 Samples read_samples(TableReader& table, std::string_view y_column, const std::string& folder) {
   const Pairs pairs = read_pairs(table,
-                                 {{"times", unit::second}, {"torques", unit::newton_metre},
-                                  {"time", unit::second}, {y_column, unit::newton_metre}, 2},
+                                 {{"times", unit::second},
+                                  {"torques", unit::newton_metre},
+                                  {"time", unit::second},
+                                  {y_column, unit::newton_metre},
+                                  2},
                                  folder);
   const auto interpolation = table.choice("interpolation", {"hold", "linear"}, Presence::optional);
   return {pairs.x, pairs.y, interpolation == "linear" ? Interpolation::linear : Interpolation::hold};

@@ -39,8 +39,8 @@ struct InitialState {
 
 /// How long and how exactly a scenario is simulated, and how often a row is written.
 struct RunSettings {
-  double duration{};                         ///< [s]
-  std::optional<double> report_interval{};   ///< [s]; a thousandth of the duration if not stated
+  double duration{};                        ///< [s]
+  std::optional<double> report_interval{};  ///< [s]; a thousandth of the duration if not stated
   double relative_tolerance{1e-10};
   std::optional<double> absolute_tolerance{};  ///< [rad and rad/s]; a hundredth of the relative one if not stated
   double max_step{std::numeric_limits<double>::infinity()};  ///< [s]
@@ -55,10 +55,11 @@ struct RunSettings {
               "time between two rows of the result; duration / 1000 if not stated", Presence::optional},
         Field{&P::relative_tolerance, "relative_tolerance", unit::none, bounds::between(1e-14, 1e-2),
               "relative error allowed in one step; of taylor, in a second", Presence::optional},
-        Field{&P::absolute_tolerance, "absolute_tolerance", unit::none, bounds::positive,
-              "absolute error allowed in one step, of taylor in a second, in rad and rad/s; relative_tolerance / 100 if "
-              "not stated",
-              Presence::optional},
+        Field{
+            &P::absolute_tolerance, "absolute_tolerance", unit::none, bounds::positive,
+            "absolute error allowed in one step, of taylor in a second, in rad and rad/s; relative_tolerance / 100 if "
+            "not stated",
+            Presence::optional},
         Field{&P::max_step, "max_step", unit::second, bounds::positive, "longest step of the solver",
               Presence::optional}};
   }

@@ -1,10 +1,10 @@
 #include "scenarios/table_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenarios/document.hpp"
 
@@ -45,16 +45,22 @@ std::string with_unit(const std::string& number, const Unit& unit) {
 std::string quantity(double si, const Unit& unit) { return with_unit(fmt::format("{:.6g}", si / unit.si), unit); }
 
 std::string rule(const Bounds& bounds, const Unit& unit) {
-  const std::string low = fmt::format("{} {}", bounds.low_exclusive ? "greater than" : "at least", quantity(bounds.low, unit));
-  const std::string high = fmt::format("{} {}", bounds.high_exclusive ? "less than" : "at most", quantity(bounds.high, unit));
+  const std::string low =
+      fmt::format("{} {}", bounds.low_exclusive ? "greater than" : "at least", quantity(bounds.low, unit));
+  const std::string high =
+      fmt::format("{} {}", bounds.high_exclusive ? "less than" : "at most", quantity(bounds.high, unit));
   if (std::isinf(bounds.high)) return "must be " + low;
   if (std::isinf(bounds.low)) return "must be " + high;
   return fmt::format("must be {} and {}", low, high);
 }
 
 TableReader::TableReader(const toml::table* table, std::string path, Axis axis, Faults& faults, Location missing_at)
-    : present_(table != nullptr), table_(table ? *table : nothing), path_(std::move(path)), axis_(axis),
-      faults_(faults), here_(location(table_.source())) {
+    : present_(table != nullptr),
+      table_(table ? *table : nothing),
+      path_(std::move(path)),
+      axis_(axis),
+      faults_(faults),
+      here_(location(table_.source())) {
   if (here_.file.empty() || path_.empty()) here_ = std::move(missing_at);  // the root is the whole file
 }
 
@@ -80,7 +86,8 @@ void TableReader::wrong_type(const std::string& key, const toml::node& node, std
 std::optional<double> TableReader::number(std::string_view name, const Unit& unit, const Bounds& bounds,
                                           Presence presence, std::string_view meaning) {
   if (const auto spelling = stated(name, unit)) return number(*spelling, bounds);
-  if (presence == Presence::required) missing_.push_back({spellings(name, unit, axis_).front().key, in_words_of(axis_, meaning)});
+  if (presence == Presence::required)
+    missing_.push_back({spellings(name, unit, axis_).front().key, in_words_of(axis_, meaning)});
   return std::nullopt;
 }
 
@@ -106,8 +113,7 @@ std::optional<Spelling> TableReader::stated(std::string_view name, const Unit& u
   for (const Spelling& spelling : spellings(name, unit, axis_)) {
     if (!find(spelling.key)) continue;
     if (first)
-      fault(spelling.key,
-            fmt::format("{} is stated twice, also as {}; keep one", path_of(spelling.key), first->key));
+      fault(spelling.key, fmt::format("{} is stated twice, also as {}; keep one", path_of(spelling.key), first->key));
     else
       first = spelling;
   }
@@ -128,8 +134,9 @@ std::optional<std::vector<double>> TableReader::numbers(const Spelling& spelling
       continue;
     }
     const std::string name = fmt::format("{}[{}]", path_of(spelling.key), values.size());
-    faults_.add(location(element.source()), value ? fmt::format("{} = {} must be a finite number", name, *value)
-                                                  : fmt::format("{} must be a number, not {}", name, type_name(element)));
+    faults_.add(location(element.source()), value
+                                                ? fmt::format("{} = {} must be a finite number", name, *value)
+                                                : fmt::format("{} must be a number, not {}", name, type_name(element)));
     return std::nullopt;
   }
   return values;
@@ -184,8 +191,8 @@ std::vector<const toml::table*> TableReader::tables(const std::string& key) {
   std::vector<const toml::table*> list;
   for (const toml::node& element : *array) {
     if (!element.is_table())
-      faults_.add(location(element.source()), fmt::format("{}[{}] must be a table, not {}", path_of(key), list.size(),
-                                                          type_name(element)));
+      faults_.add(location(element.source()),
+                  fmt::format("{}[{}] must be a table, not {}", path_of(key), list.size(), type_name(element)));
     list.push_back(element.as_table());
   }
   std::erase(list, nullptr);

@@ -11,7 +11,8 @@ template <class Variant>
 std::vector<std::string> kinds_of() {
   return []<std::size_t... K>(std::index_sequence<K...>) {
     return std::vector<std::string>{std::string(std::variant_alternative_t<K, Variant>::kind)...};
-  }(std::make_index_sequence<std::variant_size_v<Variant>>());
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
 /// The alternative of the given kind with its default parameters; the last one if no other matches.

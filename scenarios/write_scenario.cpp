@@ -1,11 +1,10 @@
 #include "scenarios/write_scenario.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "scenarios/keys.hpp"
@@ -14,9 +13,7 @@ namespace wormdrive {
 namespace {
 
 /// A double as TOML writes it: never as an integer.
-std::string as_float(std::string text) {
-  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-}
+std::string as_float(std::string text) { return text.find_first_of(".en") == std::string::npos ? text + ".0" : text; }
 
 /// Shortest text that reads back as the same double.
 std::string number(double value) { return as_float(fmt::format("{}", value)); }
@@ -26,8 +23,8 @@ struct Statement {
   std::string key, number;
 };
 
-/// How a value is stated: in the preferred unit if that gives the same bits when read, else in SI. 30 deg come back from
-/// radians as 29.999999999999996: where fifteen digits do, they are what was meant.
+/// How a value is stated: in the preferred unit if that gives the same bits when read, else in SI. 30 deg come back
+/// from radians as 29.999999999999996: where fifteen digits do, they are what was meant.
 Statement exactly(double si, const std::vector<Spelling>& accepted) {
   for (const Spelling& s : accepted)
     for (const std::string& text : {as_float(fmt::format("{:.15g}", si / s.unit.si)), number(si / s.unit.si)})
@@ -47,9 +44,7 @@ class Writer {
   }
   template <class Parameters>
   void fields(const Parameters& parameters) {
-    for_each_field<Parameters>([&](const auto& field) {
-      value(field.name, field.unit, parameters.*field.member);
-    });
+    for_each_field<Parameters>([&](const auto& field) { value(field.name, field.unit, parameters.*field.member); });
   }
   void value(std::string_view name, const Unit& unit, const std::optional<double>& si) {
     if (!si || !std::isfinite(*si)) return;  // an infinite default is stated by absence

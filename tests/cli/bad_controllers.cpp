@@ -1,3 +1,5 @@
+// One malformed input per line:
+// clang-format off
 #include "cli/bad_input.hpp"
 
 // What the program says about controllers that it cannot run.

@@ -7,9 +7,9 @@ namespace wormdrive::test {
 
 struct BadInput {
   std::string name;
-  std::string scenario;                   ///< written to s.toml; nothing is written if empty
-  std::string message;                    ///< all of stderr without its last line break; "*" at its end stands for any words
-  std::vector<std::string> words = {};    ///< of the command after `wormdrive run s.toml`, or all of them with `alone`
+  std::string scenario;  ///< written to s.toml; nothing is written if empty
+  std::string message;   ///< all of stderr without its last line break; "*" at its end stands for any words
+  std::vector<std::string> words = {};  ///< of the command after `wormdrive run s.toml`, or all of them with `alone`
   bool alone = false;
   int exit = 2;
 };
@@ -18,8 +18,7 @@ struct BadInput {
 inline bool says(const std::string& expected, const std::string& message) {
   if (!expected.ends_with('*')) return message == expected + "\n";
   const std::string start = expected.substr(0, expected.size() - 1);
-  return message.starts_with(start) && message.size() > start.size() + 1 &&
-         message.find('\n') == message.size() - 1;
+  return message.starts_with(start) && message.size() > start.size() + 1 && message.find('\n') == message.size() - 1;
 }
 
 /// Runs every case in the folder and checks message, exit code, and that no file came or went.

@@ -1,3 +1,5 @@
+// One malformed input per line:
+// clang-format off
 #include <fcntl.h>
 #include <sys/file.h>
 

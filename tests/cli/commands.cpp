@@ -1,4 +1,5 @@
 #include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -59,7 +60,8 @@ TEST_CASE("run --json carries the numbers of the file that it writes") {
 
 TEST_CASE("statics --json carries the numbers of the file that it writes") {
   const Folder folder;
-  const json said = json::parse(printed(folder, {"statics", fig9, "--json", "-o", "s.h5", "--points", "7", "--max-load", "2"}));
+  const json said =
+      json::parse(printed(folder, {"statics", fig9, "--json", "-o", "s.h5", "--points", "7", "--max-load", "2"}));
   const Hdf5Handle file = open_hdf5(folder / "s.h5");
   CHECK(read_text_attribute(file, "kind") == "statics");
   CHECK(said.at("regime") == read_text_attribute(file, "regime"));
@@ -74,7 +76,8 @@ TEST_CASE("statics --json carries the numbers of the file that it writes") {
 TEST_CASE("steady --json carries the numbers of the file that it writes") {
   const Folder folder;
   folder.write("d.csv", "record,worm_speed_rad_per_s,motor_torque_Nm\nup,10,0.001\nup,12,0.003\ndown,-10,-0.002\n");
-  const json said = json::parse(printed(folder, {"steady", shipped("measured_worm_drive.toml"), "--json", "--data", "d.csv", "-o", "s.h5", "--points", "5"}));
+  const json said = json::parse(printed(folder, {"steady", shipped("measured_worm_drive.toml"), "--json", "--data",
+                                                 "d.csv", "-o", "s.h5", "--points", "5"}));
   const Hdf5Handle file = open_hdf5(folder / "s.h5");
   CHECK(read_text_attribute(file, "kind") == "steady");
   CHECK(said.at("worm_speed_rad_per_s").get<std::vector<double>>() == read_column(file, "model/worm_speed"));
@@ -116,9 +119,12 @@ TEST_CASE("JSON is valid whatever bytes a file name has") {
 
 TEST_CASE("nothing is printed when quiet is asked for") {
   const Folder folder;
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"run", fig9, "-q"}, {"run", fig9, "--quiet", "--audit"}, {"check", fig9, "-q"},
-        {"statics", fig9, "-q", "-o", "a.h5"}, {"steady", fig9, "-q", "-o", "b.h5"}, {"statics", fig9, "-q"}})
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"run", fig9, "-q"},
+                                                {"run", fig9, "--quiet", "--audit"},
+                                                {"check", fig9, "-q"},
+                                                {"statics", fig9, "-q", "-o", "a.h5"},
+                                                {"steady", fig9, "-q", "-o", "b.h5"},
+                                                {"statics", fig9, "-q"}})
     CHECK(printed(folder, words) == "");
   CHECK(folder.names() == std::set<std::string>{"a.h5", "b.h5", "fig09_switching.h5"});
 }
@@ -130,7 +136,8 @@ TEST_CASE("a result is named after its scenario and written where one works") {
   printed(folder, {"run", "scenarios/my arm.toml"});
   printed(folder, {"run", "my arm.h5"});
   CHECK(folder.names() == std::set<std::string>{"my arm.h5", "my arm_again.h5", "scenarios"});
-  CHECK(read_text_attribute(open_hdf5(folder / "my arm.h5"), "command_line") == "wormdrive run 'scenarios/my arm.toml'");
+  CHECK(read_text_attribute(open_hdf5(folder / "my arm.h5"), "command_line") ==
+        "wormdrive run 'scenarios/my arm.toml'");
 }
 
 TEST_CASE("the terminal names the file, the events and how to see them") {
@@ -139,7 +146,8 @@ TEST_CASE("the terminal names the file, the events and how to see them") {
   for (const std::string words :
        {"Fig. 9: engagement switching under a sinusoidal motor torque\n",
         "  regime   gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds (43.6 times)\n",
-        "  warning  geometry does not close: lg/(lw tan lambda) = 58.50 but ratio = 60; lead_angle_deg = 3.9005 would close it\n",
+        "  warning  geometry does not close: lg/(lw tan lambda) = 58.50 but ratio = 60; lead_angle_deg = 3.9005 would "
+        "close it\n",
         " evaluations, 12 events: 1 break-away, 6 flank changes, 5 reversals\n", "12 guard events, 0 missed",
         "  wrote    fig09_switching.h5    see it: wormdrive plot fig09_switching.h5\n"}) {
     INFO(words << "\n" << out);
@@ -150,9 +158,12 @@ TEST_CASE("the terminal names the file, the events and how to see them") {
 TEST_CASE("overrides reach nested keys, elements of arrays, and tables that are not there yet") {
   const Folder folder;
   const std::string arm = shipped("measured_worm_drive.toml");
-  const json p = run_with(folder, {"mesh.friction=0.13", "motor.torque[2].torque_Nm=0.5", "effect.worm_viscous.coefficient_Nms_per_rad=2e-5",
-                                   "effect.gear_viscous.coefficient_Nms_per_rad=3e-5", "initial.gear_angle_deg=90", "run.duration_s = 2",
-                                   "effect.gear_coulomb.on=false"}, arm);
+  const json p =
+      run_with(folder,
+               {"mesh.friction=0.13", "motor.torque[2].torque_Nm=0.5",
+                "effect.worm_viscous.coefficient_Nms_per_rad=2e-5", "effect.gear_viscous.coefficient_Nms_per_rad=3e-5",
+                "initial.gear_angle_deg=90", "run.duration_s = 2", "effect.gear_coulomb.on=false"},
+               arm);
   CHECK(p.at("mesh.friction").at("value") == 0.13);
   CHECK(p.at("motor.torque[2].torque_Nm").at("value") == 0.5);
   CHECK(p.at("motor.torque[1].torque_Nm").at("value") == 0.0022);
@@ -177,12 +188,15 @@ TEST_CASE("overrides take words without quotes, quotes, arrays and elements of a
     for (const std::string& word : words) all.insert(all.end(), {"--set", word});
     return json::parse(printed(folder, all)).at("scenario").get<std::string>();
   };
-  const auto has = [](const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
   CHECK(has(scenario({"run.method=adams"}), "method = 'adams'\n"));
   CHECK(has(scenario({"title=it's \"quoted\" = #1"}), R"(title = "it's \"quoted\" = #1")"));
   CHECK(has(scenario({"title=3 turns"}), "title = '3 turns'\n"));
   CHECK(has(scenario({"load.kind=constant", "load.torque_Nm=2", "run.duration_s=3"}), "duration_s = 3.0\n"));
-  CHECK(has(scenario({"motor.torque={kind = \"samples\", times_s = [0, 1, 2], torques_Nm = [1, 2, 3]}", "motor.torque.torques_Nm[1]=-0.5"}),
+  CHECK(has(scenario({"motor.torque={kind = \"samples\", times_s = [0, 1, 2], torques_Nm = [1, 2, 3]}",
+                      "motor.torque.torques_Nm[1]=-0.5"}),
             "torques_Nm = [1.0, -0.5, 3.0]\n"));
   CHECK(has(scenario({"mesh.friction=0.1", "mesh.friction=0.2"}), "friction = 0.2\n"));  // the last one counts
 }
@@ -190,10 +204,13 @@ TEST_CASE("overrides take words without quotes, quotes, arrays and elements of a
 TEST_CASE("list names what there is") {
   const Folder folder;
   for (const auto& [what, words] :
-       {std::pair<std::string, std::vector<std::string>>{"effects", {"worm_coulomb", "worm_viscous", "gear_coulomb", "gear_viscous", "coefficient_Nms_per_rad"}},
+       {std::pair<std::string, std::vector<std::string>>{
+            "effects", {"worm_coulomb", "worm_viscous", "gear_coulomb", "gear_viscous", "coefficient_Nms_per_rad"}},
         {"torques", {"constant", "sinusoid", "ramp", "step", "staircase", "samples", "amplitude_Nm", "rate_Nm_per_s"}},
         {"loads", {"gravity_arm", "angle_table", "mass_kg", "angles_deg"}},
-        {"scenarios", {"fig09_switching.toml", "Fig. 9: engagement switching under a sinusoidal motor torque", "measured_worm_drive.toml"}}}) {
+        {"scenarios",
+         {"fig09_switching.toml", "Fig. 9: engagement switching under a sinusoidal motor torque",
+          "measured_worm_drive.toml"}}}) {
     const std::string out = printed(folder, {"list", what});
     for (const std::string& word : words) {
       INFO(word << " in\n" << out);
@@ -214,7 +231,9 @@ TEST_CASE("help and version end with exit code 0") {
 
 TEST_CASE("what cannot be printed is not told as a success") {
   const Folder folder;
-  const Outcome outcome = Process({"/bin/sh", "-c", "'" WORMDRIVE_PROGRAM "' check '" + fig9 + "' --json > /dev/full"}, folder.path()).wait();
+  const Outcome outcome =
+      Process({"/bin/sh", "-c", "'" WORMDRIVE_PROGRAM "' check '" + fig9 + "' --json > /dev/full"}, folder.path())
+          .wait();
   CHECK(outcome.exit == 4);
   CHECK(outcome.err.find("No space left on device") != std::string::npos);
 }
@@ -236,7 +255,8 @@ TEST_CASE("a part that runs again is named after the run") {
 
 TEST_CASE("several results share one picture: break-aways in the map of statics, runs over the motor torque") {
   const Folder folder;
-  const std::string forward = shipped("fig08_ramp_07cm_forward.toml"), backward = shipped("fig08_ramp_07cm_backward.toml");
+  const std::string forward = shipped("fig08_ramp_07cm_forward.toml"),
+                    backward = shipped("fig08_ramp_07cm_backward.toml");
   printed(folder, {"run", forward, "-q", "-o", "f.h5"});
   printed(folder, {"run", backward, "-q", "-o", "b.h5"});
   printed(folder, {"statics", forward, "-q", "-o", "s.h5"});
@@ -250,6 +270,7 @@ TEST_CASE("several results share one picture: break-aways in the map of statics,
   CHECK(alone.err == "plot: several runs need --over motor_torque, or a statics file first\n");
   const Outcome missing = folder.run({"plot", "no.h5", "f.h5", "neither.h5"});
   CHECK(missing.exit == 2);
-  CHECK(missing.err == "neither.h5: error: cannot be read: No such file or directory\n"
-                       "no.h5: error: cannot be read: No such file or directory\n");
+  CHECK(missing.err ==
+        "neither.h5: error: cannot be read: No such file or directory\n"
+        "no.h5: error: cannot be read: No such file or directory\n");
 }

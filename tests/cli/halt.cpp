@@ -42,7 +42,8 @@ TEST_CASE("a run that cannot go on says when, in which mode, after what and why,
   folder.write("s.toml", good_but("[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05",
                                   "[[motor.torque]]\nkind = \"ramp\"\nrate_Nm_per_s = 1\n"
                                   "[[motor.torque]]\nkind = \"step\"\ntime_s = 0.1\ntorque_Nm = 1e308"));
-  const Outcome outcome = folder.run({"run", "s.toml", "-q", "--set", "run.duration_s=0.2", "--set", "load.torque_Nm=0.5"});
+  const Outcome outcome =
+      folder.run({"run", "s.toml", "-q", "--set", "run.duration_s=0.2", "--set", "load.torque_Nm=0.5"});
   INFO(outcome.err);
   CHECK(outcome.exit == 3);
   const auto part = [&](const std::string& words) { return outcome.err.find(words) != std::string::npos; };
@@ -57,7 +58,7 @@ TEST_CASE("a run that cannot go on says when, in which mode, after what and why,
   const std::vector<double> time = wormdrive::read_column(file, "trajectory/time");
   CHECK(time.front() == 0.0);
   CHECK(time.back() == 0.1);
-  CHECK(time.size() == 502);  // 500 reports, the start, and the break-away
+  CHECK(time.size() == 502);                                       // 500 reports, the start, and the break-away
   CHECK(wormdrive::read_column(file, "events/time").size() == 2);  // the break-away, and the flank at the step
   CHECK(h5py(folder, {"s.h5.part"}).out == "s.h5.part 502 True\n");
   CHECK(folder.run({"check", "s.h5.part", "-q"}).exit == 0);
@@ -79,7 +80,8 @@ TEST_CASE("a run killed at any moment leaves no result, and its part is readable
     const auto begin = std::chrono::steady_clock::now();
     for (int k = 0; k < at_once; ++k) {
       const std::string name = std::to_string(round * at_once + k) + ".h5";
-      running.push_back(std::make_unique<Process>(std::vector<std::string>{WORMDRIVE_PROGRAM, "run", "s.toml", "-q", "-o", name}, folder.path()));
+      running.push_back(std::make_unique<Process>(
+          std::vector<std::string>{WORMDRIVE_PROGRAM, "run", "s.toml", "-q", "-o", name}, folder.path()));
       moments.emplace_back(std::uniform_real_distribution(0.0, longest)(random), k);
     }
     std::sort(moments.begin(), moments.end());

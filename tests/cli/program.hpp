@@ -1,11 +1,5 @@
 #pragma once
 // What the tests of the program share: a folder of its own, the program run in it, and a look into result files.
-#include <poll.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +9,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 #include <vector>
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include "output/hdf5.hpp"
 
@@ -175,7 +175,8 @@ inline std::map<std::string, std::vector<char>> bytes(hid_t file, const std::str
   std::map<std::string, std::vector<char>> all;
   for (const std::string& name : members(table)) {
     const Hdf5Handle dataset(H5Dopen2(table, name.c_str(), H5P_DEFAULT), H5Dclose, "cannot open " + name);
-    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "no type"), space(H5Dget_space(dataset), H5Sclose, "no space");
+    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "no type"),
+        space(H5Dget_space(dataset), H5Sclose, "no space");
     std::vector<char>& content = all[name];
     content.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
     check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, content.data()), "cannot read " + name);

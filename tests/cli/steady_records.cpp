@@ -1,16 +1,15 @@
-#include "diagnosis/speed_torque_records.hpp"
-
-#include <iostream>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <iostream>
 #include <random>
 #include <tuple>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "diagnosis/speed_torque_records.hpp"
 
 // Records at constant speed: which samples are left out of their means, and how well the model meets the rest.
 
@@ -71,7 +70,8 @@ TEST_CASE("the model of the measured drive meets its 46 mean torques within 0.09
   REQUIRE(outcome.exit == 0);
   for (const std::string line :
        {":11002: record n1: motor_torque_Nm = 0.03936 is ", ":11502: record 1: motor_torque_Nm = 0.11808 is ",
-        ":12002: record 2: motor_torque_Nm = 0.07872 is ", " robust standard deviations from its record's median (limit 20)\n",
+        ":12002: record 2: motor_torque_Nm = 0.07872 is ",
+        " robust standard deviations from its record's median (limit 20)\n",
         "  compared rms error 0.0900 mN m over 46 mean torques of rms 1.5458 mN m\n"})
     CHECK(outcome.out.find(line) != std::string::npos);
 
@@ -136,7 +136,8 @@ TEST_CASE("a record of coarse steps, most of them equal, keeps every sample") {
 
 TEST_CASE("a last digit that is rounded now up, now down is no step") {
   std::vector<double> torques(300, 0.00100000);
-  for (const double other : {0.00100001, 0.00101968, 0.00101969, 0.00098032, 0.00098031, 0.00103936}) torques.insert(torques.end(), 3, other);
+  for (const double other : {0.00100001, 0.00101968, 0.00101969, 0.00098032, 0.00098031, 0.00103936})
+    torques.insert(torques.end(), 3, other);
   CHECK(record_of(torques).left_out.empty());
 }
 
@@ -175,11 +176,13 @@ TEST_CASE("records are told by name in the order of the file, though their lines
 
 TEST_CASE("data that are no records are told with file and line") {
   const Folder folder;
-  for (const auto& [text, message] : {std::pair<std::string, std::string>{header, "d.csv: error: there are no samples below the header line\n"},
-                                      {"a,b\n1,2\n", "d.csv:1: error: no column 'record'; the header line names a, b\n"},
-                                      {header + "a,1,x\n", "d.csv:2: error: motor_torque_Nm = 'x' is not a finite number\n"}}) {
+  for (const auto& [text, message] :
+       {std::pair<std::string, std::string>{header, "d.csv: error: there are no samples below the header line\n"},
+        {"a,b\n1,2\n", "d.csv:1: error: no column 'record'; the header line names a, b\n"},
+        {header + "a,1,x\n", "d.csv:2: error: motor_torque_Nm = 'x' is not a finite number\n"}}) {
     folder.write("d.csv", text);
-    const Outcome outcome = folder.run({"steady", shipped("measured_worm_drive.toml"), "--data", "d.csv", "-o", "s.h5"});
+    const Outcome outcome =
+        folder.run({"steady", shipped("measured_worm_drive.toml"), "--data", "d.csv", "-o", "s.h5"});
     CHECK(outcome.exit == 2);
     CHECK(outcome.err == message);
     CHECK(folder.names() == std::set<std::string>{"d.csv"});

@@ -48,7 +48,8 @@ TEST_CASE("the audit of fig. 9 confirms 12 events at 26 guards and misses none")
 }
 
 TEST_CASE("an event that a run passed over is found with its time and guard") {
-  for (const auto& [event, time, guard] : {std::tuple{1, 0.3612729976, "switching surface"}, {2, 0.5951950127, "gear speed"}}) {
+  for (const auto& [event, time, guard] :
+       {std::tuple{1, 0.3612729976, "switching surface"}, {2, 0.5951950127, "gear speed"}}) {
     Fig9 run;
     const std::size_t from = run.behind_event(event), to = run.behind_event(event + 1);
     for (std::size_t n = from; n < to; ++n) run.trail.entries[n].now.mode = run.trail.entries[from - 1].now.mode;
@@ -56,7 +57,8 @@ TEST_CASE("an event that a run passed over is found with its time and guard") {
     const AuditReport report = run.report();
     INFO(guard);
     REQUIRE(report.missed() == 1);
-    const auto missed = std::find_if(report.findings.begin(), report.findings.end(), [](const auto& f) { return f.missed; });
+    const auto missed =
+        std::find_if(report.findings.begin(), report.findings.end(), [](const auto& f) { return f.missed; });
     REQUIRE(missed->guard == guard);
     REQUIRE(std::abs(missed->t - time) <= 1e-8);
   }

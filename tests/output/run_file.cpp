@@ -43,31 +43,29 @@ struct Column {
 };
 
 const std::string motions = "backward stuck forward", flanks = "right none left";
-const std::vector<Column> trajectory{
-    {"flank", "", "flank that carries the load", flanks},
-    {"gear_acceleration", "rad/s^2", "gear acceleration theta_g''", ""},
-    {"gear_angle", "rad", "gear angle theta_g", ""},
-    {"gear_speed", "rad/s", "gear speed theta_g'", ""},
-    {"load_torque", "N m", "load torque tau_l on the gear", ""},
-    {"motion", "", "sign of the gear speed", motions},
-    {"motor_torque", "N m", "motor torque tau_m on the worm", ""},
-    {"normal_force", "N", "normal force Wn between the teeth", ""},
-    {"time", "s", "time", ""}};
-const std::vector<Column> events{
-    {"acceleration_after", "rad/s^2", "gear acceleration just after", ""},
-    {"acceleration_before", "rad/s^2", "gear acceleration just before", ""},
-    {"flank_after", "", "flank that carries the load after", flanks},
-    {"flank_before", "", "flank that carried the load before", flanks},
-    {"gear_angle", "rad", "gear angle theta_g", ""},
-    {"gear_speed", "rad/s", "gear speed theta_g'", ""},
-    {"kind", "", "what happened", "break_away stop reversal flank_change"},
-    {"load_torque_after", "N m", "load torque just after", ""},
-    {"load_torque_before", "N m", "load torque just before", ""},
-    {"motion_after", "", "sign of the gear speed after", motions},
-    {"motion_before", "", "sign of the gear speed before", motions},
-    {"motor_torque_after", "N m", "motor torque just after", ""},
-    {"motor_torque_before", "N m", "motor torque just before", ""},
-    {"time", "s", "time", ""}};
+const std::vector<Column> trajectory{{"flank", "", "flank that carries the load", flanks},
+                                     {"gear_acceleration", "rad/s^2", "gear acceleration theta_g''", ""},
+                                     {"gear_angle", "rad", "gear angle theta_g", ""},
+                                     {"gear_speed", "rad/s", "gear speed theta_g'", ""},
+                                     {"load_torque", "N m", "load torque tau_l on the gear", ""},
+                                     {"motion", "", "sign of the gear speed", motions},
+                                     {"motor_torque", "N m", "motor torque tau_m on the worm", ""},
+                                     {"normal_force", "N", "normal force Wn between the teeth", ""},
+                                     {"time", "s", "time", ""}};
+const std::vector<Column> events{{"acceleration_after", "rad/s^2", "gear acceleration just after", ""},
+                                 {"acceleration_before", "rad/s^2", "gear acceleration just before", ""},
+                                 {"flank_after", "", "flank that carries the load after", flanks},
+                                 {"flank_before", "", "flank that carried the load before", flanks},
+                                 {"gear_angle", "rad", "gear angle theta_g", ""},
+                                 {"gear_speed", "rad/s", "gear speed theta_g'", ""},
+                                 {"kind", "", "what happened", "break_away stop reversal flank_change"},
+                                 {"load_torque_after", "N m", "load torque just after", ""},
+                                 {"load_torque_before", "N m", "load torque just before", ""},
+                                 {"motion_after", "", "sign of the gear speed after", motions},
+                                 {"motion_before", "", "sign of the gear speed before", motions},
+                                 {"motor_torque_after", "N m", "motor torque just after", ""},
+                                 {"motor_torque_before", "N m", "motor torque just before", ""},
+                                 {"time", "s", "time", ""}};
 
 }  // namespace
 
@@ -90,7 +88,8 @@ TEST_CASE("a run file has the columns of its layout, each with units or flags an
       CHECK(run.text(path, "flag_meanings") == column.flag_meanings);
     }
   }
-  for (const std::string attribute : {"title", "kind", "scenario", "command_line", "wormdrive_version", "commit", "libraries", "created", "solver"})
+  for (const std::string attribute :
+       {"title", "kind", "scenario", "command_line", "wormdrive_version", "commit", "libraries", "created", "solver"})
     CHECK(read_text_attribute(run.file(), attribute) != "");
   CHECK(read_text_attribute(run.file(), "kind") == "run");
   CHECK(read_text_attribute(run.file(), "command_line") ==
@@ -118,11 +117,13 @@ TEST_CASE("rows are right-continuous at events, and the left limits stand in the
   for (std::size_t k = 0; k < at.size(); ++k) {
     const auto row = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), at[k]) - time.begin());
     INFO("event " << k << " at " << at[k] << " s");
-    for (const auto& [in_rows, after, before] :
-         {std::tuple{"motion", "motion_after", "motion_before"}, {"flank", "flank_after", "flank_before"},
-          {"gear_acceleration", "acceleration_after", "acceleration_before"}, {"motor_torque", "motor_torque_after", "motor_torque_before"},
-          {"load_torque", "load_torque_after", "load_torque_before"}, {"gear_angle", "gear_angle", "gear_angle"},
-          {"gear_speed", "gear_speed", "gear_speed"}}) {
+    for (const auto& [in_rows, after, before] : {std::tuple{"motion", "motion_after", "motion_before"},
+                                                 {"flank", "flank_after", "flank_before"},
+                                                 {"gear_acceleration", "acceleration_after", "acceleration_before"},
+                                                 {"motor_torque", "motor_torque_after", "motor_torque_before"},
+                                                 {"load_torque", "load_torque_after", "load_torque_before"},
+                                                 {"gear_angle", "gear_angle", "gear_angle"},
+                                                 {"gear_speed", "gear_speed", "gear_speed"}}) {
       const std::vector<double> rows = run[std::string("trajectory/") + in_rows];
       INFO(in_rows);
       CHECK(rows[row] == run[std::string("events/") + after][k]);
@@ -131,7 +132,8 @@ TEST_CASE("rows are right-continuous at events, and the left limits stand in the
       CHECK(std::abs(rows[row - 1] - left) <= 0.05 * std::max(1.0, std::abs(left)));
     }
     if (std::abs(run["events/acceleration_after"][k] - run["events/acceleration_before"][k]) > 1e-3) ++jumps;
-    CHECK((run["events/motion_after"][k] != run["events/motion_before"][k] || run["events/flank_after"][k] != run["events/flank_before"][k]));
+    CHECK((run["events/motion_after"][k] != run["events/motion_before"][k] ||
+           run["events/flank_after"][k] != run["events/flank_before"][k]));
   }
   CHECK(jumps == 5);  // the reversals; the break-away and the flank changes are continuous
 }
@@ -182,10 +184,19 @@ TEST_CASE("a result of many portions is the same rows as one of few, in chunks")
 TEST_CASE("a part disappears unless it is finished or kept") {
   const Folder folder;
   const std::string path = folder / "r.h5";
-  { const PartFile dropped(path); CHECK(folder.names() == std::set<std::string>{"r.h5.part"}); }
+  {
+    const PartFile dropped(path);
+    CHECK(folder.names() == std::set<std::string>{"r.h5.part"});
+  }
   CHECK(folder.names().empty());
-  { PartFile kept(path); kept.keep(); }
+  {
+    PartFile kept(path);
+    kept.keep();
+  }
   CHECK(folder.names() == std::set<std::string>{"r.h5.part"});
-  { PartFile finished(path); finished.finish(); }
+  {
+    PartFile finished(path);
+    finished.finish();
+  }
   CHECK(folder.names() == std::set<std::string>{"r.h5"});
 }

@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "catch.hpp"
 #include "cli/program.hpp"
@@ -84,8 +84,9 @@ class Filler {
 
  private:
   double next(const Bounds& bounds) {
-    constexpr double awkward[] = {1.0 / 3.0, -0.1, 33.3 * unit::degree, 2.53e-5, 1e-300, 123456789.125, 5e-324,
-                                  -7.0 / 9.0, 4.0, 0.7, 1e22, 6.02e-9};
+    constexpr double awkward[] = {1.0 / 3.0,     -0.1,   33.3 * unit::degree, 2.53e-5, 1e-300,
+                                  123456789.125, 5e-324, -7.0 / 9.0,          4.0,     0.7,
+                                  1e22,          6.02e-9};
     for (std::size_t tries = 0; tries < std::size(awkward); ++tries) {
       const double x = awkward[taken_++ % std::size(awkward)];
       if (bounds.contain(x)) return x;
@@ -102,10 +103,11 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   Scenario s;
   s.title = "Everything: \"quotes\", 'primes', \\ backslash, \t tab, \n line break, \xC3\xBC, [table], # no comment";
   s.mesh = filler.make<MeshParameters<double>>();
-  s.motor.terms = {filler.make<Constant>(), filler.make<Sinusoid>(), filler.make<Ramp>(),
+  s.motor.terms = {filler.make<Constant>(), filler.make<Sinusoid>(),  filler.make<Ramp>(),
                    filler.make<Step>(),     filler.make<Staircase>(), samples};
   s.load = load;
-  s.effects.for_each([&](auto& effect) { effect = filler.make<typename std::decay_t<decltype(effect)>::value_type>(); });
+  s.effects.for_each(
+      [&](auto& effect) { effect = filler.make<typename std::decay_t<decltype(effect)>::value_type>(); });
   s.initial = filler.make<InitialState>();
   s.run = filler.make<RunSettings>();
   s.run.report_interval = s.run.duration / 7.0;
@@ -170,7 +172,8 @@ TEST_CASE("an angle is written in degrees only if it comes back with the same bi
   REQUIRE((in_degrees > 500 && in_radians > 50));  // both ways are taken
 }
 
-TEST_CASE("an angle stated in degrees is written as it was stated, though it does not survive the way to radians and back") {
+TEST_CASE(
+    "an angle stated in degrees is written as it was stated, though it does not survive the way to radians and back") {
   Scenario s = load_scenario(shipped("fig09_switching.toml"), {}, Purpose::look);
   auto& mesh = std::get<MeshParameters<double>>(s.mesh);
   int changed = 0;
@@ -189,11 +192,14 @@ TEST_CASE("a result is simulated again to the last bit, also when the CSV file o
   std::string csv = "time_s,motor_torque_Nm\n";
   for (int k = 0; k < 40; ++k) csv += std::to_string(0.05 * k) + "," + std::to_string(0.06 * std::sin(0.37 * k)) + "\n";
   folder.write("data/torque.csv", csv);
-  std::string text = good_but("kind = \"constant\"\ntorque_Nm = -0.05", "kind = \"samples\"\nfile = \"torque.csv\"\ninterpolation = \"linear\"");
-  text = edited(text, "kind = \"constant\"\ntorque_Nm = 0.02", "kind = \"gravity_arm\"\ntorque_Nm = 0.0196\nangle_offset_deg = 33.3");
+  std::string text = good_but("kind = \"constant\"\ntorque_Nm = -0.05",
+                              "kind = \"samples\"\nfile = \"torque.csv\"\ninterpolation = \"linear\"");
+  text = edited(text, "kind = \"constant\"\ntorque_Nm = 0.02",
+                "kind = \"gravity_arm\"\ntorque_Nm = 0.0196\nangle_offset_deg = 33.3");
   folder.write("data/s.toml", edited(text, "duration_s = 0.01", "duration_s = 2"));
 
-  const Outcome first = folder.run({"run", "data/s.toml", "-q", "-o", "first.h5", "--set", "mesh.pressure_angle_deg=30.1"});
+  const Outcome first =
+      folder.run({"run", "data/s.toml", "-q", "-o", "first.h5", "--set", "mesh.pressure_angle_deg=30.1"});
   INFO(first.err);
   REQUIRE(first.exit == 0);
   std::filesystem::remove_all(folder / "data");
