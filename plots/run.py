@@ -146,6 +146,8 @@ def draw(result):
     figure = style.new_figure(text(attribute(result, "title")))
     samples = controller.samples(result)
     heights = [1.0, 1.25, 1.25] + ([0.9] if samples else [])
+    if samples:
+        figure.set_figheight(10.2)  # so that four panels stay readable
     panels = figure.subplots(len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights})
     legend = []
     if samples:
