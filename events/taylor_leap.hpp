@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "events/sine_cosine.hpp"
+#include "core/sine_cosine.hpp"
 #include "events/taylor_accuracy.hpp"
 #include "events/taylor_bounds.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "core/load.hpp"
 #include "core/worm_drive.hpp"
-#include "events/sine_cosine.hpp"
+#include "core/sine_cosine.hpp"
 #include "events/taylor_accuracy.hpp"
 #include "events/taylor_leap.hpp"
 
