@@ -1,10 +1,10 @@
 #pragma once
-#include <cmath>
 #include <optional>
 #include <tuple>
 
 #include "core/field.hpp"
 #include "core/mode.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -42,7 +42,9 @@ struct NominalModel {
 
   /// Slope of the switching surface, Jw i / Jg.
   double surface() const { return Jw_i / Jg; }
-  double load(double theta_g) const { return load_torque * std::cos(theta_g + load_angle_offset) + load_constant; }
+  double load(double theta_g) const {
+    return load_torque * sine_and_cosine(theta_g + load_angle_offset).cosine + load_constant;
+  }
   /// C of the branch u < 0 (left flank) or u > 0 (right flank) for a direction of motion [YehWu2009, eq. 20].
   double C(Motion motion, Flank flank) const { return sign(motion) * sign(flank) > 0 ? C1 : C2; }
   /// Inertia of a branch, Jw i + C Jg = 1/b_hat.

@@ -60,42 +60,57 @@ struct SlidingBounds {
 class SlidingController {
  public:
   SlidingController(const SlidingParameters& parameters, const NominalModel& nominal, const Variations& variations)
-      : p_(parameters), nominal_(nominal), bounds_(parameters, lemma1(nominal, variations)) {}
+      : SlidingController(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))) {}
 
   ControlSignals operator()(const Measurement& m) {
     const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
     integral_ += e * m.period;
-    const double s = e_rate + 2.0 * p_.lambda_c * e + p_.lambda_c * p_.lambda_c * integral_;
+    const double twice = 2.0 * p_.lambda_c, square = p_.lambda_c * p_.lambda_c;
+    const double s = e_rate + twice * e + square * integral_;
     const double load = nominal_.load(m.angle);
-    const double wanted = m.desired.acceleration - 2.0 * p_.lambda_c * e_rate - p_.lambda_c * p_.lambda_c * e;
-    const Motion motion = branch(m.speed, m.desired.speed);
+    const double wanted = m.desired.acceleration - twice * e_rate - square * e;
     // u1 carries the left flank and is used for s >= Phi, u2 the right one for s <= -Phi [eq. 22-23]
-    const Branch left = branch_of(Flank::left, motion, load, wanted);
-    const Branch right = branch_of(Flank::right, motion, load, wanted);
-    const double u1 = left.inertia * (left.u_hat - left.gain), u2 = right.inertia * (right.u_hat + right.gain);
+    const bool forward = branch(m.speed, m.desired.speed) == Motion::forward;
+    const double u1 = branches_[forward ? 0 : 1].input(-1.0, load, wanted);
+    const double u2 = branches_[forward ? 1 : 0].input(1.0, load, wanted);
     const double share = std::clamp(s / p_.Phi, -1.0, 1.0);
-    const double u = 0.5 * ((u1 - u2) * share + u1 + u2);  // [eq. 24]
+    const double u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
     const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
-    return {u + nominal_.surface() * load + compensation, s, u, compensation};
+    return {u + (surface_ * load + compensation), s, u, compensation};
   }
 
  private:
-  struct Branch {
-    double inertia, u_hat, gain;
+  /// The law where C1 or C2 acts, with everything in it that no sample changes.
+  class Branch {
+   public:
+    Branch(const NominalModel& nominal, double C, double beta, double D, double least)
+        : inertia_(nominal.inertia(C)),
+          d_((C + nominal.surface()) / inertia_),
+          of_load_(beta * D),
+          of_input_(beta - 1.0),
+          constant_(beta * least) {}
+
+    /// (u_hat + side k) / b_hat [N m], with the gain k = beta (D |tau_l_hat| + E + eta) + (beta - 1) |u_hat|.
+    double input(double side, double load, double wanted) const {
+      const double u_hat = wanted - d_ * load;
+      return inertia_ * (u_hat + side * (of_load_ * std::abs(load) + constant_ + of_input_ * std::abs(u_hat)));
+    }
+
+   private:
+    double inertia_, d_, of_load_, of_input_, constant_;
   };
-  Branch branch_of(Flank flank, Motion motion, double load, double wanted) const {
-    const double C = nominal_.C(motion, flank), inertia = nominal_.inertia(C);
-    const double d = (C + nominal_.surface()) / inertia;
-    const double u_hat = wanted - d * load;
-    const std::size_t k = sign(motion) * sign(flank) > 0 ? 0 : 1;
-    const double beta = k == 0 ? p_.beta1 : p_.beta2;
-    return {inertia, u_hat,
-            beta * (bounds_.D[k] * std::abs(load) + bounds_.E[k] + p_.eta) + (beta - 1.0) * std::abs(u_hat)};
-  }
+
+  SlidingController(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds)
+      : p_(p),
+        nominal_(nominal),
+        surface_(nominal.surface()),
+        branches_{Branch(nominal, nominal.C1, p.beta1, bounds.D[0], bounds.E[0] + p.eta),
+                  Branch(nominal, nominal.C2, p.beta2, bounds.D[1], bounds.E[1] + p.eta)} {}
 
   SlidingParameters p_;
   NominalModel nominal_;
-  SlidingBounds bounds_;
+  double surface_;
+  std::array<Branch, 2> branches_;  ///< of C1 and C2
   double integral_ = 0.0;
 };
 

@@ -26,6 +26,15 @@ std::optional<int> rest(const System& system, typename System::Instant& now, dou
   return released ? std::optional(released->guard) : std::nullopt;
 }
 
+/// The mode after the inputs have changed; a solver may find it from what it needs anyway.
+template <class System, class Solver>
+Mode settle(const System& system, Solver& solver, const typename System::Instant& now) {
+  if constexpr (requires { solver.settle(now); })
+    return solver.settle(now);
+  else
+    return system.settle(now);
+}
+
 /// Runs a hybrid system to the end of its timetable and returns its last instant.
 ///
 /// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next.
@@ -38,7 +47,6 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
   EventLog log(chatter);
   std::optional<int> guard;
   for (Reason reason = timetable.pop();;) {
-    const auto before = now;
     switch (reason) {
       case Reason::knot:
         system.enter(now.t);
@@ -47,16 +55,19 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         break;
       case Reason::sample: {
         const double tau_m = controller.sample(system, now);
-        if (!std::isfinite(tau_m)) throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
+        if (!std::isfinite(tau_m))
+          throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
         system.command(now.t, tau_m);
         timetable.schedule_knot(system.next_knot(now.t));
-        now.mode = system.settle(now);
+        now.mode = settle(system, solver, now);
         break;
       }
-      case Reason::guard:
+      case Reason::guard: {
+        const auto before = now.mode;
         now = system.jump(now, *guard);
-        log.count(now.t, std::string(System::guard_name(before.mode, *guard)), before.mode, now.mode);
+        log.count(now.t, std::string(System::guard_name(before, *guard)), before, now.mode);
         break;
+      }
       case Reason::report: break;
       case Reason::end: return now;
     }

@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
 #include "core/load.hpp"
+#include "core/sine_cosine.hpp"
 #include "core/worm_drive.hpp"
-#include "events/sine_cosine.hpp"
 #include "events/taylor_accuracy.hpp"
 #include "events/taylor_leap.hpp"
 
@@ -36,7 +37,10 @@ class NominalFlow<WormDrive<double, Load>> {
 
   /// The system must outlive the flow; its inputs may change between calls of begin, its parameters must not.
   explicit NominalFlow(const System& system)
-      : motor_(system.motor_piece()), load_(system.load()), surface_(system.surface()) {
+      : motor_(system.motor_piece()),
+        load_(system.load()),
+        surface_(system.surface()),
+        has_teeth_(system.mesh().has_teeth) {
     double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
       if (!effect) return;
@@ -55,12 +59,14 @@ class NominalFlow<WormDrive<double, Load>> {
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
         const double C = mesh.C(motion * flank * mesh.mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
-        equations_[index(motion, flank)] = {.motion = static_cast<double>(motion),
-                                            .flank = static_cast<double>(flank),
+        equations_[index(motion, flank)] = {.held = {.motion = static_cast<double>(motion),
+                                                     .flank = static_cast<double>(flank),
+                                                     .gravity = amplitude() * C * inverse,
+                                                     .drag = (worm_viscous + C * gear_viscous) * inverse,
+                                                     .lift = amplitude() * surface_,
+                                                     .skew = worm_viscous - surface_ * gear_viscous},
                                             .per_worm_torque = inverse,
                                             .per_gear_torque = C * inverse,
-                                            .drag = (worm_viscous + C * gear_viscous) * inverse,
-                                            .skew = worm_viscous - surface_ * gear_viscous,
                                             .worm_friction = -motion * worm_coulomb,
                                             .gear_friction = -motion * gear_coulomb};
       }
@@ -69,32 +75,36 @@ class NominalFlow<WormDrive<double, Load>> {
   /// False with an effect that this flow does not know.
   bool covers() const { return covers_; }
 
+  /// The mode in which a moving drive goes on after its inputs were set from outside, where the torques are clear of
+  /// the switching surface; otherwise the equations of core/ have to decide.
+  std::optional<Mode> settle(const Instant& now) {
+    if (now.x[1] == 0.0 || !has_teeth_ || !inputs_are_constant()) return std::nullopt;
+    settled_arm_ = arm_at(now.x[0]);
+    settled_at_ = now.x[0];
+    const auto motion = now.x[1] > 0.0 ? wormdrive::Motion::forward : wormdrive::Motion::backward;
+    const Equation& m = equations_[index(sign(motion), 1)];
+    const double beyond = held_torques(m).beyond, lift = m.held.lift * settled_arm_.cosine,
+                 skew = m.held.skew * now.x[1], distance = beyond - lift - skew;
+    if (std::abs(distance) <= 1e-3 * (std::abs(beyond) + std::abs(lift) + std::abs(skew))) return std::nullopt;
+    return Mode{motion, distance <= 0.0 ? Flank::left : Flank::right};
+  }
+
   /// Takes up mode and inputs.
-  void begin(const Instant& now) { mode_ = &equations_[index(sign(now.mode.motion), sign(now.mode.flank))]; }
+  void begin(const Instant& now) {
+    // Modes outlast samples: a branch is foretold, an index would have to wait for the torque.
+    if (now.mode != latest_) {
+      latest_ = now.mode;
+      mode_ = &equations_[index(sign(latest_.motion), sign(latest_.flank))];
+    }
+    constant_inputs_ = inputs_are_constant();
+    held_ = held_torques(*mode_);
+  }
 
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) const {
-    if (!is_constant(motor_)) return false;
-    const Equation& m = *mode_;
-    const double worm = motor_.constant + m.worm_friction;
-    double gear = m.gear_friction, amplitude = 0.0, offset = 0.0;
-    if constexpr (swings) {
-      amplitude = load_.amplitude;
-      offset = load_.offset;
-    } else {
-      if (!is_constant(load_.piece)) return false;
-      gear += load_.piece.constant;
-    }
-    const HeldMotion held{.motion = m.motion,
-                          .flank = m.flank,
-                          .push = worm * m.per_worm_torque + gear * m.per_gear_torque,
-                          .gravity = amplitude * m.per_gear_torque,
-                          .offset = offset,
-                          .drag = m.drag,
-                          .beyond = worm - surface_ * gear,
-                          .lift = surface_ * amplitude,
-                          .skew = m.skew};
-    if (!held.template leap<swings>(now.x[0], now.x[1], next - now.t, accuracy)) return false;
+    if (!constant_inputs_) return false;
+    if (!mode_->held.template leap<swings>(now.x[0], now.x[1], next - now.t, held_, arm_at(now.x[0]), accuracy))
+      return false;
     now.t = next;
     return true;
   }
@@ -118,10 +128,10 @@ class NominalFlow<WormDrive<double, Load>> {
       if constexpr (swings)
         if (k > 0) turn(e.omega, k);
       e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
-      e.guards[System::speed_guard][k] = m.motion * e.omega[k];
+      e.guards[System::speed_guard][k] = m.held.motion * e.omega[k];
       e.guards[System::flank_guard][k] =
-          -m.flank * (worm_torque_[k] - surface_ * gear_torque_[k] - m.skew * e.omega[k]);
-      if (k == 0 && m.flank == 0.0) e.guards[System::flank_guard][0] = 1.0;
+          -m.held.flank * (worm_torque_[k] - surface_ * gear_torque_[k] - m.held.skew * e.omega[k]);
+      if (k == 0 && m.held.flank == 0.0) e.guards[System::flank_guard][0] = 1.0;
       e.order = k;
       if (k == accuracy.order()) break;
       if (std::abs(e.omega[k]) * power <= allowed && accuracy.suffices(e, h)) {
@@ -130,7 +140,7 @@ class NominalFlow<WormDrive<double, Load>> {
       }
       power *= h;
       const double alpha =
-          worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.drag * e.omega[k];
+          worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.held.drag * e.omega[k];
       e.omega[k + 1] = alpha * reciprocal[k + 1];
     }
     e.step = accuracy.step(e, h);
@@ -143,8 +153,8 @@ class NominalFlow<WormDrive<double, Load>> {
   /// A mode: theta'' = per_worm_torque tau_w + per_gear_torque tau_g - drag theta', its distance from the switching
   /// surface tau_w - (Jw i/Jg) tau_g - skew theta'; tau_w and tau_g hold the dry friction, not the viscous. All in SI.
   struct Equation {
-    double motion, flank;
-    double per_worm_torque, per_gear_torque, drag, skew;
+    HeldMotion held;
+    double per_worm_torque, per_gear_torque;
     double worm_friction, gear_friction;
   };
 
@@ -156,6 +166,32 @@ class NominalFlow<WormDrive<double, Load>> {
 
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   static bool is_constant(const Piece& piece) { return piece.cosines.empty() && piece.slope == 0.0; }
+  bool inputs_are_constant() const {
+    if constexpr (swings)
+      return is_constant(motor_);
+    else
+      return is_constant(motor_) && is_constant(load_.piece);
+  }
+  HeldTorques held_torques(const Equation& m) const {
+    const double worm = motor_.constant + m.worm_friction;
+    double gear = m.gear_friction;
+    if constexpr (!swings) gear += load_.piece.constant;
+    return {worm * m.per_worm_torque + gear * m.per_gear_torque, worm - surface_ * gear};
+  }
+
+  double amplitude() const {
+    if constexpr (swings)
+      return load_.amplitude;
+    else
+      return 0.0;
+  }
+  /// Sine and cosine of the arm's angle, worked out once for mode and motion.
+  SineAndCosine arm_at(double theta_g) const {
+    if constexpr (!swings)
+      return {0.0, 0.0};
+    else
+      return theta_g == settled_at_ ? settled_arm_ : sine_and_cosine(theta_g + load_.offset);
+  }
 
   /// Sets c to the coefficients of an input.
   static void input(const Piece& piece, double t, Coefficients& c) {
@@ -198,11 +234,16 @@ class NominalFlow<WormDrive<double, Load>> {
   const Piece& motor_;
   const Load& load_;
   double surface_;
-  bool covers_ = true;
+  bool has_teeth_, covers_ = true;
   std::array<Equation, 6> equations_{};
-  const Equation* mode_ = &equations_[0];
-  Coefficients worm_torque_{}, gear_torque_{};  ///< of the latest step, but for viscous friction
-  std::array<Pair, highest_order + 2> arm_{};   ///< cosine and sine of the arm's angle
+  Mode latest_{};
+  const Equation* mode_ = &equations_[0];  ///< that of the latest mode
+  bool constant_inputs_ = false;
+  HeldTorques held_{};                                            ///< where the inputs are constant
+  Coefficients worm_torque_{}, gear_torque_{};                    ///< of the latest step, but for viscous friction
+  std::array<Pair, highest_order + 2> arm_{};                     ///< cosine and sine of the arm's angle
+  double settled_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gear angle of the latest settle [rad]
+  SineAndCosine settled_arm_{};
 };
 
 }  // namespace wormdrive

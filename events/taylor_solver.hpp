@@ -25,6 +25,14 @@ class TaylorSolver {
   TaylorSolver(const System& system, const SolverSettings& settings)
       : system_(system), accuracy_(settings), max_step_(settings.max_step), nominal_(system) {}
 
+  /// The mode in which the system goes on after its inputs were set from outside.
+  Mode settle(const Instant& now) {
+    if constexpr (NominalFlow<System>::known)
+      if (nominal_.covers())
+        if (const auto mode = nominal_.settle(now)) return *mode;
+    return system_.settle(now);
+  }
+
   /// Takes up a new state.
   void restart(const Instant& now) {
     ++count_.restarts;
@@ -38,13 +46,12 @@ class TaylorSolver {
   std::optional<int> advance(Instant& now, double next, double limit) {
     while (!already_there(now.t, next)) {
       if (now.t >= end_) {
+        if (next == limit && leap(now, limit)) return std::nullopt;
         begin_ = now;
-        if (leap(now, limit)) {
-          if (next == limit) break;
+        if (next < limit && leap(now, limit))
           there_ = now;
-        } else {
+        else
           step(now, limit);
-        }
       }
       now = at(std::min(next, end_));
       if (fired_ && now.t == end_) return fired_;

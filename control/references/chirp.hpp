@@ -7,6 +7,7 @@
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -33,8 +34,9 @@ struct ChirpReference {
     const double omega =
         2.0 * std::numbers::pi * (first_frequency + (last_frequency - first_frequency) * swept / duration);
     const double phase = std::numbers::pi * swept * first_frequency + 0.5 * omega * swept + omega * after;
-    const double s = std::sin(phase), c = std::cos(phase);
-    return {amplitude * s, amplitude * omega * c, amplitude * (rate * c - omega * omega * s)};
+    const SineAndCosine now = sine_and_cosine(phase);
+    return {amplitude * now.sine, amplitude * omega * now.cosine,
+            amplitude * (rate * now.cosine - omega * omega * now.sine)};
   }
 };
 

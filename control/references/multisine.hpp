@@ -1,11 +1,11 @@
 #pragma once
-#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <tuple>
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -32,8 +32,8 @@ struct MultisineReference {
     for (int k = 0; k < n; ++k) {
       const double share = n > 1 ? static_cast<double>(k) / (n - 1) : 0.0;
       const double omega = 2.0 * std::numbers::pi * (lowest_frequency + share * (highest_frequency - lowest_frequency));
-      const double x = omega * t - std::numbers::pi * k * (k - 1) / n;
-      sum += {amplitude * std::sin(x), amplitude * omega * std::cos(x), -amplitude * omega * omega * std::sin(x)};
+      const SineAndCosine now = sine_and_cosine(omega * t - std::numbers::pi * k * (k - 1) / n);
+      sum += {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
     }
     return sum;
   }

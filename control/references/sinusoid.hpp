@@ -1,11 +1,11 @@
 #pragma once
-#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <tuple>
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -25,8 +25,8 @@ struct SinusoidReference {
   }
   ReferencePoint at(double t) const {
     const double omega = 2.0 * std::numbers::pi * frequency, x = omega * t + phase;
-    const double s = std::sin(x), c = std::cos(x);
-    return {amplitude * s, amplitude * omega * c, -amplitude * omega * omega * s};
+    const SineAndCosine now = sine_and_cosine(x);
+    return {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
   }
 };
 

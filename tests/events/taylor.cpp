@@ -3,7 +3,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "events/sine_cosine.hpp"
+#include "core/sine_cosine.hpp"
 #include "support.hpp"
 
 // The solver of power series against 128-bit arithmetic, and where its series must not be believed.
