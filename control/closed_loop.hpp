@@ -58,10 +58,11 @@ class ClosedLoop {
     const double difference = speed_(angle);
     const Measurement m{now.t, angle, exact_speed_ ? now.x[1] : difference, k_ == 0 ? 0.0 : period_,
                         reference_.at(now.t)};
+    const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
     const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
     const double limit = system.effects().torque_limit();
-    const double applied = std::clamp(torque + disturbance_(k_++), -limit, limit);
+    const double applied = std::clamp(torque + disturbance, -limit, limit);
     listener_(ControlRecord{now.x[0], m, decided, applied});
     return applied;
   }

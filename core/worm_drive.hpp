@@ -135,7 +135,10 @@ class WormDrive {
   Moment<Series<T, N>> ahead(const Instant& now) const {
     using Flow = Series<T, N>;
     Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]));
-    for (int k = 0; k < N; ++k) {
+    at.theta_g[1] = now.x[1];
+    at.omega_g[1] = acceleration(moment(now), now.mode);
+    at.omega_w = mesh_.i * at.omega_g;
+    for (int k = 1; k < N; ++k) {
       const Flow a = acceleration(at, now.mode);
       at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
       at.omega_g[k + 1] = a[k] / T(k + 1);
@@ -272,6 +275,9 @@ class WormDrive {
 
   /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
   Flank flank_after_crossing(const Instant& now) const {
+    using std::abs;
+    const auto near = beyond_surface(ahead<2>(now), now.mode.motion);
+    if (abs(near[1]) > T(2.0 * instant()) * abs(near[2])) return near[1] > T(0) ? Flank::right : Flank::left;
     auto beyond = beyond_surface(ahead<order>(now), now.mode.motion);
     beyond[0] = T(0);
     const int side = sign_just_after(beyond, instant());

@@ -97,13 +97,13 @@ class NominalFlow<WormDrive<double, Load>> {
       mode_ = &equations_[index(sign(latest_.motion), sign(latest_.flank))];
     }
     constant_inputs_ = inputs_are_constant();
-    held_ = held_torques(*mode_);
   }
 
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) const {
     if (!constant_inputs_) return false;
-    if (!mode_->held.template leap<swings>(now.x[0], now.x[1], next - now.t, held_, arm_at(now.x[0]), accuracy))
+    if (!mode_->held.template leap<swings>(now.x[0], now.x[1], next - now.t, held_torques(*mode_), arm_at(now.x[0]),
+                                           accuracy))
       return false;
     now.t = next;
     return true;
@@ -112,12 +112,12 @@ class NominalFlow<WormDrive<double, Load>> {
   /// The motion from now on, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const Equation& m = *mode_;
-    input(motor_, now.t, worm_torque_);
+    input(motor_, now.t, accuracy.order(), worm_torque_);
     worm_torque_[0] += m.worm_friction;
     if constexpr (swings)
       turn_to(now.x[0] + load_.offset);
     else
-      input(load_.piece, now.t, gear_torque_);
+      input(load_.piece, now.t, accuracy.order(), gear_torque_);
     gear_torque_[0] += m.gear_friction;
 
     e.theta[0] = now.x[0];
@@ -193,19 +193,19 @@ class NominalFlow<WormDrive<double, Load>> {
       return theta_g == settled_at_ ? settled_arm_ : sine_and_cosine(theta_g + load_.offset);
   }
 
-  /// Sets c to the coefficients of an input.
-  static void input(const Piece& piece, double t, Coefficients& c) {
-    c.fill(0.0);
+  /// Sets c to the coefficients of an input, up to the last that is asked for.
+  static void input(const Piece& piece, double t, int last, Coefficients& c) {
+    std::fill_n(c.begin(), last + 1, 0.0);
     c[0] = piece.constant + piece.slope * (t - piece.start);
     c[1] = piece.slope;
     for (const Cosine& wave : piece.cosines) {
       const SineAndCosine now = sine_and_cosine(wave.omega * t + wave.phase);
-      double term = wave.amplitude * now.cosine, quarter_on = -wave.amplitude * now.sine;
-      for (int k = 0; k <= highest_order; ++k) {
-        c[k] += term;
-        const double next = quarter_on * wave.omega * reciprocal[k + 1];
-        quarter_on = -term * wave.omega * reciprocal[k + 1];
-        term = next;
+      const std::array<double, 4> derivatives{wave.amplitude * now.cosine, -wave.amplitude * now.sine,
+                                              -wave.amplitude * now.cosine, wave.amplitude * now.sine};
+      double weight = 1.0;  // omega^k / k!
+      for (int k = 0; k <= last; ++k) {
+        c[k] += weight * derivatives[k % 4];
+        weight *= wave.omega * reciprocal[k + 1];
       }
     }
   }
@@ -217,16 +217,15 @@ class NominalFlow<WormDrive<double, Load>> {
   }
 
   /// Coefficient k of cosine and sine: k cos_k = -sum of omega_(j-1) sin_(k-j), k sin_k = sum of omega_(j-1) cos_(k-j).
-  /// The factors that are known last come last, and two sums run side by side.
+  /// Summed from the middle outwards: the factors that are known last come last, and two sums run side by side.
   void turn(const Coefficients& omega, int k) {
-    Pair sum{0.0, 0.0}, other{0.0, 0.0};
-    int j = 2;
-    for (; j < k; j += 2) {
-      sum += omega[j - 1] * arm_[k - j];
-      other += omega[j] * arm_[k - j - 1];
+    Pair lower{0.0, 0.0}, upper{0.0, 0.0};
+    if (k % 2 == 1) lower = omega[k / 2] * arm_[k / 2];
+    for (int j = k / 2; j >= 1; --j) {
+      lower += omega[j - 1] * arm_[k - j];
+      upper += omega[k - j] * arm_[j - 1];
     }
-    if (j == k) sum += omega[j - 1] * arm_[0];
-    sum = (sum + other + omega[0] * arm_[k - 1]) * reciprocal[k];
+    const Pair sum = (lower + upper) * reciprocal[k];
     arm_[k] = Pair{-sum[1], sum[0]};
     gear_torque_[k] = load_.amplitude * arm_[k][0];
   }
@@ -239,7 +238,6 @@ class NominalFlow<WormDrive<double, Load>> {
   Mode latest_{};
   const Equation* mode_ = &equations_[0];  ///< that of the latest mode
   bool constant_inputs_ = false;
-  HeldTorques held_{};                                            ///< where the inputs are constant
   Coefficients worm_torque_{}, gear_torque_{};                    ///< of the latest step, but for viscous friction
   std::array<Pair, highest_order + 2> arm_{};                     ///< cosine and sine of the arm's angle
   double settled_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gear angle of the latest settle [rad]
