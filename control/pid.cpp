@@ -1,0 +1,38 @@
+#include "control/pid.hpp"
+
+#include <algorithm>
+#include <complex>
+
+#include <Eigen/Eigenvalues>
+
+namespace wormdrive {
+
+// From the stable subspace of the Hamiltonian matrix. Time is counted in 1/p and torque in M p^2, p being the fastest
+// pole that one weight alone asks for: the matrix then has no number above 1, whatever the weights are.
+PidGains lqr_gains(const PidParameters& weights, double M) {
+  const double torque = weights.torque_weight * M * M;
+  const double p = std::max({std::pow(weights.integral_weight / torque, 1.0 / 6.0),
+                             std::pow(weights.angle_weight / torque, 1.0 / 4.0),
+                             std::pow(weights.speed_weight / torque, 1.0 / 2.0)});
+  Eigen::Matrix<double, 6, 6> hamiltonian = Eigen::Matrix<double, 6, 6>::Zero();
+  hamiltonian(0, 1) = hamiltonian(1, 2) = 1.0;
+  hamiltonian(2, 5) = -1.0;
+  hamiltonian(3, 0) = -weights.integral_weight / (torque * std::pow(p, 6.0));
+  hamiltonian(4, 1) = -weights.angle_weight / (torque * std::pow(p, 4.0));
+  hamiltonian(5, 2) = -weights.speed_weight / (torque * std::pow(p, 2.0));
+  hamiltonian(4, 3) = hamiltonian(5, 4) = -1.0;
+  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> eigen(hamiltonian);
+  Eigen::Matrix3cd X, Y;
+  int stable = 0;
+  for (int k = 0; k < 6 && stable < 3; ++k) {
+    if (!(eigen.eigenvalues()[k].real() < 0.0)) continue;
+    const Eigen::Matrix<std::complex<double>, 6, 1> v = eigen.eigenvectors().col(k);
+    X.col(stable) = v.head<3>();
+    Y.col(stable++) = v.tail<3>();
+  }
+  if (stable < 3) return {};  // no gains: stabilises() says no
+  const Eigen::Matrix3d P = (Y * X.inverse()).real();
+  return {P(2, 0) * M * p * p * p, P(2, 1) * M * p * p, P(2, 2) * M * p};
+}
+
+}  // namespace wormdrive
