@@ -29,18 +29,21 @@ void print_fields() {
 
 void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<18} {}\n", kind, meaning); }
 
-/// Prints every alternative of a variant; one without fields is described by `otherwise`.
+/// Prints a kind with its fields; one without fields is described by `otherwise`.
+template <class Kind>
+void print_kind(std::string_view otherwise) {
+  print_kind(Kind::kind, Kind::meaning);
+  if constexpr (requires { Kind::fields(); })
+    print_fields<Kind>();
+  else
+    fmt::print("      {}\n", otherwise);
+}
+
+/// Prints every alternative of a variant.
 template <class Variant>
 void print_kinds(std::string_view otherwise) {
   [&]<std::size_t... K>(std::index_sequence<K...>) {
-    const auto print = [&]<class Kind>() {
-      print_kind(Kind::kind, Kind::meaning);
-      if constexpr (requires { Kind::fields(); })
-        print_fields<Kind>();
-      else
-        fmt::print("      {}\n", otherwise);
-    };
-    (print.template operator()<std::variant_alternative_t<K, Variant>>(), ...);
+    (print_kind<std::variant_alternative_t<K, Variant>>(otherwise), ...);
   }
   (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
@@ -62,13 +65,7 @@ void list_torques() {
 
 void list_loads() {
   fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
-  for_each_load([]<class Load>() {
-    print_kind(Load::kind, Load::meaning);
-    if constexpr (requires { Load::fields(); })
-      print_fields<Load>();
-    else
-      fmt::print("      file (with x_column, y_column), or angles_deg and torques_Nm\n");
-  });
+  for_each_load([]<class Load>() { print_kind<Load>("file (with x_column, y_column), or angles_deg and torques_Nm"); });
 }
 
 void list_controllers() {

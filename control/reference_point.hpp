@@ -1,4 +1,5 @@
 #pragma once
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -15,5 +16,11 @@ struct ReferencePoint {
     return *this;
   }
 };
+
+/// A point of amplitude sin(phase) whose phase [rad] turns at omega [rad/s].
+inline ReferencePoint sine_point(double amplitude, double phase, double omega) {
+  const SineAndCosine now = sine_and_cosine(phase);
+  return {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
+}
 
 }  // namespace wormdrive

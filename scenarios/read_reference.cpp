@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/read_pairs.hpp"
-#include "scenarios/variant_kinds.hpp"
+#include "scenarios/read_terms.hpp"
 
 namespace wormdrive {
 namespace {
@@ -13,6 +13,8 @@ namespace {
 template <class Parameters>
 void read_term(TableReader& table, Parameters& parameters, const std::string&) {
   table.read_fields(parameters);
+  if constexpr (requires { parameters.seed; }) require_whole(table, "seed", parameters.seed);
+  if constexpr (requires { parameters.count; }) require_whole(table, "count", parameters.count);
 }
 void read_term(TableReader& table, TableReference& reference, const std::string& folder) {
   const Pairs pairs = read_pairs(
@@ -30,21 +32,8 @@ void require_whole(TableReader& table, const std::string& key, double value) {
 }
 
 Reference read_reference(TableReader& root, const std::string& folder) {
-  Reference reference;
-  const std::vector<const toml::table*> tables = root.tables("reference");
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    const std::string name = tables.size() == 1 ? "reference" : fmt::format("reference[{}]", k);
-    TableReader table(tables[k], name, root.axis(), root.faults(), root.where());
-    const auto kind = table.choice("kind", kinds_of<ReferenceTerm>(), Presence::required);
-    if (!kind) continue;
-    ReferenceTerm term = make_kind<ReferenceTerm>(*kind);
-    std::visit([&](auto& parameters) { read_term(table, parameters, folder); }, term);
-    if (const auto* steps = std::get_if<RandomStepsReference>(&term)) require_whole(table, "seed", steps->seed);
-    if (const auto* sines = std::get_if<MultisineReference>(&term)) require_whole(table, "count", sines->count);
-    table.finish();
-    reference.terms.push_back(std::move(term));
-  }
-  return reference;
+  return read_terms<Reference>(root.tables("reference"), "reference", root, kinds_of<ReferenceTerm>(),
+                               [&](TableReader& table, auto& parameters) { read_term(table, parameters, folder); });
 }
 
 }  // namespace wormdrive

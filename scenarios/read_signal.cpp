@@ -1,9 +1,7 @@
 #include "scenarios/read_signal.hpp"
 
-#include <fmt/format.h>
-
 #include "scenarios/read_pairs.hpp"
-#include "scenarios/variant_kinds.hpp"
+#include "scenarios/read_terms.hpp"
 
 namespace wormdrive {
 namespace {
@@ -27,25 +25,12 @@ Signal read_signal(const std::vector<const toml::table*>& tables, const std::str
                    const std::string& folder, const std::vector<std::string>& other_kinds) {
   std::vector<std::string> kinds = kinds_of<SignalTerm>();
   kinds.insert(kinds.end(), other_kinds.begin(), other_kinds.end());
-  Signal signal;
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    const std::string name = tables.size() == 1 ? path : fmt::format("{}[{}]", path, k);
-    TableReader table(tables[k], name, parent.axis(), parent.faults(), parent.where());
-    const auto kind = table.choice("kind", kinds, Presence::required);
-    if (!kind) continue;
-    SignalTerm term = make_kind<SignalTerm>(*kind);
-    std::visit(
-        [&](auto& parameters) {
-          if constexpr (requires { parameters.times; })
-            parameters = read_samples(table, path == "load" ? "load_torque" : "motor_torque", folder);
-          else
-            table.read_fields(parameters);
-        },
-        term);
-    table.finish();
-    signal.terms.push_back(term);
-  }
-  return signal;
+  return read_terms<Signal>(tables, path, parent, kinds, [&](TableReader& table, auto& parameters) {
+    if constexpr (requires { parameters.times; })
+      parameters = read_samples(table, path == "load" ? "load_torque" : "motor_torque", folder);
+    else
+      table.read_fields(parameters);
+  });
 }
 
 }  // namespace wormdrive

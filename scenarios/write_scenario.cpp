@@ -64,54 +64,42 @@ class Writer {
   std::string text_;
 };
 
-void write_term(Writer& out, const Samples& samples) {
+void write_parameters(Writer& out, const Samples& samples) {
   out.text("interpolation", samples.interpolation == Interpolation::linear ? "linear" : "hold");
   out.values("times", unit::second, samples.times);
   out.values("torques", unit::newton_metre, samples.values);
 }
-template <class Term>
-void write_term(Writer& out, const Term& term) {
-  out.fields(term);
+void write_parameters(Writer& out, const AngleTable& load) {
+  out.values("angles", unit::radian, load.angles);
+  out.values("torques", unit::newton_metre, load.torques);
+}
+void write_parameters(Writer& out, const TableReference& reference) {
+  out.values("times", unit::second, reference.table.points());
+  out.values("angles", unit::radian, reference.table.values());
+}
+template <class Parameters>
+void write_parameters(Writer& out, const Parameters& parameters) {
+  out.fields(parameters);
 }
 
-void write_signal(Writer& out, const std::string& path, const Signal& signal) {
-  for (const SignalTerm& term : signal.terms)
-    std::visit(
-        [&](const auto& t) {
-          out.table(fmt::format("[[{}]]", path));
-          out.text("kind", std::string(t.kind));
-          write_term(out, t);
-        },
-        term);
+template <class Kind>
+void write_kind(Writer& out, const std::string& header, const Kind& kind) {
+  out.table(header);
+  out.text("kind", std::string(Kind::kind));
+  write_parameters(out, kind);
 }
 
-void write_load(Writer& out, const Signal& signal) { write_signal(out, "load", signal); }
+/// Every term of a sum as a table of its own.
+template <class Sum>
+void write_terms(Writer& out, const std::string& path, const Sum& sum) {
+  for (const auto& term : sum.terms)
+    std::visit([&](const auto& t) { write_kind(out, fmt::format("[[{}]]", path), t); }, term);
+}
+
+void write_load(Writer& out, const Signal& signal) { write_terms(out, "load", signal); }
 template <class Load>
 void write_load(Writer& out, const Load& load) {
-  out.table("[load]");
-  out.text("kind", std::string(Load::kind));
-  if constexpr (requires { Load::fields(); }) {
-    out.fields(load);
-  } else {
-    out.values("angles", unit::radian, load.angles);
-    out.values("torques", unit::newton_metre, load.torques);
-  }
-}
-
-void write_reference(Writer& out, const Reference& reference) {
-  for (const ReferenceTerm& term : reference.terms)
-    std::visit(
-        [&](const auto& t) {
-          out.table("[[reference]]");
-          out.text("kind", std::string(t.kind));
-          if constexpr (requires { t.fields(); }) {
-            out.fields(t);
-          } else {
-            out.values("times", unit::second, t.table.points());
-            out.values("angles", unit::radian, t.table.values());
-          }
-        },
-        term);
+  write_kind(out, "[load]", load);
 }
 
 void write_control(Writer& out, const ControlScenario& control) {
@@ -123,14 +111,14 @@ void write_control(Writer& out, const ControlScenario& control) {
         if constexpr (requires { law.fields(); })
           out.fields(law);
         else
-          write_signal(out, "controller.torque", law.torque);
+          write_terms(out, "controller.torque", law.torque);
       },
       control.law);
   out.table("[controller.nominal]");
   out.fields(control.nominal);
   out.table("[controller.variation]");
   out.fields(control.variations);
-  write_reference(out, control.reference);
+  write_terms(out, "reference", control.reference);
   out.table("[sensor]");
   out.text("speed", control.sensor.exact_speed ? "exact" : "difference");
   out.fields(control.sensor);
@@ -150,7 +138,7 @@ std::string to_toml(const Scenario& scenario) {
   out.text("kind", worm ? "worm" : "none");
   if (!worm) out.text("axis", scenario.axis == Axis::linear ? "linear" : "rotary");
   std::visit([&](const auto& parameters) { out.fields(parameters); }, scenario.mesh);
-  write_signal(out, "motor.torque", scenario.motor);
+  write_terms(out, "motor.torque", scenario.motor);
   std::visit([&](const auto& load) { write_load(out, load); }, scenario.load);
   scenario.effects.for_each([&](const auto& effect) {
     if (!effect) return;

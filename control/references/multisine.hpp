@@ -5,7 +5,6 @@
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
-#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -32,8 +31,7 @@ struct MultisineReference {
     for (int k = 0; k < n; ++k) {
       const double share = n > 1 ? static_cast<double>(k) / (n - 1) : 0.0;
       const double omega = 2.0 * std::numbers::pi * (lowest_frequency + share * (highest_frequency - lowest_frequency));
-      const SineAndCosine now = sine_and_cosine(omega * t - std::numbers::pi * k * (k - 1) / n);
-      sum += {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
+      sum += sine_point(amplitude, omega * t - std::numbers::pi * k * (k - 1) / n, omega);
     }
     return sum;
   }

@@ -5,7 +5,6 @@
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
-#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -24,9 +23,8 @@ struct SinusoidReference {
                       Field{&P::phase, "phase", unit::degrees, bounds::any, "phase at t = 0", Presence::optional}};
   }
   ReferencePoint at(double t) const {
-    const double omega = 2.0 * std::numbers::pi * frequency, x = omega * t + phase;
-    const SineAndCosine now = sine_and_cosine(x);
-    return {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
+    const double omega = 2.0 * std::numbers::pi * frequency;
+    return sine_point(amplitude, omega * t + phase, omega);
   }
 };
 
