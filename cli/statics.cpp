@@ -21,15 +21,15 @@ struct StaticsMap {
   std::vector<double> load, low, high, surface;
 };
 
-StaticsMap make_map(const GearMesh<double>& mesh, double max_load, int points) {
+/// The mesh as it starts forward, and as it starts backward: friction may differ.
+StaticsMap make_map(const GearMesh<double>& forward, const GearMesh<double>& backward, double max_load, int points) {
   StaticsMap map;
   for (int k = 0; k < points; ++k) {
     const double tau_l = max_load * (2.0 * k - (points - 1)) / (points - 1);
-    const StickRegion region = stick_region(mesh, tau_l);
     map.load.push_back(tau_l);
-    map.low.push_back(region.low);
-    map.high.push_back(region.high);
-    map.surface.push_back(mesh.H() * tau_l);
+    map.low.push_back(stick_region(backward, tau_l).low);
+    map.high.push_back(stick_region(forward, tau_l).high);
+    map.surface.push_back(forward.H() * tau_l);
   }
   return map;
 }
@@ -80,7 +80,8 @@ int statics_command(const StaticsOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) refuse({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");
-  const StaticsMap map = make_map(mesh, options.max_load.value_or(sensible_load(scenario)), options.points);
+  const StaticsMap map = make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
+                                  options.max_load.value_or(sensible_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
   if (!options.output.empty()) write(options.output, scenario, map, options.scenario);
   if (options.scenario.json) {

@@ -30,7 +30,7 @@ struct Comparison {
 double torque_at(const Scenario& scenario, double omega_w) {
   return with_drive(scenario, [&](auto& drive) {
     drive.enter(0.0);
-    return steady_torque(drive.mesh(), drive.effects(), drive.load(), omega_w, scenario.initial.theta_g, 0.0);
+    return steady_torque(drive, omega_w, scenario.initial.theta_g, 0.0);
   });
 }
 

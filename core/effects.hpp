@@ -3,22 +3,48 @@
 #include <optional>
 #include <tuple>
 
+#include "core/effects/bearing_asymmetry.hpp"
+#include "core/effects/cogging.hpp"
 #include "core/effects/encoder_offset.hpp"
+#include "core/effects/encoder_scale.hpp"
+#include "core/effects/friction_asymmetry.hpp"
+#include "core/effects/friction_drift.hpp"
 #include "core/effects/gear_coulomb.hpp"
+#include "core/effects/gear_inertia.hpp"
 #include "core/effects/gear_viscous.hpp"
+#include "core/effects/load_angle.hpp"
+#include "core/effects/load_magnitude.hpp"
+#include "core/effects/load_spring.hpp"
+#include "core/effects/mesh_friction.hpp"
+#include "core/effects/position_friction.hpp"
+#include "core/effects/stribeck.hpp"
+#include "core/effects/torque_gain.hpp"
+#include "core/effects/torque_offset.hpp"
 #include "core/effects/torque_saturation.hpp"
 #include "core/effects/worm_coulomb.hpp"
+#include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_viscous.hpp"
 
 namespace wormdrive {
 
+/// A tuple of effects that may each be absent.
+template <template <class> class... Effect>
+struct Optional {
+  template <class T>
+  using Tuple = std::tuple<std::optional<Effect<T>>...>;
+};
+
 /// Every effect that can extend the nominal drive, off unless stated; a new one is a new file and one entry here.
+/// Effects at one place act in this order, each on what the one before it left.
 ///
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
-using EffectList = std::tuple<std::optional<TorqueSaturation<T>>, std::optional<WormCoulomb<T>>,
-                              std::optional<WormViscous<T>>, std::optional<GearCoulomb<T>>,
-                              std::optional<GearViscous<T>>, std::optional<EncoderOffset<T>>>;
+using EffectList = Optional<TorqueSaturation, TorqueGain, TorqueOffset, Cogging,                         // actuator
+                            WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                     // worm shaft
+                            MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift,  // mesh
+                            GearCoulomb, GearViscous, GearInertia,                                       // gear shaft
+                            LoadMagnitude, LoadAngle, LoadSpring,                                        // load
+                            EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
 
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
@@ -35,46 +61,90 @@ struct Effects {
     std::apply([&](const auto&... effect) { (visit(effect), ...); }, list);
   }
 
-  /// Largest magnitude of the motor torque [N m], infinity without a limit.
+  /// Largest magnitude of the motor's command [N m], infinity without a limit.
   T torque_limit() const {
-    T limit(std::numeric_limits<double>::infinity());
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->torque_limit(); })
-        if (effect && effect->torque_limit() < limit) limit = effect->torque_limit();
-    });
-    return limit;
+    return through(T(std::numeric_limits<double>::infinity()),
+                   [](const auto& e, const T& limit) -> decltype(e.torque_limit()) {
+                     return e.torque_limit() < limit ? e.torque_limit() : limit;
+                   });
   }
-
-  /// The gear angle as the sensor sees it [rad].
+  /// Torque that the motor gives for a command [N m].
   template <class S>
-  S measured_angle(S theta_g) const {
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->measured_angle(theta_g); })
-        if (effect) theta_g = effect->measured_angle(theta_g);
+  S motor_torque(const S& command, const Moment<S>& at) const {
+    return through(command, [&](const auto& e, const S& torque) -> decltype(e.motor_torque(torque, at)) {
+      return e.motor_torque(torque, at);
     });
-    return theta_g;
   }
-
   /// Torque that the effects add on the worm shaft [N m].
   template <class S>
   S worm_torque(const Moment<S>& at, Motion motion) const {
-    S sum(0.0);
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->worm_torque(at, motion); })
-        if (effect) sum += effect->worm_torque(at, motion);
+    return through(S(0.0), [&](const auto& e, const S& sum) -> decltype(sum + e.worm_torque(at, motion)) {
+      return sum + e.worm_torque(at, motion);
     });
-    return sum;
   }
-
+  /// Inertia that the effects add on the worm shaft [kg m^2].
+  T worm_inertia() const {
+    return through(
+        T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.worm_inertia()) { return sum + e.worm_inertia(); });
+  }
+  /// Coefficient of friction between the teeth out of the mesh's own.
+  template <class S>
+  S friction(const S& mesh, const Contact<S>& at) const {
+    return through(mesh,
+                   [&](const auto& e, const S& mu) -> decltype(e.friction(mu, at)) { return e.friction(mu, at); });
+  }
+  /// What friction may come to until a time [s], out of what it is without effects.
+  FrictionRange friction_range(const FrictionRange& mesh, double end) const {
+    return through(mesh, [&](const auto& e, const FrictionRange& mu) -> decltype(e.friction_range(mu, end)) {
+      return e.friction_range(mu, end);
+    });
+  }
+  /// Whether an effect makes the friction between the teeth another one.
+  bool change_friction() const {
+    bool any = false;
+    for_each([&]<class E>(const std::optional<E>& effect) { any = any || (effect && E::place == Place::mesh); });
+    return any;
+  }
   /// Torque that the effects add on the gear shaft [N m].
   template <class S>
   S gear_torque(const Moment<S>& at, Motion motion) const {
-    S sum(0.0);
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->gear_torque(at, motion); })
-        if (effect) sum += effect->gear_torque(at, motion);
+    return through(S(0.0), [&](const auto& e, const S& sum) -> decltype(sum + e.gear_torque(at, motion)) {
+      return sum + e.gear_torque(at, motion);
     });
-    return sum;
+  }
+  /// Inertia that the effects add on the gear shaft [kg m^2].
+  T gear_inertia() const {
+    return through(
+        T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.gear_inertia()) { return sum + e.gear_inertia(); });
+  }
+  /// Torque of a load with what the effects make of it [N m].
+  template <class Load, class S>
+  S load_torque(const Load& load, const Moment<S>& at) const {
+    Moment<S> seen = at;
+    seen.theta_g = through(at.theta_g, [](const auto& e, const S& theta_g) -> decltype(e.loading_angle(theta_g)) {
+      return e.loading_angle(theta_g);
+    });
+    return through(load.torque(seen), [&](const auto& e, const S& torque) -> decltype(e.load_torque(torque, at)) {
+      return e.load_torque(torque, at);
+    });
+  }
+  /// The gear angle as the sensor sees it [rad].
+  template <class S>
+  S measured_angle(const S& theta_g) const {
+    return through(theta_g, [](const auto& e, const S& angle) -> decltype(e.measured_angle(angle)) {
+      return e.measured_angle(angle);
+    });
+  }
+
+ private:
+  /// The value after every effect that is on and has the hook has changed it in turn.
+  template <class Value, class Hook>
+  Value through(Value value, Hook hook) const {
+    for_each([&](const auto& effect) {
+      if constexpr (requires { hook(*effect, value); })
+        if (effect) value = hook(*effect, value);
+    });
+    return value;
   }
 };
 

@@ -17,10 +17,11 @@ Power power(const WormDrive<double, Load>& drive, const typename WormDrive<doubl
   const Moment<double> at = drive.moment(now);
   const Observation o = drive.observe(now);
   const Motion motion = now.mode.motion;
-  const double bearings = -drive.effects().worm_torque(at, motion) * at.omega_w -
-                          drive.effects().gear_torque(at, motion) * at.omega_g;
-  const double mesh =
-      drive.mesh().has_teeth ? drive.mesh().mu * o.normal_force * std::abs(drive.mesh().sliding_speed(at.omega_w)) : 0.0;
+  const double bearings =
+      -drive.effects().worm_torque(at, motion) * at.omega_w - drive.effects().gear_torque(at, motion) * at.omega_g;
+  const double mesh = drive.mesh().has_teeth ? drive.friction(at, motion) * o.normal_force *
+                                                   std::abs(drive.mesh().sliding_speed(at.omega_w))
+                                             : 0.0;
   return {o.tau_m * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
 }
 

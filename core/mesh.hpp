@@ -11,14 +11,14 @@ namespace wormdrive {
 /// Geometry, friction and inertias of a worm gear, as stated in a data sheet.
 template <class T>
 struct MeshParameters {
-  T i{};                      ///< transmission ratio theta_w / theta_g
-  T lambda{};                 ///< lead angle of the worm [rad]
-  T phi_n{};                  ///< normal pressure angle [rad]
-  T lw{};                     ///< pitch radius of the worm [m]
-  T lg{};                     ///< pitch radius of the gear [m]
-  T mu{};                     ///< coefficient of friction of the mesh
-  T Jw{};                     ///< inertia of the worm side [kg m^2]
-  T Jg{};                     ///< inertia of the gear side without the load [kg m^2]
+  T i{};       ///< transmission ratio theta_w / theta_g
+  T lambda{};  ///< lead angle of the worm [rad]
+  T phi_n{};   ///< normal pressure angle [rad]
+  T lw{};      ///< pitch radius of the worm [m]
+  T lg{};      ///< pitch radius of the gear [m]
+  T mu{};      ///< coefficient of friction of the mesh
+  T Jw{};      ///< inertia of the worm side [kg m^2]
+  T Jg{};      ///< inertia of the gear side without the load [kg m^2]
 
   static constexpr auto fields() {
     using P = MeshParameters;
@@ -97,12 +97,12 @@ class GearMesh {
   }
 
   /// Wn [N] >= 0 between the torques of both sides [N m]: from the balance of the gear with its inertial torque Jg
-  /// theta_g'' while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
-  T normal_force(const T& tau_w, const T& tau_g, const T& inertial, Mode mode) const {
+  /// theta_g'' and the signed friction m while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
+  T normal_force(const T& tau_w, const T& tau_g, const T& inertial, Mode mode, const T& m) const {
     using std::abs, std::cos;
     if (!has_teeth) return T(0);
     if (mode.motion == Motion::stuck) return abs(tau_g / lg * cos_lambda_ - tau_w / lw * sin_lambda_) / cos(phi_n);
-    return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(T(mode.product()) * mu);
+    return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(m);
   }
 
   /// Slope of the static surface tau_m = H tau_l, (lw/lg) cot lambda [YehWu2009, eq. 9].

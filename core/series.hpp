@@ -90,6 +90,18 @@ Series<T, N> cos(const Series<T, N>& x) {
   return SineCosine<T, N>(x).cosine;
 }
 
+/// From r' = x' r.
+template <class T, int N>
+Series<T, N> exp(const Series<T, N>& x) {
+  using std::exp;
+  Series<T, N> r(exp(x[0]));
+  for (int k = 1; k <= N; ++k) {
+    for (int j = 1; j <= k; ++j) r[k] += T(j) * x[j] * r[k - j];
+    r[k] = r[k] / T(k);
+  }
+  return r;
+}
+
 /// Sign of the series just after the present moment: that of the first coefficient that matters for longer than
 /// `instant` seconds; 0 if none does.
 template <class T, int N>

@@ -3,16 +3,21 @@
 
 namespace wormdrive {
 
-/// Motor torque tau_m [N m] that keeps a drive at constant speed: theta_g'' = 0 in [YehWu2009, eq. 18-19].
-/// The flank follows from the load, for on the switching surface theta_g'' = tau_g/Jg. omega_w [rad/s] is not 0.
+/// Command to the motor [N m] that keeps a drive at constant speed: theta_g'' = 0 in [YehWu2009, eq. 18-19]. Without
+/// effects of the actuator it is the motor torque tau_m. The drive has entered t [s]; omega_w [rad/s] is not 0.
+/// The flank follows from the load, for on the switching surface theta_g'' = tau_g/Jg.
 template <class Load>
-double steady_torque(const GearMesh<double>& mesh, const Effects<double>& effects, const Load& load, double omega_w,
-                     double theta_g, double t) {
-  const Moment<double> at{t, theta_g, omega_w / mesh.i, omega_w};
+double steady_torque(const WormDrive<double, Load>& drive, double omega_w, double theta_g, double t) {
+  Moment<double> at = drive.moment(t, theta_g, omega_w / drive.mesh().i);
+  at.omega_w = omega_w;
   const Motion motion = omega_w > 0.0 ? Motion::forward : Motion::backward;
-  const double tau_g = load.torque(at) + effects.gear_torque(at, motion);
+  const double tau_g = drive.side_torques(at, motion).gear;
   const Flank flank = tau_g >= 0.0 ? Flank::left : Flank::right;
-  return -mesh.C(Mode{motion, flank}.product() * mesh.mu) * tau_g - effects.worm_torque(at, motion);
+  const double C = drive.mesh().C(Mode{motion, flank}.product() * drive.friction(at, motion));
+  const double tau_m = -C * tau_g - drive.effects().worm_torque(at, motion);
+  // what the motor gives is offset + gain command
+  const double offset = drive.effects().motor_torque(0.0, at), gain = drive.effects().motor_torque(1.0, at) - offset;
+  return (tau_m - offset) / gain;
 }
 
 }  // namespace wormdrive

@@ -18,6 +18,7 @@ inline constexpr Unit none{"", "1"};
 inline constexpr Unit second{"s", "s"};
 inline constexpr Unit hertz{"Hz", "Hz"};
 inline constexpr Unit metre{"m", "m"};
+inline constexpr Unit metre_per_second{"m_per_s", "m/s"};
 inline constexpr Unit kilogram{"kg", "kg"};
 inline constexpr Unit newton{"N", "N"};
 inline constexpr Unit radian{"rad", "rad"};
@@ -26,6 +27,7 @@ inline constexpr Unit radian_per_second{"rad_per_s", "rad/s"};
 inline constexpr Unit radian_per_second_squared{"rad_per_s2", "rad/s^2"};
 inline constexpr Unit newton_metre{"Nm", "N m"};
 inline constexpr Unit newton_metre_per_second{"Nm_per_s", "N m/s"};
+inline constexpr Unit newton_metre_per_radian{"Nm_per_rad", "N m/rad"};
 inline constexpr Unit newton_metre_second_per_radian{"Nms_per_rad", "N m s/rad"};
 inline constexpr Unit kilogram_square_metre{"kgm2", "kg m^2"};
 }  // namespace unit

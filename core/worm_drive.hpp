@@ -1,21 +1,19 @@
 #pragma once
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
+#include <Eigen/Core>
 #include <ceres/jet.h>
 
 #include "core/effects.hpp"
-#include "core/limited_piece.hpp"
 #include "core/mesh.hpp"
 #include "core/moment.hpp"
+#include "core/motor_input.hpp"
 #include "core/observation.hpp"
 #include "core/series.hpp"
-#include "core/signal.hpp"
 
 namespace wormdrive {
 
@@ -32,7 +30,7 @@ class WormDrive {
   using Mode = wormdrive::Mode;
 
   static constexpr int guard_count = 2;
-  static constexpr int speed_guard = 0, flank_guard = 1;      ///< while moving
+  static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
   static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
 
   /// Time [s], state and mode: all that changes while a drive runs.
@@ -43,12 +41,18 @@ class WormDrive {
   };
 
   WormDrive(GearMesh<T> mesh, Load load, Effects<T> effects, Signal motor)
-      : mesh_(std::move(mesh)), load_(std::move(load)), effects_(std::move(effects)), motor_(std::move(motor)) {
+      : mesh_(std::move(mesh)),
+        load_(std::move(load)),
+        effects_(std::move(effects)),
+        motor_(std::move(motor), effects_.torque_limit()) {
+    mesh_.Jw = mesh_.Jw + effects_.worm_inertia();
+    mesh_.Jg = mesh_.Jg + effects_.gear_inertia();
     Jw_i_ = mesh_.Jw * mesh_.i;
     Jg_ = mesh_.Jg + load_.inertia();
-    torque_limit_ = effects_.torque_limit();
+    friction_changes_ = effects_.change_friction();
   }
 
+  /// The mesh with the inertias that effects add; its friction is that without effects.
   const GearMesh<T>& mesh() const { return mesh_; }
   const Load& load() const { return load_; }
   const Effects<T>& effects() const { return effects_; }
@@ -61,36 +65,23 @@ class WormDrive {
 
   /// Freezes the inputs to the pieces that hold from t on.
   void enter(double t) {
-    motor_piece_ = motor_.piece(t);
-    signal_constant_ = motor_piece_.constant;
+    motor_.enter(t);
     load_.enter(t);
-    command(t, command_);
   }
   /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.
-  void command(double t, double tau_m) {
-    command_ = tau_m;
-    if (std::isinf(torque_limit_)) {
-      motor_piece_.constant = signal_constant_ + tau_m;
-      return;
-    }
-    Piece unlimited = motor_.piece(t);
-    unlimited.constant += tau_m;
-    LimitedPiece cut = limited(unlimited, torque_limit_, t);
-    motor_piece_ = std::move(cut.piece);
-    limit_knot_ = cut.until;
-  }
-  /// The smooth piece of the motor torque that holds now [N m].
-  const Piece& motor_piece() const { return motor_piece_; }
+  void command(double t, double tau_m) { motor_.command(t, tau_m); }
+  /// The smooth piece of the motor's command that holds now [N m].
+  const Piece& motor_piece() const { return motor_.piece(); }
   /// First time after t at which an input jumps or bends.
-  double next_knot(double t) const { return std::min({motor_.next_knot(t), load_.next_knot(t), limit_knot_}); }
+  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
   /// Highest angular frequency of the present inputs [rad/s].
-  double fastest_input() const { return std::max(motor_piece_.fastest(), load_.fastest()); }
+  double fastest_input() const { return std::max(motor_piece().fastest(), load_.fastest()); }
 
   // ---- continuous motion --------------------------------------------------------------------------------------
 
   template <class S>
   Moment<S> moment(const S& t, const S& theta_g, const S& omega_g) const {
-    return {t, theta_g, omega_g, mesh_.i * omega_g};
+    return {t, theta_g, omega_g, mesh_.i * omega_g, mesh_.i * theta_g};
   }
   Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1]); }
   /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
@@ -103,6 +94,12 @@ class WormDrive {
     return side_torques(inputs(at), at, motion);
   }
 
+  /// Coefficient of friction between the teeth while the drive moves, or starts to move, in a direction.
+  template <class S>
+  S friction(const Moment<S>& at, Motion motion) const {
+    return effects_.friction(S(mesh_.mu), Contact<S>{at, motion, mesh_.sliding_speed(at.omega_w)});
+  }
+
   /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
   template <class S>
   S beyond_surface(const Moment<S>& at, Motion motion) const {
@@ -113,7 +110,7 @@ class WormDrive {
   /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
   template <class S>
   S acceleration(const Moment<S>& at, Mode mode) const {
-    return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), mode);
+    return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), at, mode);
   }
 
   State derivative(double t, const State& x, Mode mode) const {
@@ -121,9 +118,7 @@ class WormDrive {
   }
 
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
-  Jacobian jacobian(double t, const State& x, Mode mode) const
-    requires std::same_as<T, double>
-  {
+  Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
     using Jet = ceres::Jet<double, 2>;
     const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
     if (mode.motion == Motion::stuck) return Jacobian::Zero();
@@ -143,6 +138,7 @@ class WormDrive {
       at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
       at.omega_g[k + 1] = a[k] / T(k + 1);
       at.omega_w = mesh_.i * at.omega_g;
+      at.theta_w = mesh_.i * at.theta_g;
     }
     return at;
   }
@@ -203,33 +199,38 @@ class WormDrive {
 
   // ---- what is reported ---------------------------------------------------------------------------------------
 
-  Observation observe(const Instant& now) const
-    requires std::same_as<T, double>
-  {
+  Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const Moment<double> at = moment(now);
     const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
-    const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, now.mode);
-    return {.theta_g = now.x[0],
-            .omega_g = now.x[1],
-            .alpha_g = alpha,
-            .tau_m = input.worm,
-            .tau_l = input.gear,
-            .normal_force = mesh_.normal_force(tau.worm, tau.gear, Jg_ * alpha, now.mode),
-            .mode = now.mode};
+    const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
+    return {
+        .theta_g = now.x[0],
+        .omega_g = now.x[1],
+        .alpha_g = alpha,
+        .tau_m = input.worm,
+        .tau_l = input.gear,
+        .normal_force = mesh_.normal_force(tau.worm, tau.gear, Jg_ * alpha, now.mode, signed_friction(at, now.mode)),
+        .mode = now.mode};
   }
 
  private:
   template <class S>
   SideTorques<S> inputs(const Moment<S>& at) const {
-    return {motor_piece_(at.t), load_.torque(at)};
+    return {effects_.motor_torque(motor_piece()(at.t), at), effects_.load_torque(load_, at)};
   }
   template <class S>
   SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
     return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
   }
+  /// m = motion * flank * mu.
   template <class S>
-  S acceleration(const SideTorques<S>& tau, Mode mode) const {
-    const S C = mesh_.C(S(T(mode.product()) * mesh_.mu));
+  S signed_friction(const Moment<S>& at, Mode mode) const {
+    if (!friction_changes_) return S(T(mode.product()) * mesh_.mu);
+    return S(T(mode.product())) * friction(at, mode.motion);
+  }
+  template <class S>
+  S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
+    const S C = mesh_.C(signed_friction(at, mode));
     return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
   }
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
@@ -288,12 +289,9 @@ class WormDrive {
   GearMesh<T> mesh_;
   Load load_;
   Effects<T> effects_;
-  Signal motor_;
-  Piece motor_piece_{};
-  double signal_constant_ = 0.0, command_ = 0.0;
-  double torque_limit_ = std::numeric_limits<double>::infinity();  ///< [N m]
-  double limit_knot_ = std::numeric_limits<double>::infinity();    ///< when the limit begins or ends to cut [s]
+  MotorInput motor_;
   T Jw_i_{}, Jg_{};
+  bool friction_changes_ = false;  ///< else C is that of the mesh alone
 };
 
 }  // namespace wormdrive

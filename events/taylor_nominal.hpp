@@ -52,7 +52,7 @@ class NominalFlow<WormDrive<double, Load>> {
         worm_viscous = effect->coefficient * system.mesh().i;
       else if constexpr (std::is_same_v<E, GearViscous<double>>)
         gear_viscous = effect->coefficient;
-      else if constexpr (E::place != Place::actuator && E::place != Place::sensor)
+      else if constexpr (!contained<E>)
         covers_ = false;
     });
     const GearMesh<double>& mesh = system.mesh();
@@ -147,6 +147,11 @@ class NominalFlow<WormDrive<double, Load>> {
   }
 
  private:
+  /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch the motion.
+  template <class E>
+  static constexpr bool contained =
+      std::is_same_v<E, TorqueSaturation<double>> || std::is_same_v<E, WormInertia<double>> ||
+      std::is_same_v<E, GearInertia<double>> || E::place == Place::sensor;
   static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
   using Pair = double __attribute__((vector_size(16)));  // two sums in one register
 

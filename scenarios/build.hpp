@@ -6,15 +6,10 @@
 
 namespace wormdrive {
 
-/// The mesh of a scenario, with teeth or without.
-inline GearMesh<double> make_mesh(const Scenario& scenario) {
+/// The mesh as a scenario states it, with teeth or without; effects do not show in it.
+inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh)) return GearMesh<double>(*worm);
   return GearMesh<double>::without_teeth(std::get<SingleInertia>(scenario.mesh).J);
-}
-
-/// Inertia of the gear side with the load's own [kg m^2].
-inline double total_gear_inertia(const Scenario& scenario) {
-  return make_mesh(scenario).Jg + std::visit([](const auto& load) { return make_load(load).inertia(); }, scenario.load);
 }
 
 /// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on.
@@ -23,10 +18,25 @@ decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> drive(make_mesh(scenario), make_load(parameters), scenario.effects, scenario.motor);
+        WormDrive<double, Load> drive(stated_mesh(scenario), make_load(parameters), scenario.effects, scenario.motor);
         return use(drive);
       },
       scenario.load);
+}
+
+/// The mesh of a scenario with what its effects add to the inertias and, at the start and at rest, to the friction;
+/// with a direction, as the drive starts to move in it.
+inline GearMesh<double> make_mesh(const Scenario& scenario, Motion motion = Motion::stuck) {
+  return with_drive(scenario, [&](const auto& drive) {
+    GearMesh<double> mesh = drive.mesh();
+    if (mesh.has_teeth) mesh.mu = drive.friction(drive.moment(0.0, scenario.initial.theta_g, 0.0), motion);
+    return mesh;
+  });
+}
+
+/// Inertia of the gear side with the load's own and what effects add [kg m^2].
+inline double total_gear_inertia(const Scenario& scenario) {
+  return with_drive(scenario, [](const auto& drive) { return drive.Jg(); });
 }
 
 }  // namespace wormdrive

@@ -24,6 +24,7 @@ Spelling linear(std::string_view name, const Unit& unit) {
   if (unit.suffix == "rad_per_s") return {stem, {"m_per_s", "m/s"}};
   if (unit.suffix == "kgm2") return {stem, {"kg", "kg"}};
   if (unit.suffix == "Nm_per_s") return {stem, {"N_per_s", "N/s"}};
+  if (unit.suffix == "Nm_per_rad") return {stem, {"N_per_m", "N/m"}};
   if (unit.suffix == "Nms_per_rad") return {stem, {"Ns_per_m", "N s/m"}};
   return {stem, unit};
 }

@@ -1,6 +1,8 @@
 #include "scenarios/load_scenario.hpp"
 
+#include <cmath>
 #include <filesystem>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include "scenarios/document.hpp"
 #include "scenarios/read_control.hpp"
 #include "scenarios/read_load.hpp"
+#include "scenarios/read_reference.hpp"
 #include "scenarios/read_signal.hpp"
 #include "scenarios/table_reader.hpp"
 
@@ -26,7 +29,7 @@ class ScenarioReader {
     read_mesh();
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());
-    read_effects();
+    read_effects(purpose);
     root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
     read_control(root_, scenario_, folder());
@@ -72,7 +75,7 @@ class ScenarioReader {
     return signal;
   }
 
-  void read_effects() {
+  void read_effects(Purpose purpose) {
     root_.section("effect", [&](TableReader& effects) {
       scenario_.effects.for_each([&](auto& effect) {
         using Effect = typename std::decay_t<decltype(effect)>::value_type;
@@ -82,10 +85,36 @@ class ScenarioReader {
         const bool on = reader.truth("on").value_or(true);
         Effect parameters;
         reader.read_fields(parameters);
+        if constexpr (requires { parameters.exponent; }) require_whole(reader, "exponent", parameters.exponent);
         reader.finish();
-        if (on) effect = parameters;
+        if (!on) return;
+        effect = parameters;
+        if (purpose == Purpose::look || !faults_.empty()) return;
+        if (const std::string why_not = refusal(parameters); !why_not.empty())
+          effects.fault(std::string(Effect::id), fmt::format("effect.{} {}", Effect::id, why_not));
       });
     });
+  }
+
+  /// What the bounds of an effect's fields cannot say; empty if nothing speaks against it.
+  template <class Effect>
+  std::string refusal(const Effect& effect) const {
+    const GearMesh<double> mesh = stated_mesh(scenario_);
+    if (Effect::place == Place::mesh && !mesh.has_teeth) return "needs teeth that rub, and mesh.kind is \"none\"";
+    if constexpr (std::is_same_v<Effect, WormInertia<double>>)
+      if (mesh.has_teeth ? mesh.Jw + effect.inertia <= 0.0 : effect.inertia < 0.0)
+        return fmt::format("leaves no inertia on the worm side: {} + {} kg m^2", mesh.Jw, effect.inertia);
+    if constexpr (std::is_same_v<Effect, GearInertia<double>>)
+      if (mesh.Jg + effect.inertia <= 0.0)
+        return fmt::format("leaves no inertia on the gear side: {} + {} kg m^2", mesh.Jg, effect.inertia);
+    if constexpr (std::is_same_v<Effect, BearingAsymmetry<double>>) {
+      const auto& dry = std::get<std::optional<WormCoulomb<double>>>(scenario_.effects.list);
+      const auto& viscous = std::get<std::optional<WormViscous<double>>>(scenario_.effects.list);
+      if (std::abs(effect.torque) > (dry ? dry->torque : 0.0) ||
+          std::abs(effect.coefficient) > (viscous ? viscous->coefficient : 0.0))
+        return "is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm";
+    }
+    return "";
   }
 
   void read_run(Purpose purpose) {
@@ -112,22 +141,32 @@ class ScenarioReader {
   void refuse_what_does_not_move() {
     const auto* const parameters = std::get_if<MeshParameters<double>>(&scenario_.mesh);
     if (!parameters || !faults_.empty()) return;
-    const GearMesh<double> mesh(*parameters);
+    GearMesh<double> mesh = make_mesh(scenario_);
+    const double stated = parameters->mu;
+    const FrictionRange range = scenario_.effects.friction_range({stated, stated}, scenario_.run.duration);
+    if (range.low < 0.0) {
+      faults_.add(friction_at_, fmt::format("mesh.friction = {} may fall to {:.6g} with its effects; friction must be "
+                                            "at least 0",
+                                            stated, range.low));
+      return;
+    }
+    mesh.mu = range.high;
+    std::string friction = fmt::format("mesh.friction = {}", stated);
+    if (mesh.mu != stated) friction += fmt::format(", which may rise to {:.6g} with its effects,", mesh.mu);
     if (mesh.mu >= mesh.mu_g()) {
-      faults_.add(friction_at_,
-                  fmt::format("mesh.friction = {} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would "
-                              "lock itself",
-                              mesh.mu, mesh.mu_g()));
+      faults_.add(friction_at_, fmt::format("{} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would "
+                                            "lock itself",
+                                            friction, mesh.mu_g()));
       return;
     }
     const double Jg = total_gear_inertia(scenario_), surface = mesh.Jw * mesh.i / Jg;
     if (mesh.C1() <= -surface)
       faults_.add(
           friction_at_,
-          fmt::format("mesh.friction = {} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
+          fmt::format("{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
                       "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 "
                       "or lower the gear-side inertia below {:.6g} kg m^2",
-                      mesh.mu, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
+                      friction, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
   }
 
   std::string name_;

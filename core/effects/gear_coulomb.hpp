@@ -17,7 +17,8 @@ struct GearCoulomb {
   T torque{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&GearCoulomb::torque, "torque", unit::newton_metre, bounds::not_negative, "friction torque while the gear turns"}};
+    return std::tuple{Field{&GearCoulomb::torque, "torque", unit::newton_metre, bounds::not_negative,
+                            "friction torque while the gear turns"}};
   }
   /// Torque on the gear shaft [N m].
   template <class S>

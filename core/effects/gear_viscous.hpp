@@ -17,7 +17,8 @@ struct GearViscous {
   T coefficient{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&GearViscous::coefficient, "coefficient", unit::newton_metre_second_per_radian, bounds::not_negative, "friction torque per gear speed"}};
+    return std::tuple{Field{&GearViscous::coefficient, "coefficient", unit::newton_metre_second_per_radian,
+                            bounds::not_negative, "friction torque per gear speed"}};
   }
   /// Torque on the gear shaft [N m].
   template <class S>

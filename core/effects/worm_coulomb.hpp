@@ -17,7 +17,8 @@ struct WormCoulomb {
   T torque{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&WormCoulomb::torque, "torque", unit::newton_metre, bounds::not_negative, "friction torque while the worm turns"}};
+    return std::tuple{Field{&WormCoulomb::torque, "torque", unit::newton_metre, bounds::not_negative,
+                            "friction torque while the worm turns"}};
   }
   /// Torque on the worm shaft [N m].
   template <class S>

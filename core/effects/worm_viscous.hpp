@@ -17,7 +17,8 @@ struct WormViscous {
   T coefficient{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&WormViscous::coefficient, "coefficient", unit::newton_metre_second_per_radian, bounds::not_negative, "friction torque per worm speed"}};
+    return std::tuple{Field{&WormViscous::coefficient, "coefficient", unit::newton_metre_second_per_radian,
+                            bounds::not_negative, "friction torque per worm speed"}};
   }
   /// Torque on the worm shaft [N m].
   template <class S>

@@ -48,6 +48,17 @@ TEST_CASE("sine of a composed series: sin(s + s^2) begins s + s^2 - s^3/6 - s^4/
   REQUIRE(largest_difference(sin(x) * sin(x) + cos(x) * cos(x), Flow(1.0)) <= 1e-15);
 }
 
+TEST_CASE("the exponential of the variable is e^x0/k!, and that of a sum the product of the exponentials") {
+  const Flow e = exp(Flow::variable(0.7));
+  double factorial = 1.0;
+  for (int k = 0; k <= order; ++k) {
+    if (k > 0) factorial *= k;
+    REQUIRE(std::abs(e[k] - std::exp(0.7) / factorial) <= 1e-15);
+  }
+  const Flow a = with({0.3, -2.0, 0.7, 1.0, 1.0}), b = with({-0.5, 0.2, 0.0, 3.0});
+  REQUIRE(largest_difference(exp(a + b), exp(a) * exp(b)) <= 1e-14);
+}
+
 TEST_CASE("products truncate and quotients undo them") {
   REQUIRE(largest_difference(with({1.0, 1.0}) * with({1.0, 1.0}), with({1.0, 2.0, 1.0})) <= 0.0);
   REQUIRE(largest_difference(Flow(1.0) / with({1.0, -1.0}), with({1, 1, 1, 1, 1, 1, 1, 1, 1})) <= 0.0);

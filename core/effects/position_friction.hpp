@@ -1,0 +1,38 @@
+#pragma once
+#include <cmath>
+#include <string_view>
+#include <tuple>
+
+#include "core/sliding_contact.hpp"
+#include "core/field.hpp"
+#include "core/place.hpp"
+
+namespace wormdrive {
+
+/// Friction changes once per turn of the gear: mu (1 + amplitude sin(theta_g + phase)).
+template <class T>
+struct PositionFriction {
+  static constexpr std::string_view id = "position_friction";
+  static constexpr Place place = Place::mesh;
+  static constexpr std::string_view cause = "the gear runs out of true, or its teeth are worn over a part of the turn";
+  T amplitude{};
+  T phase{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&PositionFriction::amplitude, "amplitude", unit::none, bounds::between(-1, 1),
+                            "largest change as a share of the friction"},
+                      Field{&PositionFriction::phase, "phase", unit::degrees, bounds::any, "phase at gear angle zero"}};
+  }
+  /// Coefficient of friction out of that without this effect.
+  template <class S>
+  S friction(const S& mu, const Contact<S>& at) const {
+    using std::sin;
+    return mu + mu * (amplitude * sin(at.theta_g + phase));
+  }
+  FrictionRange friction_range(const FrictionRange& mu, double) const {
+    const double share = std::abs(amplitude);
+    return {mu.low * (1.0 - share), mu.high * (1.0 + share)};
+  }
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,49 @@
+// One malformed input per line:
+// clang-format off
+#include "cli/bad_input.hpp"
+
+// What the program says about effects that cannot be, alone or with the drive they act on.
+
+using namespace wormdrive::test;
+
+namespace {
+
+std::string with(const std::string& effect) { return good_scenario + effect; }
+
+}  // namespace
+
+TEST_CASE("an effect out of its bounds is told with the rule") {
+  refuse_all(Folder(), {
+      {"no Stribeck speed", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0\n"),
+       "s.toml:21:17: error: effect.stribeck.speed_m_per_s = 0 m/s must be greater than 0 m/s"},
+      {"half an exponent", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\nexponent = 1.5\n"),
+       "s.toml:22:12: error: effect.stribeck.exponent = 1.5 must be a whole number"},
+      {"a dead motor", with("[effect.torque_gain]\nshare = -1\n"),
+       "s.toml:20:9: error: effect.torque_gain.share = -1 must be greater than -1"},
+      {"too eccentric", with("[effect.position_friction]\namplitude = 1.1\nphase_deg = 0\n"),
+       "s.toml:20:13: error: effect.position_friction.amplitude = 1.1 must be at least -1 and at most 1"}});
+}
+
+TEST_CASE("an effect that contradicts the drive is told with what it would come to") {
+  refuse_all(Folder(), {
+      {"no teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n[run]\nduration_s = 1\n[effect.mesh_friction]\nchange = 0.1\n",
+       "s.toml:6:1: error: effect.mesh_friction needs teeth that rub, and mesh.kind is \"none\""},
+      {"no worm", with("[effect.worm_inertia]\ninertia_kgm2 = -2.53e-5\n"),
+       "s.toml:19:1: error: effect.worm_inertia leaves no inertia on the worm side: 2.53e-05 + -2.53e-05 kg m^2"},
+      {"no gear", with("[effect.gear_inertia]\ninertia_kgm2 = -1e-3\n"),
+       "s.toml:19:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.000739 + -0.001 kg m^2"},
+      {"a bearing that drives", with("[effect.bearing_asymmetry]\ntorque_Nm = 0.002\ncoefficient_Nms_per_rad = 0\n[effect.worm_coulomb]\ntorque_Nm = 0.001\n"),
+       "s.toml:19:1: error: effect.bearing_asymmetry is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm"}});
+}
+
+TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 is told with how far it goes") {
+  refuse_all(Folder(), {
+      {"below zero", with("[effect.stribeck]\ndrop = 0.3\nspeed_m_per_s = 0.1\n"),
+       "s.toml:8:12: error: mesh.friction = 0.25 may fall to -0.05 with its effects; friction must be at least 0"},
+      {"drifts to mu_g", with("[effect.friction_drift]\nshare = 60\ntime_s = 0.01\n"),
+       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself"},
+      {"eq. 17 by inertia", with("[effect.gear_inertia]\ninertia_kgm2 = 0.999261\n"),
+       "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.001518 with Jg = 1 kg m^2; *"},
+      {"eq. 17 by friction", edited(with("[effect.friction_asymmetry]\nchange = -0.1\n"), "7.39e-4", "0.03"),
+       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 0.35 with its effects, violates eq. 17, C1 > -Jw i/Jg: C1 = *"}});
+}
