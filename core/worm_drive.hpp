@@ -132,15 +132,14 @@ class WormDrive {
     Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]));
     at.theta_g[1] = now.x[1];
     at.omega_g[1] = acceleration(moment(now), now.mode);
-    at.omega_w = mesh_.i * at.omega_g;
-    for (int k = 1; k < N; ++k) {
+    for (int k = 1;; ++k) {
+      at.omega_w = mesh_.i * at.omega_g;
+      at.theta_w = mesh_.i * at.theta_g;
+      if (k == N) return at;
       const Flow a = acceleration(at, now.mode);
       at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
       at.omega_g[k + 1] = a[k] / T(k + 1);
-      at.omega_w = mesh_.i * at.omega_g;
-      at.theta_w = mesh_.i * at.theta_g;
     }
-    return at;
   }
 
   // ---- events -------------------------------------------------------------------------------------------------

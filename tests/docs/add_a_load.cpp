@@ -10,10 +10,6 @@
 
 namespace wormdrive {
 
-namespace unit {
-inline constexpr Unit newton_metre_per_radian{"Nm_per_rad", "N m/rad"};
-}
-
 /// A spiral spring between the gear shaft and the frame: tau_l = -stiffness (theta_g - rest_angle).
 struct SpiralSpring {
   static constexpr std::string_view kind = "spiral_spring";
