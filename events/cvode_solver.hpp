@@ -37,14 +37,14 @@ class CvodeSolver {
 
   /// The system must outlive the solver; its inputs and parameters may change between restarts.
   CvodeSolver(const System& system, const SolverSettings& settings)
-      : system_(system), y_(N_VNew_Serial(System::state_size, context_)) {
+      : system_(system), max_step_(settings.max_step), y_(N_VNew_Serial(System::state_size, context_)) {
     memory_.reset(CVodeCreate(settings.method == Method::bdf ? CV_BDF : CV_ADAMS, context_));
     if (!memory_ || !y_) throw std::bad_alloc();
     check(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
     check(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
     check(CVodeSetUserData(memory(), this));
     check(CVodeSetMaxNumSteps(memory(), max_steps));
-    check(CVodeSetMaxStep(memory(), std::isfinite(settings.max_step) ? settings.max_step : 0.0));
+    set_longest_step(max_step_);
     if (settings.method == Method::bdf) {
       matrix_.reset(SUNDenseMatrix(System::state_size, System::state_size, context_));
       linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
@@ -73,6 +73,8 @@ class CvodeSolver {
     finite_ = true;
     state() = now.x;
     check(CVodeReInit(memory(), now.t, y_.get()));
+    if constexpr (requires { system_.longest_step(now.mode); })
+      set_longest_step(std::min(max_step_, system_.longest_step(now.mode)));
     limit_ = std::numeric_limits<double>::quiet_NaN();
   }
 
@@ -174,6 +176,8 @@ class CvodeSolver {
     return state();
   }
 
+  void set_longest_step(double step) { check(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
+
   static std::string reason(int flag) {
     switch (flag) {
       case CV_TOO_MUCH_WORK: return "CVODE took 10 million steps without getting there";
@@ -201,6 +205,7 @@ class CvodeSolver {
   }
 
   const System& system_;
+  double max_step_;  ///< [s]
   sundials::Context context_;
   Owned<N_Vector> y_;
   Owned<SUNMatrix> matrix_;

@@ -28,7 +28,7 @@ std::optional<int> rest(const System& system, typename System::Instant& now, dou
 
 /// The mode after the inputs have changed; a solver may find it from what it needs anyway.
 template <class System, class Solver>
-Mode settle(const System& system, Solver& solver, const typename System::Instant& now) {
+typename System::Mode settle(const System& system, Solver& solver, const typename System::Instant& now) {
   if constexpr (requires { solver.settle(now); })
     return solver.settle(now);
   else

@@ -9,8 +9,12 @@ namespace wormdrive {
 template <class System, class Use>
 decltype(auto) with_solver(const System& system, const SolverSettings& settings, Use&& use) {
   if (settings.solver == SolverKind::taylor) {
-    TaylorSolver<System> solver(system, settings);
-    return use(solver);
+    if constexpr (System::state_size == 2) {
+      TaylorSolver<System> solver(system, settings);
+      return use(solver);
+    } else {
+      throw SolverFault("the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
+    }
   }
   CvodeSolver<System> solver(system, settings);
   return use(solver);

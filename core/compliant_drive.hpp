@@ -1,0 +1,298 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <Eigen/Core>
+#include <ceres/jet.h>
+
+#include "core/compliant_mode.hpp"
+#include "core/contact.hpp"
+#include "core/worm_drive.hpp"
+
+namespace wormdrive {
+
+/// Worm and gear as two inertias with elastic teeth and backlash, a hybrid system like the rigid drive, whose inputs,
+/// load and effects it takes over.
+///
+/// The flanks approach each other as the ratio i says, whether or not the radii and the lead angle give that ratio.
+template <class T, class Load>
+class CompliantDrive {
+ public:
+  static constexpr int state_size = 4;
+  using State = Eigen::Matrix<T, 4, 1>;     ///< theta_w, theta_w', theta_g, theta_g' [rad, rad/s]
+  using Jacobian = Eigen::Matrix<T, 4, 4>;  ///< of the derivative to the state
+  using Mode = CompliantMode;
+
+  static constexpr int guard_count = 6;
+  static constexpr int contact_guards = 0, worm_guards = 2, gear_guards = 4;  ///< two for each
+
+  /// Time [s], state and mode: all that changes while a drive runs.
+  struct Instant {
+    double t{};
+    State x = State::Zero();
+    Mode mode{};
+  };
+
+  CompliantDrive(WormDrive<T, Load> rigid, ToothContact<T> contact)
+      : rigid_(std::move(rigid)), contact_(std::move(contact)) {
+    using std::cos, std::sin;
+    const GearMesh<T>& teeth = mesh();
+    worm_normal_ = teeth.worm_arm(T(0));
+    gear_normal_ = teeth.gear_arm(T(0));
+    worm_lateral_ = cos(teeth.lambda) * teeth.lw;
+    gear_lateral_ = sin(teeth.lambda) * teeth.lg;
+    const Moment<T> rest{T(0), T(0), T(0), T(0)};
+    const Effects<T>& on = rigid_.effects();
+    worm_is_dry_ = teeth.mu > T(0) || on.worm_torque(rest, Motion::forward) != on.worm_torque(rest, Motion::backward);
+    gear_is_dry_ = on.gear_torque(rest, Motion::forward) != on.gear_torque(rest, Motion::backward);
+  }
+
+  const GearMesh<T>& mesh() const { return rigid_.mesh(); }
+  const WormDrive<T, Load>& rigid() const { return rigid_; }
+  const ToothContact<T>& contact() const { return contact_; }
+
+  // ---- inputs, those of the rigid drive -----------------------------------------------------------------------
+
+  void enter(double t) { rigid_.enter(t); }
+  void command(double t, double tau_m) { rigid_.command(t, tau_m); }
+  double next_knot(double t) const { return rigid_.next_knot(t); }
+  double fastest_input() const { return rigid_.fastest_input(); }
+  /// The longest step [s] within which a guard of a shaft at rest, which the state does not show, turns at most once.
+  double longest_step(Mode mode) const {
+    const bool stuck = mode.worm == Motion::stuck || mode.gear == Motion::stuck;
+    return stuck && fastest_input() > 0.0 ? 0.05 / fastest_input() : std::numeric_limits<double>::infinity();
+  }
+
+  // ---- continuous motion --------------------------------------------------------------------------------------
+
+  template <class S>
+  TwoBodyMoment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {
+    return {{t, theta_g, omega_g, omega_w}, theta_w};
+  }
+  TwoBodyMoment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1], now.x[2], now.x[3]); }
+
+  /// Normal penetration d of the teeth on a flank [m] and its rate [m/s]; negative while they are apart.
+  template <class S>
+  std::pair<S, S> penetration(const TwoBodyMoment<S>& at, Flank flank) const {
+    const T side = T(sign(flank)) * gear_normal_;
+    return {side * (at.theta_g - at.theta_w / mesh().i) - gear_normal_ * contact_.backlash / T(2),
+            side * (at.omega_g - at.omega_w / mesh().i)};
+  }
+  /// Wn [N], 0 in the gap.
+  template <class S>
+  S normal_force(const TwoBodyMoment<S>& at, Mode mode) const {
+    if (mode.contact == Flank::none) return S(T(0));
+    const auto [d, v] = penetration(at, mode.contact);
+    return contact_.force(d, v);
+  }
+  /// Wf [N], positive against forward motion. At rest it holds the worm as far as it can; bearings hold the rest.
+  template <class S>
+  S friction(const TwoBodyMoment<S>& at, Mode mode, const S& Wn) const {
+    const S limit = mesh().mu * Wn;
+    if (mode.worm != Motion::stuck) return T(sign(mode.worm)) * limit;
+    const S holding =
+        (rigid_.side_torques(at, Motion::stuck).worm + T(sign(mode.contact)) * worm_normal_ * Wn) / worm_lateral_;
+    return holding > limit ? limit : holding < -limit ? S(-limit) : holding;
+  }
+  template <class S>
+  struct Accelerations {
+    S worm, gear;  ///< [rad/s^2]
+  };
+  /// theta_w'' and theta_g'', 0 for a shaft that is stuck.
+  template <class S>
+  Accelerations<S> accelerations(const TwoBodyMoment<S>& at, Mode mode) const {
+    const S Wn = normal_force(at, mode), Wf = friction(at, mode, Wn), push = T(sign(mode.contact)) * Wn;
+    Accelerations<S> a{S(T(0)), S(T(0))};
+    if (mode.worm != Motion::stuck)
+      a.worm = (rigid_.side_torques(at, mode.worm).worm + push * worm_normal_ - Wf * worm_lateral_) / mesh().Jw;
+    if (mode.gear != Motion::stuck)
+      a.gear = (rigid_.side_torques(at, mode.gear).gear - push * gear_normal_ - Wf * gear_lateral_) / rigid_.Jg();
+    return a;
+  }
+
+  State derivative(double t, const State& x, Mode mode) const {
+    const Accelerations<T> a = accelerations(moment(T(t), x[0], x[1], x[2], x[3]), mode);
+    return {mode.worm == Motion::stuck ? T(0) : x[1], a.worm, mode.gear == Motion::stuck ? T(0) : x[3], a.gear};
+  }
+
+  /// Exact Jacobian of the derivative, by automatic differentiation.
+  Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
+    using Jet = ceres::Jet<double, 4>;
+    const auto a = accelerations(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1), Jet(x[2], 2), Jet(x[3], 3)), mode);
+    Jacobian J = Jacobian::Zero();
+    J(0, 1) = mode.worm == Motion::stuck ? 0.0 : 1.0;
+    J(2, 3) = mode.gear == Motion::stuck ? 0.0 : 1.0;
+    J.row(1) = a.worm.v.transpose();
+    J.row(3) = a.gear.v.transpose();
+    return J;
+  }
+
+  /// Time, angles and speeds along the motion in the present mode, as power series to order N.
+  template <int N>
+  TwoBodyMoment<Series<T, N>> ahead(const Instant& now) const {
+    using Flow = Series<T, N>;
+    TwoBodyMoment<Flow> at =
+        moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
+    for (int k = 0; k < N; ++k) {
+      const Accelerations<Flow> a = accelerations(at, now.mode);
+      at.theta_w[k + 1] = at.omega_w[k] / T(k + 1);
+      at.omega_w[k + 1] = a.worm[k] / T(k + 1);
+      at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
+      at.omega_g[k + 1] = a.gear[k] / T(k + 1);
+    }
+    return at;
+  }
+
+  // ---- events -------------------------------------------------------------------------------------------------
+
+  /// At rest nothing moves; a worm that sticks under a gear that swings is not at rest.
+  static bool at_rest(Mode mode) { return mode.worm == Motion::stuck && mode.gear == Motion::stuck; }
+
+  /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,
+  /// in the gap the distance to each flank; for a moving shaft its speed, for a stuck one its two margins to break-in.
+  template <class S>
+  std::array<S, guard_count> guards(const TwoBodyMoment<S>& at, Mode mode) const {
+    std::array<S, guard_count> g;
+    g.fill(S(T(1)));
+    if (mode.contact == Flank::none) {
+      g[contact_guards] = apart(at, Flank::left);
+      g[contact_guards + 1] = apart(at, Flank::right);
+    } else {
+      g[contact_guards] = normal_force(at, mode);
+    }
+    for (const Shaft shaft : {Shaft::worm, Shaft::gear}) {
+      if (!is_dry(shaft)) continue;
+      S* const own = &g[first_guard(shaft)];
+      if (mode[shaft] == Motion::stuck) {
+        own[0] = -release_acceleration(at, mode, shaft, Motion::forward);
+        own[1] = release_acceleration(at, mode, shaft, Motion::backward);
+      } else {
+        own[0] = T(sign(mode[shaft])) * (shaft == Shaft::worm ? at.omega_w : at.omega_g);
+      }
+    }
+    return g;
+  }
+  /// Values and rates of the guards along the motion.
+  std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
+    return guards(ahead<1>(now), now.mode);
+  }
+
+  static std::string_view guard_name(Mode mode, int guard) {
+    if (guard < worm_guards) {
+      if (mode.contact != Flank::none) return "normal force";
+      return guard == contact_guards ? "left gap" : "right gap";
+    }
+    const bool worm = guard < gear_guards, first = guard % 2 == 0;
+    if (mode[worm ? Shaft::worm : Shaft::gear] != Motion::stuck) return worm ? "worm speed" : "gear speed";
+    if (worm) return first ? "forward break-in of the worm" : "backward break-in of the worm";
+    return first ? "forward break-in of the gear" : "backward break-in of the gear";
+  }
+
+  /// The state after a guard has fired. The crossing itself is trusted: its condition is not tested again.
+  Instant jump(Instant now, int guard) const {
+    if (guard < worm_guards) {
+      const Flank opened = now.mode.contact;
+      now.mode.contact = Flank::none;
+      if (opened == Flank::none)
+        now.mode.contact = guard == contact_guards ? Flank::left : Flank::right;
+      else if (const Flank other = opened == Flank::left ? Flank::right : Flank::left; touches(now, other))
+        now.mode.contact = other;  // without backlash
+    } else {
+      const Shaft shaft = guard < gear_guards ? Shaft::worm : Shaft::gear;
+      if (now.mode[shaft] == Motion::stuck) {
+        now.mode = now.mode.with(shaft, guard % 2 == 0 ? Motion::forward : Motion::backward);
+      } else {
+        now.x[speed_of(shaft)] = T(0);
+        now.mode = now.mode.with(shaft, Motion::stuck);
+      }
+    }
+    now.mode = released(now);
+    return now;
+  }
+
+  /// The mode in which the drive goes on after inputs or state were set from outside; ties mean stick.
+  Mode settle(Instant now) const {
+    for (const Shaft shaft : {Shaft::worm, Shaft::gear}) {
+      const T& speed = now.x[speed_of(shaft)];
+      const bool forward = !is_dry(shaft) || speed > T(0);
+      now.mode = now.mode.with(shaft, forward ? Motion::forward : speed < T(0) ? Motion::backward : Motion::stuck);
+    }
+    now.mode.contact = Flank::none;
+    const Instant free{now.t, now.x, released(now)};
+    for (const Flank flank : {Flank::left, Flank::right})
+      if (touches(free, flank)) now.mode.contact = flank;
+    return released(now);
+  }
+
+  /// The gear angle that the sensor sees [rad].
+  T measured_angle(const Instant& now) const { return rigid_.effects().measured_angle(now.x[2]); }
+
+  // ---- what is reported ---------------------------------------------------------------------------------------
+
+  CompliantObservation observe(const Instant& now) const requires std::same_as<T, double> {
+    const TwoBodyMoment<double> at = moment(now);
+    const Accelerations<double> a = accelerations(at, now.mode);
+    const double Wn = normal_force(at, now.mode);
+    return {{.theta_g = at.theta_g,
+             .omega_g = at.omega_g,
+             .alpha_g = a.gear,
+             .tau_m = rigid_.motor_piece()(at.t),
+             .tau_l = rigid_.load().torque(at),
+             .normal_force = Wn,
+             .mode = now.mode},
+            at.theta_w,
+            at.omega_w,
+            a.worm,
+            at.theta_g - at.theta_w / mesh().i,
+            friction(at, now.mode, Wn)};
+  }
+
+ private:
+  static constexpr int order = 3;           ///< of the series that decide what happens just after an event
+  static constexpr double instant = 1e-11;  ///< events closer than this are one event [s]
+
+  static int speed_of(Shaft shaft) { return shaft == Shaft::worm ? 1 : 3; }
+  static int first_guard(Shaft shaft) { return shaft == Shaft::worm ? worm_guards : gear_guards; }
+  bool is_dry(Shaft shaft) const { return shaft == Shaft::worm ? worm_is_dry_ : gear_is_dry_; }
+
+  template <class S>
+  S apart(const TwoBodyMoment<S>& at, Flank flank) const {
+    const auto [d, v] = penetration(at, flank);
+    return contact_.apart(d, v);
+  }
+  /// Whether the teeth push on a flank just after now.
+  bool touches(const Instant& now, Flank flank) const {
+    return sign_just_after(apart(ahead<order>(now), flank), instant) < 0;
+  }
+
+  /// The acceleration that a shaft at rest would have, moving in this direction.
+  template <class S>
+  S release_acceleration(const TwoBodyMoment<S>& at, Mode mode, Shaft shaft, Motion motion) const {
+    const Accelerations<S> a = accelerations(at, mode.with(shaft, motion));
+    return shaft == Shaft::worm ? a.worm : a.gear;
+  }
+  /// The mode in which each shaft that rests goes on, by the first derivative of its acceleration that matters.
+  Mode released(const Instant& now) const {
+    Mode mode = now.mode;
+    for (const Shaft shaft : {Shaft::worm, Shaft::gear}) {
+      if (mode[shaft] != Motion::stuck) continue;
+      const auto at = ahead<order>({now.t, now.x, mode});
+      for (const Motion motion : {Motion::forward, Motion::backward})
+        if (sign_just_after(release_acceleration(at, mode, shaft, motion), instant) == sign(motion))
+          mode = mode.with(shaft, motion);
+    }
+    return mode;
+  }
+
+  WormDrive<T, Load> rigid_;
+  ToothContact<T> contact_;
+  T worm_normal_{}, gear_normal_{};    ///< lever arms of the normal force on worm and gear [m]
+  T worm_lateral_{}, gear_lateral_{};  ///< lever arms of the friction force on worm and gear [m]
+  bool worm_is_dry_ = false, gear_is_dry_ = false;
+};
+
+}  // namespace wormdrive
