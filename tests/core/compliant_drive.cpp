@@ -120,3 +120,24 @@ TEST_CASE("a worm at rest under a gear that flies freely starts at a short peak 
   REQUIRE(r.events.size() >= 1);
   REQUIRE(close(r.events[0].after.t, std::asin(T_w / A) / (2 * std::numbers::pi * f), 1e-9));
 }
+
+TEST_CASE("where eq. 17 is violated the teeth jam: they press exponentially and stop the worm, and the gear swings") {
+  MeshParameters<double> p = table1(0.25);
+  const double d0 = 1e-9;
+  for (const double Jg : {0.02, 0.5}) {  // the limit is 0.0322 kg m^2
+    p.Jg = Jg;
+    const GearMesh<double> mesh(p);
+    const double I1 = p.Jw * p.i + mesh.C1() * Jg;
+    const double squared_rate = -k * mesh.gear_arm(0.0) * I1 * mesh.gear_arm(p.mu) / (p.i * p.Jw * Jg);
+    const auto d = compliant(p, constant(0.0), constant(0.0), {HuntCrossley<double>{k, 0.0}, 0.0});
+    const double lead = d0 / mesh.gear_arm(0.0), rate = std::sqrt(std::abs(squared_rate)), t = 1.0 / rate;
+    const auto r = run(d, Timetable(0, 20 * t, t), {0.0, {-p.i * lead, 30.0, 0.0, 0.5}, {}});
+    REQUIRE(r.rows.front().now.mode == CompliantMode{Flank::left, Motion::forward, Motion::forward});
+    const auto after = std::find_if(r.rows.begin(), r.rows.end(), [&](const auto& row) { return row.now.t >= t; });
+    const double grown = d.penetration(d.moment(after->now), Flank::left).first / d0;
+    REQUIRE(close(grown, squared_rate > 0.0 ? std::cosh(1.0) : std::cos(1.0), 1e-4));
+    const bool stopped = std::any_of(r.events.begin(), r.events.end(),
+                                     [](const auto& event) { return event.after.mode.worm == Motion::stuck; });
+    REQUIRE(stopped == (I1 < 0.0));
+  }
+}
