@@ -96,6 +96,23 @@ TEST_CASE("teeth hold the worm of a self-locking gear up to the break-in torques
   REQUIRE(d.settle({0.0, {-p.i * rest_deflection(p, tau_l, k, 1e-3), 0.0, 0.0, 0.0}, {}}).worm == Motion::forward);
 }
 
+TEST_CASE("at rest the teeth hold the worm as far as their friction goes, and its bearing holds the rest") {
+  const auto p = table1();
+  for (const double tau_m : {-0.01, 0.1, -0.1}) {
+    auto d = compliant(p, constant(0.2), constant(tau_m), {HuntCrossley<double>{k, 0.0}, 0.0},
+                       effects(WormCoulomb<double>{0.2}));
+    d.enter(0.0);
+    const typename decltype(d)::Instant now{0.0, {-p.i * rest_deflection(p, 0.2, k, 0.0), 0.0, 0.0, 0.0}, {}};
+    const CompliantMode mode = d.settle(now);
+    REQUIRE(mode.worm == Motion::stuck);
+    const CompliantObservation seen = d.observe({now.t, now.x, mode});
+    const double needed =
+        (tau_m / p.lw + seen.normal_force * std::cos(p.phi_n) * std::sin(p.lambda)) / std::cos(p.lambda);
+    REQUIRE(close(seen.friction, std::clamp(needed, -p.mu * seen.normal_force, p.mu * seen.normal_force), 1e-12));
+    REQUIRE((std::abs(needed) < p.mu * seen.normal_force) == (tau_m == -0.01));
+  }
+}
+
 TEST_CASE(
     "in the gap a bearing stops the worm and holds it, and another one holds the gear until its load breaks away") {
   const double T_w = 1e-3, T_g = 0.02, rate = 0.1;
