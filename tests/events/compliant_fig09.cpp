@@ -188,3 +188,8 @@ TEST_CASE("fig. 9 becomes the rigid drive's as the teeth become stiff and the ga
     REQUIRE(speed.back() <= 3e-5);
   }
 }
+
+TEST_CASE("power series refuse elastic teeth by name") {
+  REQUIRE_THROWS_WITH((Fig9{1e6, 1000.0, 0.0}.run_to(1.0, 1.0, tight(taylor))),
+                      "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
+}
