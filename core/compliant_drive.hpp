@@ -10,7 +10,7 @@
 #include <ceres/jet.h>
 
 #include "core/compliant_mode.hpp"
-#include "core/contact.hpp"
+#include "core/contact_law.hpp"
 #include "core/worm_drive.hpp"
 
 namespace wormdrive {
