@@ -53,17 +53,18 @@ class ClosedLoop {
 
   template <class System>
   double sample(const System& system, const typename System::Instant& now) {
+    const auto at = system.moment(now);
     const double angle = encoder_(system.measured_angle(now), k_);
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
-    const Measurement m{now.t, angle, exact_speed_ ? now.x[1] : difference, k_ == 0 ? 0.0 : period_,
+    const Measurement m{now.t, angle, exact_speed_ ? at.omega_g : difference, k_ == 0 ? 0.0 : period_,
                         reference_.at(now.t)};
     const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
     const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
     const double limit = system.effects().torque_limit();
     const double applied = std::clamp(torque + disturbance, -limit, limit);
-    listener_(ControlRecord{now.x[0], m, decided, applied});
+    listener_(ControlRecord{at.theta_g, m, decided, applied});
     return applied;
   }
 

@@ -45,14 +45,16 @@ class CompliantDrive {
     gear_normal_ = teeth.gear_arm(T(0));
     worm_lateral_ = cos(teeth.lambda) * teeth.lw;
     gear_lateral_ = sin(teeth.lambda) * teeth.lg;
-    const Moment<T> rest{T(0), T(0), T(0), T(0)};
+    const Moment<T> turning{T(0), T(0), T(1), T(1), T(0)};
     const Effects<T>& on = rigid_.effects();
-    worm_is_dry_ = teeth.mu > T(0) || on.worm_torque(rest, Motion::forward) != on.worm_torque(rest, Motion::backward);
-    gear_is_dry_ = on.gear_torque(rest, Motion::forward) != on.gear_torque(rest, Motion::backward);
+    worm_is_dry_ = teeth.mu > T(0) || on.change_friction() ||
+                   on.worm_torque(turning, Motion::forward) != on.worm_torque(turning, Motion::backward);
+    gear_is_dry_ = on.gear_torque(turning, Motion::forward) != on.gear_torque(turning, Motion::backward);
   }
 
   const GearMesh<T>& mesh() const { return rigid_.mesh(); }
   const WormDrive<T, Load>& rigid() const { return rigid_; }
+  const Effects<T>& effects() const { return rigid_.effects(); }
   const ToothContact<T>& contact() const { return contact_; }
 
   // ---- inputs, those of the rigid drive -----------------------------------------------------------------------
@@ -70,33 +72,35 @@ class CompliantDrive {
   // ---- continuous motion --------------------------------------------------------------------------------------
 
   template <class S>
-  TwoBodyMoment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {
-    return {{t, theta_g, omega_g, omega_w}, theta_w};
+  Moment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {
+    return {t, theta_g, omega_g, omega_w, theta_w};
   }
-  TwoBodyMoment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1], now.x[2], now.x[3]); }
+  Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1], now.x[2], now.x[3]); }
 
   /// Normal penetration d of the teeth on a flank [m] and its rate [m/s]; negative while they are apart.
   template <class S>
-  std::pair<S, S> penetration(const TwoBodyMoment<S>& at, Flank flank) const {
+  std::pair<S, S> penetration(const Moment<S>& at, Flank flank) const {
     const T side = T(sign(flank)) * gear_normal_;
     return {side * (at.theta_g - at.theta_w / mesh().i) - gear_normal_ * contact_.backlash / T(2),
             side * (at.omega_g - at.omega_w / mesh().i)};
   }
   /// Wn [N], 0 in the gap.
   template <class S>
-  S normal_force(const TwoBodyMoment<S>& at, Mode mode) const {
+  S normal_force(const Moment<S>& at, Mode mode) const {
     if (mode.contact == Flank::none) return S(T(0));
     const auto [d, v] = penetration(at, mode.contact);
     return contact_.force(d, v);
   }
   /// Wf [N], positive against forward motion. At rest it holds the worm as far as it can; bearings hold the rest.
   template <class S>
-  S friction(const TwoBodyMoment<S>& at, Mode mode, const S& Wn) const {
-    const S limit = mesh().mu * Wn;
-    if (mode.worm != Motion::stuck) return T(sign(mode.worm)) * limit;
+  S friction(const Moment<S>& at, Mode mode, const S& Wn) const {
+    const auto sliding = [&](Motion motion) { return S(T(sign(motion)) * rigid_.friction(at, motion) * Wn); };
+    if (mode.contact == Flank::none) return S(T(0));
+    if (mode.worm != Motion::stuck) return sliding(mode.worm);
     const S holding =
         (rigid_.side_torques(at, Motion::stuck).worm + T(sign(mode.contact)) * worm_normal_ * Wn) / worm_lateral_;
-    return holding > limit ? limit : holding < -limit ? S(-limit) : holding;
+    const S most = sliding(Motion::forward), least = sliding(Motion::backward);
+    return holding > most ? most : holding < least ? least : holding;
   }
   template <class S>
   struct Accelerations {
@@ -104,7 +108,7 @@ class CompliantDrive {
   };
   /// theta_w'' and theta_g'', 0 for a shaft that is stuck.
   template <class S>
-  Accelerations<S> accelerations(const TwoBodyMoment<S>& at, Mode mode) const {
+  Accelerations<S> accelerations(const Moment<S>& at, Mode mode) const {
     const S Wn = normal_force(at, mode), Wf = friction(at, mode, Wn), push = T(sign(mode.contact)) * Wn;
     Accelerations<S> a{S(T(0)), S(T(0))};
     if (mode.worm != Motion::stuck)
@@ -133,10 +137,9 @@ class CompliantDrive {
 
   /// Time, angles and speeds along the motion in the present mode, as power series to order N.
   template <int N>
-  TwoBodyMoment<Series<T, N>> ahead(const Instant& now) const {
+  Moment<Series<T, N>> ahead(const Instant& now) const {
     using Flow = Series<T, N>;
-    TwoBodyMoment<Flow> at =
-        moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
+    Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
     for (int k = 0; k < N; ++k) {
       const Accelerations<Flow> a = accelerations(at, now.mode);
       at.theta_w[k + 1] = at.omega_w[k] / T(k + 1);
@@ -155,7 +158,7 @@ class CompliantDrive {
   /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,
   /// in the gap the distance to each flank; for a moving shaft its speed, for a stuck one its two margins to break-in.
   template <class S>
-  std::array<S, guard_count> guards(const TwoBodyMoment<S>& at, Mode mode) const {
+  std::array<S, guard_count> guards(const Moment<S>& at, Mode mode) const {
     std::array<S, guard_count> g;
     g.fill(S(T(1)));
     if (mode.contact == Flank::none) {
@@ -229,26 +232,24 @@ class CompliantDrive {
   }
 
   /// The gear angle that the sensor sees [rad].
-  T measured_angle(const Instant& now) const { return rigid_.effects().measured_angle(now.x[2]); }
+  T measured_angle(const Instant& now) const { return effects().measured_angle(now.x[2]); }
 
   // ---- what is reported ---------------------------------------------------------------------------------------
 
-  CompliantObservation observe(const Instant& now) const requires std::same_as<T, double> {
-    const TwoBodyMoment<double> at = moment(now);
+  Observation observe(const Instant& now) const requires std::same_as<T, double> {
+    const Moment<double> at = moment(now);
     const Accelerations<double> a = accelerations(at, now.mode);
+    const auto input = rigid_.inputs(at);
     const double Wn = normal_force(at, now.mode);
-    return {{.theta_g = at.theta_g,
-             .omega_g = at.omega_g,
-             .alpha_g = a.gear,
-             .tau_m = rigid_.motor_piece()(at.t),
-             .tau_l = rigid_.load().torque(at),
-             .normal_force = Wn,
-             .mode = now.mode},
-            at.theta_w,
-            at.omega_w,
-            a.worm,
-            at.theta_g - at.theta_w / mesh().i,
-            friction(at, now.mode, Wn)};
+    return {.theta_g = at.theta_g,
+            .omega_g = at.omega_g,
+            .alpha_g = a.gear,
+            .tau_m = input.worm,
+            .tau_l = input.gear,
+            .normal_force = Wn,
+            .mode = now.mode,
+            .teeth = ElasticTeeth{at.theta_w, at.omega_w, a.worm, at.theta_g - at.theta_w / mesh().i,
+                                  friction(at, now.mode, Wn), now.mode.gear}};
   }
 
  private:
@@ -260,7 +261,7 @@ class CompliantDrive {
   bool is_dry(Shaft shaft) const { return shaft == Shaft::worm ? worm_is_dry_ : gear_is_dry_; }
 
   template <class S>
-  S apart(const TwoBodyMoment<S>& at, Flank flank) const {
+  S apart(const Moment<S>& at, Flank flank) const {
     const auto [d, v] = penetration(at, flank);
     return contact_.apart(d, v);
   }
@@ -271,7 +272,7 @@ class CompliantDrive {
 
   /// The acceleration that a shaft at rest would have, moving in this direction.
   template <class S>
-  S release_acceleration(const TwoBodyMoment<S>& at, Mode mode, Shaft shaft, Motion motion) const {
+  S release_acceleration(const Moment<S>& at, Mode mode, Shaft shaft, Motion motion) const {
     const Accelerations<S> a = accelerations(at, mode.with(shaft, motion));
     return shaft == Shaft::worm ? a.worm : a.gear;
   }

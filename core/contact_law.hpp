@@ -86,6 +86,10 @@ struct ToothContact {
   S apart(const S& d, const S& v) const {
     return std::visit([&](const auto& by) { return by.apart(d, v); }, law);
   }
+  /// k [N/m]
+  T stiffness() const {
+    return std::visit([](const auto& by) { return by.stiffness; }, law);
+  }
 };
 
 }  // namespace wormdrive

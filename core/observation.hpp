@@ -1,17 +1,30 @@
 #pragma once
+#include <optional>
+
 #include "core/mode.hpp"
 
 namespace wormdrive {
 
+/// What elastic teeth show beside, in SI.
+struct ElasticTeeth {
+  double theta_w;     ///< worm angle [rad]
+  double omega_w;     ///< worm speed [rad/s]
+  double alpha_w;     ///< worm acceleration [rad/s^2]
+  double deflection;  ///< by how much the gear is ahead of the worm, theta_g - theta_w / i [rad]
+  double friction;    ///< Wf [N]
+  Motion gear;        ///< sign of the gear speed; forward throughout where the gear shaft has no dry friction
+};
+
 /// What a drive shows at one instant, in SI.
 struct Observation {
-  double theta_g;       ///< gear angle [rad]
-  double omega_g;       ///< gear speed [rad/s]
-  double alpha_g;       ///< gear acceleration [rad/s^2]
-  double tau_m;         ///< motor torque [N m]
-  double tau_l;         ///< load torque on the gear [N m]
-  double normal_force;  ///< Wn [N]
-  Mode mode;
+  double theta_g;                       ///< gear angle [rad]
+  double omega_g;                       ///< gear speed [rad/s]
+  double alpha_g;                       ///< gear acceleration [rad/s^2]
+  double tau_m;                         ///< motor torque [N m]
+  double tau_l;                         ///< load torque on the gear [N m]
+  double normal_force;                  ///< Wn [N]
+  Mode mode;                            ///< of elastic teeth the worm's motion
+  std::optional<ElasticTeeth> teeth{};  ///< of elastic teeth only
 };
 
 }  // namespace wormdrive

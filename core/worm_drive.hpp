@@ -89,6 +89,11 @@ class WormDrive {
   struct SideTorques {
     S worm, gear;
   };
+  /// Those of motor and load alone.
+  template <class S>
+  SideTorques<S> inputs(const Moment<S>& at) const {
+    return {effects_.motor_torque(motor_piece()(at.t), at), effects_.load_torque(load_, at)};
+  }
   template <class S>
   SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
     return side_torques(inputs(at), at, motion);
@@ -213,10 +218,6 @@ class WormDrive {
   }
 
  private:
-  template <class S>
-  SideTorques<S> inputs(const Moment<S>& at) const {
-    return {effects_.motor_torque(motor_piece()(at.t), at), effects_.load_torque(load_, at)};
-  }
   template <class S>
   SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
     return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};

@@ -9,8 +9,8 @@
 namespace wormdrive::test {
 
 template <class Load>
-auto compliant(const MeshParameters<double>& p, const Load& load, const Signal& motor, const ToothContact<double>& contact,
-               Effects<double> on = {}) {
+auto compliant(const MeshParameters<double>& p, const Load& load, const Signal& motor,
+               const ToothContact<double>& contact, Effects<double> on = {}) {
   auto rigid = drive(p, load, motor, std::move(on));
   return CompliantDrive(std::move(rigid), contact);
 }

@@ -105,10 +105,11 @@ TEST_CASE("at rest the teeth hold the worm as far as their friction goes, and it
     const typename decltype(d)::Instant now{0.0, {-p.i * rest_deflection(p, 0.2, k, 0.0), 0.0, 0.0, 0.0}, {}};
     const CompliantMode mode = d.settle(now);
     REQUIRE(mode.worm == Motion::stuck);
-    const CompliantObservation seen = d.observe({now.t, now.x, mode});
+    const Observation seen = d.observe({now.t, now.x, mode});
     const double needed =
         (tau_m / p.lw + seen.normal_force * std::cos(p.phi_n) * std::sin(p.lambda)) / std::cos(p.lambda);
-    REQUIRE(close(seen.friction, std::clamp(needed, -p.mu * seen.normal_force, p.mu * seen.normal_force), 1e-12));
+    REQUIRE(
+        close(seen.teeth->friction, std::clamp(needed, -p.mu * seen.normal_force, p.mu * seen.normal_force), 1e-12));
     REQUIRE((std::abs(needed) < p.mu * seen.normal_force) == (tau_m == -0.01));
   }
 }
