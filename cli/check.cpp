@@ -6,6 +6,8 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/describe_control.hpp"
+#include "cli/describe_teeth.hpp"
+#include "core/elastic_teeth.hpp"
 #include "core/statics.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/keys.hpp"
@@ -92,16 +94,26 @@ std::vector<Quantity> derived(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   const double Jg = total_gear_inertia(scenario);
   if (!mesh.has_teeth) return {};
-  return {{"C1", "1", "C(+mu), gear torque ratio where friction helps the worm", mesh.C1()},
-          {"C2", "1", "C(-mu), gear torque ratio where friction hinders the worm", mesh.C2()},
-          {"H", "1", "slope of the static surface tau_m = H tau_l", mesh.H()},
-          {"mu_w", "1", "friction from which the gear cannot drive the worm", mesh.mu_w()},
-          {"mu_g", "1", "friction from which the worm cannot drive the gear", mesh.mu_g()},
-          {"Jg", "kg m^2", "inertia of the gear side with the load", Jg},
-          {"Jw i/Jg", "1", "slope of the switching surface tau_m = (Jw i/Jg) tau_l", mesh.Jw * mesh.i / Jg},
-          {"C1 + Jw i/Jg", "1", "eq. 17 holds while it is positive", mesh.C1() + mesh.Jw * mesh.i / Jg},
-          {"efficiency forward", "1", "1/(i C2), worm drives", forward_efficiency(mesh)},
-          {"efficiency backward", "1", "i C1, gear drives; negative when self-locking", backward_efficiency(mesh)}};
+  std::vector<Quantity> list{
+      {"C1", "1", "C(+mu), gear torque ratio where friction helps the worm", mesh.C1()},
+      {"C2", "1", "C(-mu), gear torque ratio where friction hinders the worm", mesh.C2()},
+      {"H", "1", "slope of the static surface tau_m = H tau_l", mesh.H()},
+      {"mu_w", "1", "friction from which the gear cannot drive the worm", mesh.mu_w()},
+      {"mu_g", "1", "friction from which the worm cannot drive the gear", mesh.mu_g()},
+      {"Jg", "kg m^2", "inertia of the gear side with the load", Jg},
+      {"Jw i/Jg", "1", "slope of the switching surface tau_m = (Jw i/Jg) tau_l", mesh.Jw * mesh.i / Jg},
+      {"C1 + Jw i/Jg", "1", "eq. 17 holds while it is positive", mesh.C1() + mesh.Jw * mesh.i / Jg},
+      {"efficiency forward", "1", "1/(i C2), worm drives", forward_efficiency(mesh)},
+      {"efficiency backward", "1", "i C1, gear drives; negative when self-locking", backward_efficiency(mesh)}};
+  if (has_elastic_teeth(scenario.effects)) {
+    const TeethNumbers teeth = teeth_numbers(scenario);
+    list.push_back(
+        {"contact frequency", "Hz", "at which worm and gear swing while their teeth touch", teeth.frequency});
+    list.push_back({"contact time", "ms", "of an impact without damping, half a period", 1e3 * teeth.contact});
+    list.push_back({"gap", "um", "between the flanks along their normal", 1e6 * teeth.gap});
+    list.push_back({"restitution", "1", "parting over approach speed of an impact at 0.1 m/s", teeth.restitution});
+  }
+  return list;
 }
 
 void print(const std::vector<Quantity>& list) {
@@ -137,6 +149,7 @@ int check_command(const ScenarioOptions& options) {
     print(list);
     fmt::print("\n");
     print_item("regime", describe_mesh(scenario));
+    if (has_elastic_teeth(scenario.effects)) print_item("teeth", describe_teeth(scenario));
   }
   print_design(scenario);
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/describe_control.hpp"
+#include "core/elastic_teeth.hpp"
 #include "core/energy.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
@@ -39,7 +40,8 @@ std::string describe_mesh(const Scenario& scenario) {
   const double surface = mesh.Jw * mesh.i / total_gear_inertia(scenario);
   std::string motion = fmt::format("eq. 17 holds ({:.3g} times)", surface / -mesh.C1());
   if (mesh.C1() >= 0.0) motion = "eq. 17 holds (C1 >= 0)";
-  if (mesh.C1() <= -surface) motion = "eq. 17 is violated: it would jam";
+  if (mesh.C1() <= -surface)
+    motion = fmt::format("eq. 17 is violated: it {} jam", has_elastic_teeth(scenario.effects) ? "can" : "would");
   if (mesh.regime() == LockingRegime::worm_self_locking) motion = "no motion without load";
   return fmt::format("{}; C1 {:.4f}, C2 {:.4f}, H {:.4f}; {}", name(mesh.regime()), mesh.C1(), mesh.C2(), mesh.H(),
                      motion);
@@ -51,8 +53,9 @@ std::vector<std::string> warnings(const Scenario& scenario) {
   if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
     list.push_back(
         fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
-                    "{:.4f} would close it",
-                    mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree));
+                    "{:.4f} would close it{}",
+                    mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
+                    has_elastic_teeth(scenario.effects) ? "; the flanks move as the ratio says" : ""));
   if (scenario.motor.terms.empty() && !scenario.control)
     list.push_back("no [motor.torque]: the motor torque is 0 throughout");
   for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
@@ -65,7 +68,12 @@ std::string describe_events(const RunSummary& summary) {
   for (const auto& [kind, singular] : {std::pair{EventKind::break_away, "break-away"},
                                        {EventKind::flank_change, "flank change"},
                                        {EventKind::reversal, "reversal"},
-                                       {EventKind::stop, "stop"}})
+                                       {EventKind::stop, "stop"},
+                                       {EventKind::impact, "impact"},
+                                       {EventKind::opening, "opening"},
+                                       {EventKind::gear_break_away, "gear break-away"},
+                                       {EventKind::gear_reversal, "gear reversal"},
+                                       {EventKind::gear_stop, "gear stop"}})
     if (const long count = summary.events[static_cast<std::size_t>(kind)]; count > 0)
       parts.push_back(plural(count, singular));
   return fmt::format("{}: {}", plural(summary.total_events(), "event"), fmt::join(parts, ", "));
@@ -78,9 +86,10 @@ std::string describe_audit(const AuditReport& report, const Scenario& scenario) 
   for (const AuditFinding& finding : report.findings)
     text += fmt::format("; {} at {:.9g} s: {}, {}", finding.missed ? "missed" : "not confirmed", finding.t,
                         finding.guard, describe(finding.mode));
-  const Graze& speed = report.closest[0];
-  if (std::isfinite(speed.distance))
-    text += fmt::format("; closest graze {:.3g} {} at {:.5g} s", speed.distance, linear ? "m/s" : "rad/s", speed.t);
+  if (const auto speed = report.closest.find(has_elastic_teeth(scenario.effects) ? "worm speed" : "gear speed");
+      speed != report.closest.end())
+    text += fmt::format("; closest graze {:.3g} {} at {:.5g} s", speed->second.distance, linear ? "m/s" : "rad/s",
+                        speed->second.t);
   else
     text += "; no graze";
   text += fmt::format("; event times agree within {:.1e} s, segments within {:.1e} {}", report.largest_time_error,

@@ -6,7 +6,9 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/describe_control.hpp"
+#include "cli/describe_teeth.hpp"
 #include "cli/progress.hpp"
+#include "core/elastic_teeth.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
 #include "scenarios/load_scenario.hpp"
@@ -20,8 +22,9 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
                         {"warnings", warnings(scenario)},    {"solver", describe_solver(scenario.run)},
                         {"steps", summary.statistics.steps}, {"evaluations", summary.statistics.evaluations},
                         {"gear_angle", summary.end.theta_g}, {"gear_speed", summary.end.omega_g}};
-  for (const EventKind kind : {EventKind::break_away, EventKind::stop, EventKind::reversal, EventKind::flank_change})
-    result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
+  for (const EventKind kind : event_kinds)
+    if (kind <= EventKind::flank_change || has_elastic_teeth(scenario.effects))
+      result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
   if (summary.control) result["control"] = as_json(*summary.control);
   if (summary.audit)
     result["audit"] = {{"guards", summary.audit->guards},
@@ -60,12 +63,15 @@ int run_command(const RunOptions& options) {
   if (talk) {
     fmt::print("{}\n", scenario.title);
     if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
+    if (has_elastic_teeth(scenario.effects)) print_item("teeth", describe_teeth(scenario));
     for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   }
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
-               scenario.control.has_value());
-  if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth)
+               {scenario.control.has_value(), has_elastic_teeth(scenario.effects)});
+  if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth) {
     write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
+    write_attribute(file.file().file(), "ratio", mesh.i);
+  }
   const RunSummary summary = run_into(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return 0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/effects/backlash.hpp"
 #include "core/effects/bearing_asymmetry.hpp"
 #include "core/effects/cogging.hpp"
 #include "core/effects/encoder_offset.hpp"
@@ -18,6 +19,7 @@
 #include "core/effects/mesh_friction.hpp"
 #include "core/effects/position_friction.hpp"
 #include "core/effects/stribeck.hpp"
+#include "core/effects/tooth_compliance.hpp"
 #include "core/effects/torque_gain.hpp"
 #include "core/effects/torque_offset.hpp"
 #include "core/effects/torque_saturation.hpp"
@@ -42,6 +44,7 @@ template <class T>
 using EffectList = Optional<TorqueSaturation, TorqueGain, TorqueOffset, Cogging,                         // actuator
                             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                     // worm shaft
                             MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift,  // mesh
+                            ToothCompliance, Backlash,                                                   // mesh
                             GearCoulomb, GearViscous, GearInertia,                                       // gear shaft
                             LoadMagnitude, LoadAngle, LoadSpring,                                        // load
                             EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
@@ -102,7 +105,9 @@ struct Effects {
   /// Whether an effect makes the friction between the teeth another one.
   bool change_friction() const {
     bool any = false;
-    for_each([&]<class E>(const std::optional<E>& effect) { any = any || (effect && E::place == Place::mesh); });
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (requires { effect->friction_range(FrictionRange{}, 0.0); }) any = any || effect;
+    });
     return any;
   }
   /// Torque that the effects add on the gear shaft [N m].

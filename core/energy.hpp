@@ -9,7 +9,7 @@ namespace wormdrive {
 struct Power {
   double motor;  ///< tau_m w_w
   double load;   ///< tau_l w_g
-  double loss;   ///< friction of the mesh, mu Wn |sliding speed|, and of the bearings; never negative
+  double loss;   ///< friction of the mesh, mu Wn |sliding speed|, and of the bearings; rigid teeth never give it back
 };
 
 template <class Load>
@@ -29,6 +29,11 @@ Power power(const WormDrive<double, Load>& drive, const typename WormDrive<doubl
 template <class Load>
 double kinetic_energy(const WormDrive<double, Load>& drive, double omega_g) {
   return 0.5 * (drive.mesh().Jw * drive.mesh().i * drive.mesh().i + drive.Jg()) * omega_g * omega_g;
+}
+
+template <class Load>
+double stored_energy(const WormDrive<double, Load>& drive, const typename WormDrive<double, Load>::Instant& now) {
+  return kinetic_energy(drive, now.x[1]);
 }
 
 /// By how much the mesh creates or destroys normal power, C(0) i - 1; 0 for a gear that closes.

@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/compliant_energy.hpp"
 #include "core/crossing.hpp"
 #include "core/energy.hpp"
 
@@ -23,19 +27,18 @@ struct AuditFinding {
 struct Graze {
   double distance = std::numeric_limits<double>::infinity();
   double t = 0.0;  ///< [s]
-  std::string guard;
 };
 
 struct AuditReport {
   long guards = 0;  ///< guards scanned, one for every guard of every segment
   long events = 0;  ///< guard events that the scan confirmed
   std::vector<AuditFinding> findings;
-  std::array<Graze, 2> closest;         ///< for the two guards, in their own units
-  double largest_time_error = 0.0;      ///< of a confirmed event [s]
-  double largest_angle_error = 0.0;     ///< at the end of a segment [rad]
-  double largest_speed_error = 0.0;     ///< at the end of a segment [rad/s]
-  double work = 0.0;                    ///< absolute work of motor and load [J]
-  double energy_error = 0.0;            ///< motor + load - loss - change of kinetic energy [J]
+  std::map<std::string, Graze, std::less<>> closest;  ///< by the guard's name, in its own units
+  double largest_time_error = 0.0;                    ///< of a confirmed event [s]
+  double largest_angle_error = 0.0;  ///< at the end of a segment, of elastic teeth also of the worm [rad]
+  double largest_speed_error = 0.0;  ///< likewise [rad/s]
+  double work = 0.0;                 ///< absolute work of motor and load [J]
+  double energy_error = 0.0;         ///< motor + load - loss - change of the stored energy [J]
 
   long missed() const {
     return std::count_if(findings.begin(), findings.end(), [](const AuditFinding& f) { return f.missed; });
@@ -121,7 +124,8 @@ class Audit {
       return;
     }
     long steps = finer * std::max(least_steps, solver_steps);
-    if (System::at_rest(start.mode)) steps = std::max(steps, std::lround(finer * system_.fastest_input() * span / 0.05));
+    if (System::at_rest(start.mode))
+      steps = std::max(steps, std::lround(finer * system_.fastest_input() * span / 0.05));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
@@ -129,7 +133,7 @@ class Audit {
     std::array<bool, System::guard_count> armed{};
     std::array<double, System::guard_count> crossed;
     crossed.fill(std::numeric_limits<double>::infinity());
-    const double kinetic_at_start = kinetic_energy(system_, start.x[1]);
+    const double stored_at_start = stored_energy(system_, start);
     Power work{0.0, 0.0, 0.0};
     for (long k = 1; k <= steps; ++k) {
       const Instant before = now;
@@ -144,12 +148,14 @@ class Audit {
         if (when <= now.t) crossed[g] = when;
       }
     }
-    judge(start, end, here, armed, crossed, mode_ended && !input_ended, span / static_cast<double>(std::max(1L, solver_steps)));
-    report_.largest_angle_error = std::max(report_.largest_angle_error, std::abs(now.x[0] - end.x[0]));
-    report_.largest_speed_error = std::max(report_.largest_speed_error, std::abs(now.x[1] - end.x[1]));
+    judge(start, end, here, armed, crossed, mode_ended && !input_ended,
+          span / static_cast<double>(std::max(1L, solver_steps)));
+    for (int k = 0; k < System::state_size; k += 2) {
+      report_.largest_angle_error = std::max(report_.largest_angle_error, std::abs(now.x[k] - end.x[k]));
+      report_.largest_speed_error = std::max(report_.largest_speed_error, std::abs(now.x[k + 1] - end.x[k + 1]));
+    }
     report_.work += std::abs(work.motor) + std::abs(work.load);
-    report_.energy_error +=
-        work.motor + work.load - work.loss - (kinetic_energy(system_, now.x[1]) - kinetic_at_start);
+    report_.energy_error += work.motor + work.load - work.loss - (stored_energy(system_, now) - stored_at_start);
   }
 
   /// One Runge-Kutta step, with the powers integrated alongside.
@@ -176,16 +182,16 @@ class Audit {
     if (!(left[1] < 0.0 && right[1] >= 0.0)) return never;
     const double s = cubic.lowest(t1 - t0), lowest = cubic(s);
     if (lowest <= 0.0) return left[0] <= 0.0 ? t0 : t0 + cubic.root(s);
-    Graze& closest = report_.closest[static_cast<std::size_t>(g)];
-    if (!System::at_rest(mode_) && lowest < closest.distance)
-      closest = {lowest, t0 + s, std::string(System::guard_name(mode_, g))};
+    if (System::at_rest(mode_)) return never;
+    Graze& closest = report_.closest[std::string(System::guard_name(mode_, g))];
+    if (lowest < closest.distance) closest = {lowest, t0 + s};
     return never;
   }
 
   /// Compares the crossings of a segment with the event that ended it, if one did.
   void judge(const Instant& start, const Instant& end, const Guards& at_end,
-             const std::array<bool, System::guard_count>& armed,
-             const std::array<double, System::guard_count>& crossed, bool guard_ended, double solver_step) {
+             const std::array<bool, System::guard_count>& armed, const std::array<double, System::guard_count>& crossed,
+             bool guard_ended, double solver_step) {
     if (end.t - start.t <= negligible) {
       if (guard_ended) ++report_.events;
       return;
@@ -193,9 +199,9 @@ class Audit {
     const auto until = [&](int g) { return std::abs(at_end[g][0]) / std::max(std::abs(at_end[g][1]), 1e-300); };
     int fired = -1;
     if (guard_ended) {
-      fired = 0;
+      fired = 0;  // one that has been positive, if there is any: others stay at zero without firing
       for (int g = 1; g < System::guard_count; ++g)
-        if (until(g) < until(fired)) fired = g;
+        if (std::pair(!armed[g], until(g)) < std::pair(!armed[fired], until(fired))) fired = g;
     }
     for (int g = 0; g < System::guard_count; ++g) {
       const bool found = crossed[g] <= end.t;
@@ -210,7 +216,8 @@ class Audit {
       }
       const bool never_held = !armed[g] && at_end[g][0] < 0.0;
       if (never_held || (found && end.t - crossed[g] > negligible))
-        report_.findings.push_back({never_held ? start.t : crossed[g], end.mode, std::string(System::guard_name(end.mode, g)), true});
+        report_.findings.push_back(
+            {never_held ? start.t : crossed[g], end.mode, std::string(System::guard_name(end.mode, g)), true});
     }
   }
 
@@ -218,7 +225,7 @@ class Audit {
 
   System& system_;
   AuditReport report_;
-  Mode mode_{};
+  typename System::Mode mode_{};
 };
 
 }  // namespace wormdrive

@@ -46,8 +46,18 @@ std::vector<std::vector<double>> values(const std::vector<Column<Source>>& colum
   return table;
 }
 
-const std::vector<Column<Row>>& trajectory_columns() {
-  static const std::vector<Column<Row>> columns{
+/// The columns of a rigid drive's table or, with those of elastic teeth behind them, of a compliant one's.
+template <class Source>
+std::vector<Column<Source>> joined(std::vector<Column<Source>> columns, bool elastic,
+                                   const std::vector<Column<Source>>& of_elastic_teeth) {
+  if (elastic) columns.insert(columns.end(), of_elastic_teeth.begin(), of_elastic_teeth.end());
+  return columns;
+}
+/// Whose speed has the sign of the motion.
+std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
+
+std::vector<Column<Row>> make_trajectory_columns(bool elastic) {
+  const std::vector<Column<Row>> columns{
       {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
       {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
       {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Row& r) { return r.at.omega_g; }},
@@ -55,20 +65,41 @@ const std::vector<Column<Row>>& trajectory_columns() {
       {{"motor_torque", "N m", "motor torque tau_m on the worm"}, [](const Row& r) { return r.at.tau_m; }},
       {{"load_torque", "N m", "load torque tau_l on the gear"}, [](const Row& r) { return r.at.tau_l; }},
       {{"normal_force", "N", "normal force Wn between the teeth"}, [](const Row& r) { return r.at.normal_force; }},
-      {{"motion", "", "sign of the gear speed", motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
+      {{"motion", "", sign_of_speed(elastic), motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
       {{"flank", "", "flank that carries the load", flanks, signs},
        [](const Row& r) { return sign(r.at.mode.flank); }}};
-  return columns;
+  return joined(columns, elastic,
+                {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Row& r) { return r.at.teeth->theta_w; }},
+                 {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Row& r) { return r.at.teeth->omega_w; }},
+                 {{"worm_acceleration", "rad/s^2", "worm acceleration theta_w''"},
+                  [](const Row& r) { return r.at.teeth->alpha_w; }},
+                 {{"deflection", "rad", "gear ahead of worm, theta_g - theta_w / i"},
+                  [](const Row& r) { return r.at.teeth->deflection; }},
+                 {{"friction_force", "N", "friction force Wf between the teeth, positive against forward motion"},
+                  [](const Row& r) { return r.at.teeth->friction; }},
+                 {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
+                   motions, signs},
+                  [](const Row& r) { return sign(r.at.teeth->gear); }}});
 }
 
-const std::vector<Column<Event>>& event_columns() {
-  static const std::vector<Column<Event>> columns{
+/// The kinds of event that a drive can have, as flags: those of a rigid drive come first.
+ColumnDescription kinds_column(bool elastic) {
+  ColumnDescription column{"kind", "", "what happened", "", {}};
+  for (const EventKind kind : event_kinds) {
+    if (!elastic && kind > EventKind::flank_change) break;
+    column.flag_meanings += fmt::format("{}{}", column.flag_meanings.empty() ? "" : " ", name(kind));
+    column.flag_values.push_back(static_cast<std::int8_t>(kind));
+  }
+  return column;
+}
+
+std::vector<Column<Event>> make_event_columns(bool elastic) {
+  const std::vector<Column<Event>> columns{
       {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
-      {{"kind", "", "what happened", "break_away stop reversal flank_change", {0, 1, 2, 3}},
-       [](const Event& e) { return static_cast<double>(e.kind()); }},
-      {{"motion_before", "", "sign of the gear speed before", motions, signs},
+      {kinds_column(elastic), [](const Event& e) { return static_cast<double>(e.kind()); }},
+      {{"motion_before", "", fmt::format("{} before", sign_of_speed(elastic)), motions, signs},
        [](const Event& e) { return sign(e.before.mode.motion); }},
-      {{"motion_after", "", "sign of the gear speed after", motions, signs},
+      {{"motion_after", "", fmt::format("{} after", sign_of_speed(elastic)), motions, signs},
        [](const Event& e) { return sign(e.after.mode.motion); }},
       {{"flank_before", "", "flank that carried the load before", flanks, signs},
        [](const Event& e) { return sign(e.before.mode.flank); }},
@@ -84,7 +115,24 @@ const std::vector<Column<Event>>& event_columns() {
       {{"motor_torque_after", "N m", "motor torque just after"}, [](const Event& e) { return e.after.tau_m; }},
       {{"load_torque_before", "N m", "load torque just before"}, [](const Event& e) { return e.before.tau_l; }},
       {{"load_torque_after", "N m", "load torque just after"}, [](const Event& e) { return e.after.tau_l; }}};
-  return columns;
+  return joined(
+      columns, elastic,
+      {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Event& e) { return e.after.teeth->theta_w; }},
+       {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Event& e) { return e.after.teeth->omega_w; }},
+       {{"gear_motion_before", "", "sign of the gear speed before", motions, signs},
+        [](const Event& e) { return sign(e.before.teeth->gear); }},
+       {{"gear_motion_after", "", "sign of the gear speed after", motions, signs},
+        [](const Event& e) { return sign(e.after.teeth->gear); }}});
+}
+
+/// Made once for either drive.
+const std::vector<Column<Row>>& trajectory_columns(bool elastic) {
+  static const std::vector<Column<Row>> columns[] = {make_trajectory_columns(false), make_trajectory_columns(true)};
+  return columns[elastic ? 1 : 0];
+}
+const std::vector<Column<Event>>& event_columns(bool elastic) {
+  static const std::vector<Column<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
+  return columns[elastic ? 1 : 0];
 }
 
 const std::vector<Column<ControlRecord>>& controller_columns() {
@@ -111,18 +159,19 @@ const std::vector<Column<ControlRecord>>& controller_columns() {
 
 }  // namespace
 
-RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, bool controlled) : file_(path) {
+RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents)
+    : file_(path), elastic_(contents.elastic) {
   write_provenance(file_.file(), provenance);
-  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(), axis));
-  events_.emplace(file_.file(), "events", descriptions(event_columns(), axis));
-  if (controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
+  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(elastic_), axis));
+  events_.emplace(file_.file(), "events", descriptions(event_columns(elastic_), axis));
+  if (contents.controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
   file_.flush();
   flushed_ = Clock::now();
 }
 
 void RunFile::append(const Trajectory& part) {
-  trajectory_->append(values(trajectory_columns(), part.rows));
-  events_->append(values(event_columns(), part.events));
+  trajectory_->append(values(trajectory_columns(elastic_), part.rows));
+  events_->append(values(event_columns(elastic_), part.events));
   // HDF5 writes how long a column is before it writes where the data are: killed between the two, the last rows are
   // lost. Flushing after every portion, one kill in a hundred hit these 50 us; now it is one in ten thousand.
   if (Clock::now() - flushed_ < std::chrono::seconds(1)) return;

@@ -19,11 +19,16 @@ enum class Axis { rotary, linear };
 /// The units on an axis of what has these units on a shaft: "rad/s" becomes "m/s", "N m" becomes "N".
 std::string units_on(Axis axis, const std::string& rotary);
 
+/// What a run shows beside the rigid drive.
+struct RunContents {
+  bool controlled = false;  ///< there will be samples of a controller
+  bool elastic = false;     ///< worm and gear move on their own
+};
+
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.
 class RunFile {
  public:
-  /// controlled: whether there will be samples of a controller.
-  RunFile(const std::string& path, const Provenance& provenance, Axis axis, bool controlled = false);
+  RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents = {});
 
   /// Appends rows and events; what is older than a second is safe if the program dies.
   void append(const Trajectory& part);
@@ -40,6 +45,7 @@ class RunFile {
   using Clock = std::chrono::steady_clock;
 
   PartFile file_;
+  bool elastic_;
   std::optional<GrowingTable> trajectory_, events_, controller_;
   Clock::time_point flushed_;
 };

@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 
 import controller
 import style
+import teeth
 from result import NotAResult, attribute, column, columns, flags, group, number, text, units
 
 MOST_EVENTS = 200  # drawn one by one
@@ -23,11 +24,25 @@ MODES = {  # (motion, flank): label, colour
     ("backward", "none"): ("backward", style.PALE_ORANGE),
     ("stuck", "none"): ("stuck", style.STUCK),
 }
+ELASTIC_MODES = {  # of worm and teeth
+    ("forward", "left"): ("forward, left flank", style.PALE_BLUE),
+    ("forward", "right"): ("forward, right flank", style.MID_BLUE),
+    ("backward", "left"): ("backward, left flank", style.PALE_ORANGE),
+    ("backward", "right"): ("backward, right flank", style.MID_ORANGE),
+    ("stuck", "left"): ("stuck, left flank", style.STUCK),
+    ("stuck", "right"): ("stuck, right flank", style.DARK_STUCK),
+    ("any", "none"): ("free in the gap", "white"),
+}
 EVENTS = {  # kind: label, marker, colour
     "break_away": ("break-away", "^", style.GREEN),
     "stop": ("stop", "s", style.INK),
     "reversal": ("reversal", "D", style.PURPLE),
     "flank_change": ("flank change", "o", "white"),
+    "impact": ("impact", "v", style.VERMILLION),
+    "opening": ("opening", "o", style.BLUE),
+    "gear_break_away": ("gear break-away", "<", style.GREEN),
+    "gear_stop": ("gear stop", "p", style.INK),
+    "gear_reversal": ("gear reversal", "d", style.PURPLE),
 }
 
 
@@ -42,8 +57,8 @@ class BreakAways(NamedTuple):
     forward: np.ndarray
 
 
-def mode_bands(trajectory, time):
-    """Returns the bands of every mode that occurs, as {mode: (starts, widths)}."""
+def mode_bands(trajectory, time, modes):
+    """Returns the bands of every one of these modes that occurs, as {mode: (starts, widths)}."""
     (motion, flank), meanings = columns(trajectory, "motion", "flank"), flags(trajectory, "flank")
     code = 10 * motion.astype(int) + flank
     start = np.flatnonzero(np.diff(code, prepend=code[0] - 1))
@@ -52,20 +67,26 @@ def mode_bands(trajectory, time):
     for value in np.unique(code[start]):
         chosen = start[code[start] == value], stop[code[start] == value]
         now_motion = motions.get(int(motion[chosen[0][0]]))
-        now_flank = "none" if now_motion == "stuck" else meanings.get(int(flank[chosen[0][0]]))
-        if (now_motion, now_flank) not in MODES:
+        now_flank = meanings.get(int(flank[chosen[0][0]]))
+        if modes is ELASTIC_MODES:
+            now_motion = "any" if now_flank == "none" else now_motion
+        elif now_motion == "stuck":
+            now_flank = "none"
+        if (now_motion, now_flank) not in modes:
             raise NotAResult("its modes are unknown")
-        bands[now_motion, now_flank] = time[chosen[0]], time[chosen[1]] - time[chosen[0]]
+        starts, widths = bands.get((now_motion, now_flank), (np.empty(0), np.empty(0)))
+        bands[now_motion, now_flank] = (np.append(starts, time[chosen[0]]),
+                                        np.append(widths, time[chosen[1]] - time[chosen[0]]))
     return bands
 
 
-def draw_bands(axes, bands, narrowest):
+def draw_bands(axes, bands, modes, narrowest):
     """Draws the modes as bands; returns their legend and whether some were too narrow to draw."""
     handles, skipped = [], False
-    for mode in MODES:
+    for mode in modes:
         if mode not in bands:
             continue
-        label, colour = MODES[mode]
+        label, colour = modes[mode]
         start, width = bands[mode]
         wide = width >= narrowest
         skipped |= not wide.all()
@@ -138,36 +159,44 @@ def draw(result):
     speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
     linear = units(trajectory, "gear_angle") == "m"
     angle_name, speed_name, word = ("position", "speed", "force") if linear else ("gear angle", "gear speed", "torque")
-    if "surface" in result.attrs:
+    elastic = teeth.elastic(trajectory)
+    if "surface" in result.attrs and not elastic:
         other, label = number(result, "surface") * load, r"switching surface $(J_w i/J_g)\,\tau_l$"
     else:
         other, label = load, f"load {word}"
 
     figure = style.new_figure(text(attribute(result, "title")))
     samples = controller.samples(result)
-    heights = [1.0, 1.25, 1.25] + ([0.9] if samples else [])
-    if samples:
-        figure.set_figheight(10.2)  # so that four panels stay readable
+    heights = [1.0, 1.25, 1.25] + ([1.0] if elastic else []) + ([0.9] if samples else [])
+    if len(heights) > 3:
+        figure.set_figheight(2.55 * len(heights))  # so that more panels stay readable
     panels = figure.subplots(len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights})
     legend = []
     if samples:
-        controller.draw_error(panels[3], samples)
+        controller.draw_error(panels[-1], samples)
         legend = [controller.draw_reference(panels[0], samples, angle_factor)]
     draw_curve(panels[0], time, angle_factor * angle, style.INK)
     panels[0].set(ylabel=f"{angle_name} [{angle_unit}]", ylim=style.limits(angle_factor * angle))
-    draw_curve(panels[1], time, speed_factor * speed, style.INK)
-    panels[1].set(ylabel=f"{speed_name} [{speed_unit}]", ylim=style.limits(speed_factor * speed))
+    speeds, speed_lines = speed_factor * speed, [draw_curve(panels[1], time, speed_factor * speed, style.INK,
+                                                            label=speed_name)]
+    if elastic:
+        line, worm = teeth.draw_worm(panels[1], result, trajectory, time, speed_factor)
+        speeds, speed_lines = np.append(speeds, worm), [*speed_lines, line]
+        teeth.draw_force(panels[3], trajectory, time)
+    panels[1].set(ylabel=f"{speed_name} [{speed_unit}]", ylim=style.limits(speeds))
     panels[1].axhline(0.0, color=style.GREY, linewidth=0.8, zorder=2)
     torque_factor = draw_torques(panels[2], time, motor, other, units(trajectory, "motor_torque"), word, label)
 
     event_time, kinds = column(events, "time"), event_kinds(events)
     few = event_time.size <= MOST_EVENTS
     span = time[-1] - time[0]
-    bands, skipped = draw_bands(panels[1], mode_bands(trajectory, time), 0.0 if few else NARROWEST * span)
-    style.header(panels[1], bands)
+    modes = ELASTIC_MODES if elastic else MODES
+    bands, skipped = draw_bands(panels[1], mode_bands(trajectory, time, modes), modes, 0.0 if few else NARROWEST * span)
+    style.header(panels[1], speed_lines + bands if elastic else bands, **({"ncol": 4} if elastic else {}))
     if few and event_time.size:
-        curves = [(panels[1], speed_factor * column(events, "gear_speed")),
-                  (panels[2], torque_factor * column(events, "motor_torque_after"))]
+        curves = [(panels[1], speed_factor * column(events, "gear_speed"))]
+        if not elastic:
+            curves.append((panels[2], torque_factor * column(events, "motor_torque_after")))
         legend += draw_events(panels, curves, event_time, kinds)
     elif not few:
         counts = ", ".join(f"{rows.size} × {EVENTS[kind][0]}" for kind, rows in kinds.items())
@@ -175,7 +204,8 @@ def draw(result):
         legend.append(Line2D([], [], linestyle="none", label=note))
     if legend:
         bare = len(legend) == 1 and not few  # a note alone has no line to show
-        style.header(panels[0], legend, **({"handlelength": 0.0, "handletextpad": 0.0} if bare else {}))
+        style.header(panels[0], legend, **({"handlelength": 0.0, "handletextpad": 0.0} if bare else {}),
+                     **({"ncol": 4} if elastic else {}))
 
     for panel in panels:
         style.few_ticks(panel.yaxis)

@@ -14,7 +14,7 @@ INK, GREY, EVENT = "#1c2733", "#6b7782", "#8d99a5"
 BLUE, VERMILLION, GREEN, PURPLE = "#0072b2", "#d55e00", "#00795c", "#a3478a"  # after Okabe and Ito
 PALE_BLUE, MID_BLUE = "#dcebf7", "#a9cfec"
 PALE_ORANGE, MID_ORANGE = "#fdeccf", "#f8c987"
-STUCK = "#d9dcdf"
+STUCK, DARK_STUCK = "#d9dcdf", "#b9bfc5"
 
 matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 12, "legend.fontsize": 11,

@@ -12,6 +12,7 @@
 #include "scenarios/read_load.hpp"
 #include "scenarios/read_reference.hpp"
 #include "scenarios/read_signal.hpp"
+#include "scenarios/refuse_teeth.hpp"
 #include "scenarios/table_reader.hpp"
 
 namespace wormdrive {
@@ -99,6 +100,7 @@ class ScenarioReader {
   /// What the bounds of an effect's fields cannot say; empty if nothing speaks against it.
   template <class Effect>
   std::string refusal(const Effect& effect) const {
+    if constexpr (requires { teeth_refusal(effect, scenario_); }) return teeth_refusal(effect, scenario_);
     const GearMesh<double> mesh = stated_mesh(scenario_);
     if (Effect::place == Place::mesh && !mesh.has_teeth) return "needs teeth that rub, and mesh.kind is \"none\"";
     if constexpr (std::is_same_v<Effect, WormInertia<double>>)
@@ -123,6 +125,11 @@ class ScenarioReader {
       run.read_fields(scenario_.run);
       if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
         scenario_.run.solver = SolverKind::taylor;
+      if (purpose == Purpose::run && scenario_.run.solver == SolverKind::taylor && has_elastic_teeth(scenario_.effects))
+        run.fault(
+            "solver",
+            "run.solver = \"taylor\" follows rigid teeth only, and effect.tooth_compliance makes them elastic; set "
+            "run.solver = \"cvode\"");
       scenario_.run.method =
           run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
@@ -150,12 +157,13 @@ class ScenarioReader {
                                             stated, range.low));
       return;
     }
+    if (has_elastic_teeth(scenario_.effects)) return;  // which have one motion for every friction
     mesh.mu = range.high;
     std::string friction = fmt::format("mesh.friction = {}", stated);
     if (mesh.mu != stated) friction += fmt::format(", which may rise to {:.6g} with its effects,", mesh.mu);
     if (mesh.mu >= mesh.mu_g()) {
       faults_.add(friction_at_, fmt::format("{} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would "
-                                            "lock itself",
+                                            "lock itself; only elastic teeth, [effect.tooth_compliance], can follow it",
                                             friction, mesh.mu_g()));
       return;
     }
@@ -163,10 +171,12 @@ class ScenarioReader {
     if (mesh.C1() <= -surface)
       faults_.add(
           friction_at_,
-          fmt::format("{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
-                      "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 "
-                      "or lower the gear-side inertia below {:.6g} kg m^2",
-                      friction, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
+          fmt::format(
+              "{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
+              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2, "
+              "lower the gear-side inertia below {:.6g} kg m^2, or add [effect.tooth_compliance]: elastic teeth "
+              "can jam",
+              friction, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
   }
 
   std::string name_;

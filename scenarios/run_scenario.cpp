@@ -1,125 +1,13 @@
 #include "scenarios/run_scenario.hpp"
 
-#include <utility>
-#include <vector>
-
-#include "events/simulate.hpp"
-#include "events/solvers.hpp"
-#include "scenarios/build_control.hpp"
-#include "scenarios/replay.hpp"
+#include "core/elastic_teeth.hpp"
+#include "scenarios/run_drive.hpp"
 
 namespace wormdrive {
-namespace {
-
-constexpr std::size_t portion = 4096;  ///< rows handed over at a time, one chunk of the result file
-
-/// One run of one drive: what is recorded on the way, and its summary.
-template <class Drive, class Solver>
-class Run {
- public:
-  using Instant = typename Drive::Instant;
-
-  Run(Drive& drive, Solver& solver, const Scenario& scenario, const RunListeners& listeners)
-      : drive_(drive), solver_(solver), scenario_(scenario), listeners_(listeners) {}
-
-  RunSummary operator()() {
-    try {
-      if (scenario_.control)
-        controlled(*scenario_.control);
-      else
-        open_loop();
-    } catch (const Halt&) {
-      finish_rows();
-      throw;
-    }
-    summary_.end = recorder_.trajectory().rows.back().at;
-    finish_rows();
-    summary_.statistics = solver_.statistics();
-    if (listeners_.audit) audit();
-    return std::move(summary_);
-  }
-
- private:
-  void record(const Drive& drive, const Instant& now) {
-    recorder_(drive, now);
-    if (listeners_.audit) trail_(drive, now);
-    if (recorder_.trajectory().rows.size() > portion) hand_over();
-    if (listeners_.time) listeners_.time(now.t);
-  }
-
-  void open_loop() {
-    simulate(drive_, solver_, Timetable(0.0, scenario_.run.duration, scenario_.run.rows_every()), start(),
-             [this](const Drive& drive, const Instant& now) { record(drive, now); });
-  }
-
-  void controlled(const ControlScenario& control) {
-    const NominalModel nominal = make_nominal(scenario_);
-    const Variations variations = make_variations(scenario_);
-    MetricsMeter meter(control.window, boundary_layer(control.law));
-    std::optional<Lemma1Monitor> monitor = make_monitor(control.law, lemma1(nominal, variations));
-    const auto listen = [&](const ControlRecord& sample) {
-      meter.sample(sample);
-      if (monitor) monitor->sample(sample);
-      if (listeners_.samples) samples_.push_back(sample);
-      if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied});
-    };
-    const Timetable timetable(0.0, scenario_.run.duration, scenario_.run.rows_every(),
-                              {control.sampling.period, control.sampling.offset});
-    std::visit(
-        [&](const auto& law) {
-          ClosedLoop loop(make_controller(law, nominal, variations), control.reference, control.sensor,
-                          control.sampling, control.disturbance, listen);
-          simulate(drive_, solver_, loop, timetable, start(), [&](const Drive& drive, const Instant& now) {
-            meter.instant(now.t, now.mode);
-            record(drive, now);
-          });
-        },
-        control.law);
-    summary_.control = ControlSummary{meter.result(), monitor};
-  }
-
-  Instant start() const {
-    Instant start;
-    start.x = {scenario_.initial.theta_g, scenario_.initial.omega_g};
-    return start;
-  }
-
-  void hand_over() {
-    Trajectory part = recorder_.drain();
-    for (const Event& event : part.events) ++summary_.events[static_cast<std::size_t>(event.kind())];
-    if (listeners_.rows) listeners_.rows(std::move(part));
-    if (listeners_.samples) listeners_.samples(std::exchange(samples_, {}));
-  }
-  void finish_rows() {
-    recorder_.close();
-    hand_over();
-  }
-
-  void audit() {
-    using Replayed = Replay<Drive>;
-    Replayed replayed(drive_, std::move(held_));
-    summary_.audit = Audit<Replayed>(replayed).examine(trail_);
-  }
-
-  Drive& drive_;
-  Solver& solver_;
-  const Scenario& scenario_;
-  const RunListeners& listeners_;
-  TrajectoryRecorder recorder_;
-  AuditTrail<Drive, Solver> trail_{solver_};
-  std::vector<ControlRecord> samples_;
-  std::vector<typename Replay<Drive>::Held> held_;
-  RunSummary summary_;
-};
-
-}  // namespace
 
 RunSummary run_scenario(const Scenario& scenario, const RunListeners& listeners) {
-  return with_drive(scenario, [&]<class Drive>(Drive& drive) {
-    return with_solver(drive, scenario.run.solver_settings(), [&]<class Solver>(Solver& solver) {
-      return Run<Drive, Solver>(drive, solver, scenario, listeners)();
-    });
-  });
+  if (has_elastic_teeth(scenario.effects)) return run_compliant(scenario, listeners);
+  return with_drive(scenario, [&](auto& drive) { return run_drive(drive, scenario, listeners); });
 }
 
 Trajectory simulate_scenario(const Scenario& scenario) {

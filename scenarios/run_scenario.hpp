@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -22,12 +23,12 @@ struct RunListeners {
 /// What a run amounts to.
 struct RunSummary {
   SolverStatistics statistics;
-  std::array<long, 4> events{};  ///< by EventKind
+  std::array<long, event_kind_count> events{};  ///< by EventKind
   Observation end{};
   std::optional<AuditReport> audit;
   std::optional<ControlSummary> control;
 
-  long total_events() const { return events[0] + events[1] + events[2] + events[3]; }
+  long total_events() const { return std::accumulate(events.begin(), events.end(), 0L); }
 };
 
 /// Simulates a scenario with the solver that it names. Throws Halt if it cannot go on, after handing over what there

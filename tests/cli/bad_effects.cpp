@@ -41,7 +41,7 @@ TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 
       {"below zero", with("[effect.stribeck]\ndrop = 0.3\nspeed_m_per_s = 0.1\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 may fall to -0.05 with its effects; friction must be at least 0"},
       {"drifts to mu_g", with("[effect.friction_drift]\nshare = 60\ntime_s = 0.01\n"),
-       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself"},
+       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], can follow it"},
       {"eq. 17 by inertia", with("[effect.gear_inertia]\ninertia_kgm2 = 0.999261\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.001518 with Jg = 1 kg m^2; *"},
       {"eq. 17 by friction", edited(with("[effect.friction_asymmetry]\nchange = -0.1\n"), "7.39e-4", "0.03"),

@@ -157,11 +157,11 @@ TEST_CASE("statements that exclude each other are told at the one to take away")
 TEST_CASE("a gear without a unique motion is told by name and with the limit") {
   refuse_all(Folder(), {
       {"mu_g", good_but("friction = 0.25", "friction = 14"),
-       "s.toml:8:12: error: mesh.friction = 14 is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself"},
+       "s.toml:8:12: error: mesh.friction = 14 is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], can follow it"},
       {"eq. 17", good_but("7.39e-4", "1"),
        "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.001518 with "
-       "Jg = 1 kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2 or lower the gear-side "
-       "inertia below 0.0322537 kg m^2"}});
+       "Jg = 1 kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2, lower the gear-side "
+       "inertia below 0.0322537 kg m^2, or add [effect.tooth_compliance]: elastic teeth can jam"}});
 }
 
 TEST_CASE("all faults of a file are told at once and in the order of its lines") {

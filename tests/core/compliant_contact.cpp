@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "compliant_drives.hpp"
+#include "core/impact.hpp"
 
 // Contact and free flight of the compliant drive against closed forms.
 
@@ -153,4 +154,22 @@ TEST_CASE("without a gap the teeth pass from one flank to the other at once") {
   REQUIRE(r.events.size() >= 4);
   for (std::size_t n = 0; n < r.events.size(); ++n)
     REQUIRE(r.events[n].after.mode.contact == (n % 2 == 0 ? Flank::right : Flank::left));
+}
+
+TEST_CASE("frequency, mass and restitution of a contact are those of the impacts of a run") {
+  const GearMesh<double> mesh(frictionless());
+  const double mass = effective_mass(mesh, mesh.Jg), approach = 0.02;  // [m/s]
+  const double omega_g = approach / mesh.gear_arm(0.0);
+  REQUIRE(
+      close(contact_frequency({HuntCrossley<double>{k, 0.0}, 0.0}, mass), std::sqrt(squared_frequency(mesh)), 1e-14));
+  REQUIRE(std::abs(restitution({HuntCrossley<double>{k, 0.0}, 0.0}, mass, approach) - 1.0) <= 2e-6);
+  for (const ContactLaw<double>& law :
+       {ContactLaw<double>(HuntCrossley<double>{k, 30.0}), ContactLaw<double>(LimitedDamper<double>{k, 100.0})}) {
+    const auto r = run(thrown(frictionless(), law, 1e-3), Timetable(0, 0.01, 1.0), {0.0, {0.0, 0.0, 0.0, omega_g}, {}});
+    REQUIRE(r.events.size() >= 2);
+    const auto& out = r.events[1].after;
+    const double parting = -(out.x[3] - out.x[1] / mesh.i) / omega_g;
+    REQUIRE(parting < 0.9);
+    REQUIRE(std::abs(restitution({law, 0.0}, mass, approach) - parting) <= 1e-3);
+  }
 }

@@ -89,7 +89,8 @@ TEST_CASE("the closest graze of the speed is its smallest minimum above zero") {
   simulate(system, solver, Timetable(0, 1, 0.01), start, trail);
   const AuditReport report = Audit(system).examine(trail);
   REQUIRE(report.findings.empty());
-  REQUIRE(report.closest[0].guard == "gear speed");
-  REQUIRE(std::abs(report.closest[0].t - 0.75) <= 1e-5);
-  REQUIRE(std::abs(report.closest[0].distance - left) <= 1e-9);
+  REQUIRE(report.closest.size() == 1);
+  const Graze& speed = report.closest.at("gear speed");
+  REQUIRE(std::abs(speed.t - 0.75) <= 1e-5);
+  REQUIRE(std::abs(speed.distance - left) <= 1e-9);
 }

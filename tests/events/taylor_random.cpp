@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <random>
 
 #include "catch.hpp"
@@ -75,7 +76,8 @@ Comparison compare(const System& system, const typename System::Instant& start) 
   AuditTrail<System, CvodeSolver<System>> trail{solver};
   simulate(again, solver, timetable, start, trail);
   const AuditReport audit = Audit<System>(again).examine(trail);
-  const double graze = std::min(audit.closest[0].distance, audit.closest[1].distance);
+  double graze = std::numeric_limits<double>::infinity();
+  for (const auto& [guard, closest] : audit.closest) graze = std::min(graze, closest.distance);
   double spacing = 1.0;
   for (std::size_t k = 1; k < cvode.events.size(); ++k)
     spacing = std::min(spacing, cvode.events[k].after.t - cvode.events[k - 1].after.t);
