@@ -140,12 +140,17 @@ class CompliantDrive {
   Moment<Series<T, N>> ahead(const Instant& now) const {
     using Flow = Series<T, N>;
     Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
-    for (int k = 0; k < N; ++k) {
-      const Accelerations<Flow> a = accelerations(at, now.mode);
+    const auto extend = [&](int k, const T& worm, const T& gear) {
       at.theta_w[k + 1] = at.omega_w[k] / T(k + 1);
-      at.omega_w[k + 1] = a.worm[k] / T(k + 1);
+      at.omega_w[k + 1] = worm / T(k + 1);
       at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
-      at.omega_g[k + 1] = a.gear[k] / T(k + 1);
+      at.omega_g[k + 1] = gear / T(k + 1);
+    };
+    const Accelerations<T> first = accelerations(moment(now), now.mode);
+    extend(0, first.worm, first.gear);
+    for (int k = 1; k < N; ++k) {
+      const Accelerations<Flow> a = accelerations(at, now.mode);
+      extend(k, a.worm[k], a.gear[k]);
     }
     return at;
   }
@@ -200,10 +205,8 @@ class CompliantDrive {
     if (guard < worm_guards) {
       const Flank opened = now.mode.contact;
       now.mode.contact = Flank::none;
-      if (opened == Flank::none)
-        now.mode.contact = guard == contact_guards ? Flank::left : Flank::right;
-      else if (const Flank other = opened == Flank::left ? Flank::right : Flank::left; touches(now, other))
-        now.mode.contact = other;  // without backlash
+      const Flank other = opened == Flank::left || guard != contact_guards ? Flank::right : Flank::left;
+      if (opened == Flank::none || touches(now, other)) now.mode.contact = other;  // at once without backlash
     } else {
       const Shaft shaft = guard < gear_guards ? Shaft::worm : Shaft::gear;
       if (now.mode[shaft] == Motion::stuck) {
@@ -233,8 +236,6 @@ class CompliantDrive {
 
   /// The gear angle that the sensor sees [rad].
   T measured_angle(const Instant& now) const { return effects().measured_angle(now.x[2]); }
-
-  // ---- what is reported ---------------------------------------------------------------------------------------
 
   Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const Moment<double> at = moment(now);
