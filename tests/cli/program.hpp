@@ -126,6 +126,8 @@ class Folder {
 };
 
 inline std::string shipped(const std::string& scenario) { return WORMDRIVE_SCENARIOS "/" + scenario; }
+/// Reads a run with h5py and prints one line a column.
+inline const std::string h5py_script = WORMDRIVE_TESTS "/output/read_with_h5py.py";
 
 /// A scenario without a fault; line numbers in the tests count from its first line.
 inline const std::string good_scenario = R"(title = "A good one"

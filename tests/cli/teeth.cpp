@@ -88,6 +88,15 @@ TEST_CASE("the result of elastic teeth has columns of its own, and names what ha
   CHECK(said.at("events").at("impact") == 36);
   for (const char* name : {"worm_angle", "worm_speed", "gear_motion_before", "gear_motion_after"})
     REQUIRE(column(std::string("events/") + name).size() == kind.size());
+
+  const Outcome read = Process({WORMDRIVE_PYTHON, h5py_script, folder / "r.h5"}, ".").wait();
+  INFO(read.err);
+  REQUIRE(read.exit == 0);
+  contains(read.out,
+           {"trajectory/motion: 1079 int8 over time, -1 backward 0 stuck 1 forward, sign of the worm speed\n",
+            "trajectory/deflection: 1079 float64 over time, rad, gear ahead of worm, theta_g - theta_w / i\n",
+            "events/kind: 78 int8 over time, 0 break_away 1 stop 2 reversal 3 flank_change 4 impact 5 opening 6 "
+            "gear_break_away 7 gear_stop 8 gear_reversal, what happened\n"});
 }
 
 TEST_CASE("a result with elastic teeth runs again and is drawn") {

@@ -140,8 +140,7 @@ TEST_CASE("rows are right-continuous at events, and the left limits stand in the
 
 TEST_CASE("h5py finds every column with its units and its time axis") {
   const Fig9 run;
-  const std::string script = WORMDRIVE_TESTS "/output/read_with_h5py.py";
-  const Outcome outcome = Process({WORMDRIVE_PYTHON, script, run.path()}, ".").wait();
+  const Outcome outcome = Process({WORMDRIVE_PYTHON, h5py_script, run.path()}, ".").wait();
   INFO(outcome.err);
   REQUIRE(outcome.exit == 0);
   for (const std::string line :
