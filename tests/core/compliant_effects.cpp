@@ -94,6 +94,20 @@ TEST_CASE("a worm at rest is held between the frictions of its two directions") 
   }
 }
 
+TEST_CASE("where a bearing holds the rest, teeth hold the worm as far as the friction of the direction goes") {
+  const auto p = table1();
+  for (const double direction : {1.0, -1.0}) {
+    auto d = compliant(p, constant(0.2), constant(0.1 * direction), {HuntCrossley<double>{k, 0.0}, 0.0},
+                       effects(WormCoulomb<double>{0.2}, FrictionAsymmetry<double>{0.1}));
+    d.enter(0.0);
+    const double deflection = 0.2 / k / std::pow(d.mesh().gear_arm(0.0), 2);
+    const typename decltype(d)::Instant now{0.0, {-p.i * deflection, 0.0, 0.0, 0.0}, {}};
+    const Observation seen = d.observe({now.t, now.x, d.settle(now)});
+    REQUIRE(seen.mode.motion == Motion::stuck);
+    REQUIRE(close(seen.teeth->friction, direction * (p.mu + 0.1 * direction) * seen.normal_force, 1e-12));
+  }
+}
+
 TEST_CASE("a worm whose bearing is only thicker one way follows its direction, and an effect alone makes teeth rub") {
   auto p = table1(0.0);
   auto d = compliant(p, constant(0.0), constant(0.0), {HuntCrossley<double>{k, 0.0}, 1.0},
