@@ -71,7 +71,7 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   std::vector<std::string> list;
   if (!scenario.control) return list;
   const NominalSettings& stated = scenario.control->nominal;
-  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario.load) &&
+  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
       !stated.load_torque && !stated.load_constant)
     list.push_back("the controller takes the load for 0: neither an arm nor a constant; state [controller.nominal]");
   std::string failing;

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <utility>
 
 #include "control/controller_signals.hpp"
@@ -51,10 +52,17 @@ class ClosedLoop {
         delayed_(sampling.delay > 0.5),
         listener_(std::move(listener)) {}
 
+  /// Takes the angle that a sample will see later.
+  template <class System>
+  void latch(const System& system, const typename System::Instant& now) {
+    latched_.push_back(system.measured_angle(now));
+  }
+
   template <class System>
   double sample(const System& system, const typename System::Instant& now) {
     const auto at = system.moment(now);
-    const double angle = encoder_(system.measured_angle(now), k_);
+    const double angle = encoder_(latched_.empty() ? system.measured_angle(now) : latched_.front(), k_);
+    if (!latched_.empty()) latched_.pop_front();
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
     const Measurement m{now.t, angle, exact_speed_ ? at.omega_g : difference, k_ == 0 ? 0.0 : period_,
@@ -78,6 +86,7 @@ class ClosedLoop {
   double period_;
   bool delayed_;
   Listener listener_;
+  std::deque<double> latched_;  ///< of the samples to come, where they see an older angle [rad]
   std::uint64_t k_ = 0;
   double pending_ = 0.0;
 };

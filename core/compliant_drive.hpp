@@ -60,6 +60,7 @@ class CompliantDrive {
   // ---- inputs, those of the rigid drive -----------------------------------------------------------------------
 
   void enter(double t) { rigid_.enter(t); }
+  void rewind() { rigid_.rewind(); }
   void command(double t, double tau_m) { rigid_.command(t, tau_m); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input() const { return rigid_.fastest_input(); }

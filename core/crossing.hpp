@@ -1,7 +1,8 @@
 #pragma once
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
 #include <optional>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include "core/series.hpp"
 

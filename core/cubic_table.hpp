@@ -4,8 +4,9 @@
 #include <utility>
 #include <vector>
 
-// clang-format off: pchip of boost 1.74 uses isnan and forgets to include it
-#include <boost/math/special_functions/fpclassify.hpp>
+// pchip of boost 1.74 uses the global isnan and forgets to include it
+// clang-format off
+#include <math.h>
 #include <boost/math/interpolators/pchip.hpp>
 // clang-format on
 

@@ -3,9 +3,13 @@
 #include <optional>
 #include <tuple>
 
+#include "core/effects/actuator_delay.hpp"
+#include "core/effects/actuator_lag.hpp"
+#include "core/effects/agma.hpp"
 #include "core/effects/backlash.hpp"
 #include "core/effects/bearing_asymmetry.hpp"
 #include "core/effects/cogging.hpp"
+#include "core/effects/encoder_delay.hpp"
 #include "core/effects/encoder_offset.hpp"
 #include "core/effects/encoder_scale.hpp"
 #include "core/effects/friction_asymmetry.hpp"
@@ -18,11 +22,13 @@
 #include "core/effects/load_spring.hpp"
 #include "core/effects/mesh_friction.hpp"
 #include "core/effects/position_friction.hpp"
+#include "core/effects/static_friction.hpp"
 #include "core/effects/stribeck.hpp"
 #include "core/effects/tooth_compliance.hpp"
 #include "core/effects/torque_gain.hpp"
 #include "core/effects/torque_offset.hpp"
 #include "core/effects/torque_saturation.hpp"
+#include "core/effects/transmission_error.hpp"
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_viscous.hpp"
@@ -41,13 +47,14 @@ struct Optional {
 ///
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
-using EffectList = Optional<TorqueSaturation, TorqueGain, TorqueOffset, Cogging,                         // actuator
-                            WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                     // worm shaft
-                            MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift,  // mesh
-                            ToothCompliance, Backlash,                                                   // mesh
-                            GearCoulomb, GearViscous, GearInertia,                                       // gear shaft
-                            LoadMagnitude, LoadAngle, LoadSpring,                                        // load
-                            EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
+using EffectList =
+    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, TorqueGain, TorqueOffset, Cogging,  // actuator
+             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                          // worm shaft
+             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift, StaticFriction,  // mesh
+             TransmissionError, ToothCompliance, Backlash,                                                      // mesh
+             GearCoulomb, GearViscous, GearInertia,                 // gear shaft
+             LoadMagnitude, LoadAngle, LoadSpring,                  // load
+             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;  // sensor
 
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
@@ -71,6 +78,14 @@ struct Effects {
                      return e.torque_limit() < limit ? e.torque_limit() : limit;
                    });
   }
+  /// Delay of the command on its way to the motor [s].
+  T delay() const {
+    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.delay()) { return sum + e.delay(); });
+  }
+  /// Time constant with which the motor's torque follows [s], 0 for at once.
+  T lag() const {
+    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.lag()) { return sum + e.lag(); });
+  }
   /// Torque that the motor gives for a command [N m].
   template <class S>
   S motor_torque(const S& command, const Moment<S>& at) const {
@@ -92,7 +107,7 @@ struct Effects {
   }
   /// Coefficient of friction between the teeth out of the mesh's own.
   template <class S>
-  S friction(const S& mesh, const Contact<S>& at) const {
+  S friction(const S& mesh, const SlidingContact<S>& at) const {
     return through(mesh,
                    [&](const auto& e, const S& mu) -> decltype(e.friction(mu, at)) { return e.friction(mu, at); });
   }
@@ -109,6 +124,25 @@ struct Effects {
       if constexpr (requires { effect->friction_range(FrictionRange{}, 0.0); }) any = any || effect;
     });
     return any;
+  }
+  /// Highest angular frequency with which friction at rest changes [rad/s].
+  double fastest_at_rest() const {
+    return through(0.0, [](const auto& e, double) -> decltype(e.fastest_at_rest()) { return e.fastest_at_rest(); });
+  }
+  /// Whether the worm does not follow the gear with the ratio i throughout.
+  bool pitch_varies() const {
+    bool any = false;
+    for_each([&](const auto& effect) {
+      if constexpr (requires { effect->transmission(T(0)); }) any = any || effect;
+    });
+    return any;
+  }
+  /// How the worm follows the gear, per ratio i.
+  template <class S>
+  Transmission<S> transmission(const S& theta_g) const {
+    return through(
+        Transmission<S>{theta_g, S(T(1)), S(T(0))},
+        [&](const auto& e, const auto&) -> decltype(e.transmission(theta_g)) { return e.transmission(theta_g); });
   }
   /// Torque that the effects add on the gear shaft [N m].
   template <class S>
@@ -131,6 +165,12 @@ struct Effects {
     });
     return through(load.torque(seen), [&](const auto& e, const S& torque) -> decltype(e.load_torque(torque, at)) {
       return e.load_torque(torque, at);
+    });
+  }
+  /// Age of the angle that a sample sees [s].
+  T measuring_delay() const {
+    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.measuring_delay()) {
+      return sum + e.measuring_delay();
     });
   }
   /// The gear angle as the sensor sees it [rad].

@@ -25,15 +25,11 @@ Power power(const WormDrive<double, Load>& drive, const typename WormDrive<doubl
   return {o.tau_m * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
 }
 
-/// Kinetic energy (Jw i^2 + Jg) theta_g'^2 / 2 [J].
-template <class Load>
-double kinetic_energy(const WormDrive<double, Load>& drive, double omega_g) {
-  return 0.5 * (drive.mesh().Jw * drive.mesh().i * drive.mesh().i + drive.Jg()) * omega_g * omega_g;
-}
-
+/// Kinetic energy (Jw theta_w'^2 + Jg theta_g'^2) / 2 [J].
 template <class Load>
 double stored_energy(const WormDrive<double, Load>& drive, const typename WormDrive<double, Load>::Instant& now) {
-  return kinetic_energy(drive, now.x[1]);
+  const Moment<double> at = drive.moment(now);
+  return 0.5 * (drive.mesh().Jw * at.omega_w * at.omega_w + drive.Jg() * at.omega_g * at.omega_g);
 }
 
 /// By how much the mesh creates or destroys normal power, C(0) i - 1; 0 for a gear that closes.

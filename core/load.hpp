@@ -18,7 +18,8 @@ template <class Visit>
 constexpr void for_each_load(Visit&& visit) {
   [&]<std::size_t... K>(std::index_sequence<K...>) {
     (visit.template operator()<std::variant_alternative_t<K + 1, LoadParameters>>(), ...);
-  }(std::make_index_sequence<std::variant_size_v<LoadParameters> - 1>());
+  }
+  (std::make_index_sequence<std::variant_size_v<LoadParameters> - 1>());
 }
 
 inline TimedLoad make_load(const Signal& signal) { return {signal}; }
@@ -26,9 +27,7 @@ inline GravityLoad make_load(const GravityArm& arm) { return GravityLoad(arm); }
 inline TableLoad make_load(const AngleTable& table) { return TableLoad(table); }
 /// A load that enters the equations as it is stated.
 template <class Load>
-  requires requires(const Load& load) { load.next_knot(0.0); }
-Load make_load(const Load& load) {
-  return load;
-}
+requires requires(const Load& load) { load.next_knot(0.0); }
+Load make_load(const Load& load) { return load; }
 
 }  // namespace wormdrive

@@ -4,7 +4,8 @@
 
 namespace wormdrive {
 
-/// What equations may depend on: time [s], gear angle [rad], gear speed and worm speed [rad/s], worm angle [rad].
+/// What equations may depend on: time [s], gear angle [rad], gear speed and worm speed [rad/s], worm angle [rad], and
+/// how long the gear has been at rest [s], negative unless it is.
 template <class S>
 struct Moment {
   S t;
@@ -12,6 +13,7 @@ struct Moment {
   S omega_g;
   S omega_w;
   S theta_w{};
+  S rest{-1.0};
 };
 
 }  // namespace wormdrive

@@ -1,51 +1,116 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <utility>
 
+#include "core/lagged_piece.hpp"
 #include "core/limited_piece.hpp"
 #include "core/signal.hpp"
 
 namespace wormdrive {
 
-/// The torque that a motor is told to give: a signal over time and what a controller holds on top of it, cut at a
-/// limit, and frozen to the smooth piece that holds now.
+/// The torque that a motor gives on a command: a signal over time and what a controller holds on top of it, cut at a
+/// limit, delayed and lagged, and frozen to the smooth piece that holds now. Before the start the command is 0.
+template <class T>
 class MotorInput {
  public:
-  MotorInput(Signal signal, double limit) : signal_(std::move(signal)), limit_(limit) {}
+  /// limit [N m], infinity without one; delay [s]; time constant of the lag [s], 0 without one.
+  MotorInput(Signal signal, const T& limit, const T& delay, const T& lag)
+      : signal_(std::move(signal)), limit_(as_double(limit)), delay_(delay), late_(as_double(delay)), lag_(lag) {}
 
+  /// Forgets what was commanded, for a new run from its start.
+  void rewind() {
+    on_the_way_.clear();
+    held_ = knot_ = 0.0;
+    started_ = false;
+  }
   /// Freezes the torque to the piece that holds from t on.
   void enter(double t) {
-    piece_ = signal_.piece(t);
-    signal_constant_ = piece_.constant;
-    command(t, command_);
+    while (!on_the_way_.empty() && on_the_way_.front().arrival <= t) {
+      held_ = on_the_way_.front().torque;
+      on_the_way_.pop_front();
+    }
+    // A knot of the command arrives late_ after it; rounding must not make it a moment too early to be seen.
+    const double commanded = knot_ + late_ <= t ? std::max(t - late_, knot_) : t - late_;
+    const Piece signal = commanded < 0.0 ? Piece{} : signal_.piece(commanded);
+    knot_ = commanded < 0.0 ? 0.0 : signal_.next_knot(commanded);
+    signal_constant_ = signal.constant;
+    freeze(signal, t, commanded);
   }
-  /// Holds a torque [N m] from t on, in addition to the signal.
+  /// Commands a torque [N m] from t on, in addition to the signal.
   void command(double t, double torque) {
-    command_ = torque;
-    if (std::isinf(limit_)) {
-      piece_.constant = signal_constant_ + torque;
+    if (late_ > 0.0) {
+      on_the_way_.push_back({t + late_, torque});
       return;
     }
-    Piece unlimited = signal_.piece(t);
-    unlimited.constant += torque;
-    LimitedPiece cut = limited(unlimited, limit_, t);
-    piece_ = std::move(cut.piece);
-    limit_knot_ = cut.until;
+    held_ = torque;
+    if (std::isinf(limit_) && !lags())
+      piece_.constant = signal_constant_ + torque;
+    else
+      freeze(signal_.piece(t), t, t);
   }
 
-  /// The smooth piece that holds now [N m].
+  /// The torque at a time of the piece [N m].
+  template <class S>
+  S operator()(const S& t) const {
+    if (!lags()) return late_ > 0.0 ? piece_(t - delay_) : piece_(t);
+    return lagged_(t - delay_);
+  }
+  /// The smooth piece of the command that the motor has now; its time is delayed.
   const Piece& piece() const { return piece_; }
   /// First time after t at which the torque jumps or bends.
-  double next_knot(double t) const { return std::min(signal_.next_knot(t), limit_knot_); }
+  double next_knot(double t) const {
+    const double arrival = on_the_way_.empty() ? never : on_the_way_.front().arrival;
+    const double signal = late_ > 0.0 ? knot_ + late_ : signal_.next_knot(t);
+    return std::min({signal, limit_knot_ + late_, arrival});
+  }
+  /// Highest angular frequency of the torque, or rate of its decay [rad/s].
+  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / as_double(lag_)) : piece_.fastest(); }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  struct Command {
+    double arrival, torque;
+  };
+
+  static double as_double(double x) { return x; }
+  template <class Derivative>
+  static double as_double(const Derivative& x) {
+    return x.a;
+  }
+  bool lags() const { return lag_ > T(0); }
+
+  /// Takes up the piece of the signal that was commanded then and arrives at t.
+  void freeze(Piece piece, double t, double commanded) {
+    piece.constant += held_;
+    limit_knot_ = never;
+    if (!std::isinf(limit_)) {
+      LimitedPiece cut = limited(piece, limit_, commanded);
+      piece = std::move(cut.piece);
+      limit_knot_ = cut.until;
+    }
+    if (lags()) {
+      const T then = T(t) - delay_, before = started_ ? lagged_(then) : T(0);
+      lagged_ = {piece, lag_, then, before};
+      started_ = true;
+    }
+    piece_ = std::move(piece);
+  }
+
   Signal signal_;
   Piece piece_{};
-  double limit_;  ///< [N m], infinity without a limit
-  double signal_constant_ = 0.0, command_ = 0.0;
-  double limit_knot_ = std::numeric_limits<double>::infinity();  ///< when the limit begins or ends to cut [s]
+  double limit_;
+  T delay_;
+  double late_;  ///< the delay's value [s]
+  T lag_;
+  LaggedPiece<T> lagged_{};
+  bool started_ = false;
+  std::deque<Command> on_the_way_{};           ///< what a controller has commanded and has not arrived
+  double signal_constant_ = 0.0, held_ = 0.0;  ///< of the signal, and on top of it [N m]
+  double knot_ = 0.0;                          ///< the next knot of the signal [s], as commanded
+  double limit_knot_ = never;                  ///< when the limit begins or ends to cut [s], as commanded
 };
 
 }  // namespace wormdrive

@@ -18,4 +18,10 @@ constexpr std::string_view name(Place place) {
   return "";
 }
 
+/// Another effect with which an effect cannot be combined.
+struct Exclusion {
+  std::string_view id;   ///< of the other one
+  std::string_view why;  ///< what both would say, or what one leaves out
+};
+
 }  // namespace wormdrive

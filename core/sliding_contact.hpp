@@ -5,7 +5,7 @@ namespace wormdrive {
 
 /// What friction between the teeth may depend on: a moment, the direction of motion, and how fast the teeth slide.
 template <class S>
-struct Contact : Moment<S> {
+struct SlidingContact : Moment<S> {
   Motion motion;
   S sliding_speed;  ///< lw w_w / cos lambda [m/s], with the sign of the worm speed
 };

@@ -46,7 +46,8 @@ struct BreakInTorques {
   std::optional<double> forward, backward;
 };
 
-/// Break-in torques in both directions: -C1 tau_l and -C2 tau_l, which swap with the sign of tau_l [YehWu2009, eq. 9-10].
+/// Break-in torques in both directions: -C1 tau_l and -C2 tau_l, which swap with the sign of tau_l [YehWu2009, eq.
+/// 9-10].
 inline BreakInTorques break_in_torques(const GearMesh<double>& mesh, double tau_l) {
   const StickRegion region = stick_region(mesh, tau_l);
   if (region.outside) return {};

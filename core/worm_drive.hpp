@@ -3,27 +3,27 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include <Eigen/Core>
 #include <ceres/jet.h>
 
-#include "core/effects.hpp"
-#include "core/mesh.hpp"
-#include "core/moment.hpp"
-#include "core/motor_input.hpp"
 #include "core/observation.hpp"
 #include "core/series.hpp"
+#include "core/torque_balance.hpp"
 
 namespace wormdrive {
 
-/// The rigid worm drive as a hybrid system: in every mode one linear equation [YehWu2009, eq. 18-19], between modes
-/// guards and a jump. Inputs (motor torque and a load over time) are frozen to the smooth piece that holds now.
-///
-/// T is the scalar of the parameters, the scalar S of a moment may differ (derivatives along the motion).
+/// The rigid worm drive as a hybrid system: in every mode its torque balance, between modes guards and a jump.
 template <class T, class Load>
-class WormDrive {
+class WormDrive : public TorqueBalance<T, Load> {
+  using Balance = TorqueBalance<T, Load>;
+
  public:
+  using Balance::acceleration, Balance::beyond_surface, Balance::effects, Balance::fastest_input, Balance::inputs,
+      Balance::Jg, Balance::mesh, Balance::moment, Balance::side_torques, Balance::signed_friction, Balance::surface;
+  template <class S>
+  using SideTorques = typename Balance::template SideTorques<S>;
+
   static constexpr int state_size = 2;
   using State = Eigen::Matrix<T, 2, 1>;     ///< theta_g [rad], theta_g' [rad/s]
   using Jacobian = Eigen::Matrix<T, 2, 2>;  ///< d(theta_g', theta_g'')/d(theta_g, theta_g')
@@ -38,85 +38,14 @@ class WormDrive {
     double t{};
     State x = State::Zero();
     Mode mode{};
+    T since{};  ///< when the gear came to rest, if it is at rest
   };
 
-  WormDrive(GearMesh<T> mesh, Load load, Effects<T> effects, Signal motor)
-      : mesh_(std::move(mesh)),
-        load_(std::move(load)),
-        effects_(std::move(effects)),
-        motor_(std::move(motor), effects_.torque_limit()) {
-    mesh_.Jw = mesh_.Jw + effects_.worm_inertia();
-    mesh_.Jg = mesh_.Jg + effects_.gear_inertia();
-    Jw_i_ = mesh_.Jw * mesh_.i;
-    Jg_ = mesh_.Jg + load_.inertia();
-    friction_changes_ = effects_.change_friction();
-  }
-
-  /// The mesh with the inertias that effects add; its friction is that without effects.
-  const GearMesh<T>& mesh() const { return mesh_; }
-  const Load& load() const { return load_; }
-  const Effects<T>& effects() const { return effects_; }
-  /// Inertia of the gear side with the load's own [kg m^2].
-  T Jg() const { return Jg_; }
-  /// Slope of the switching surface, Jw i / Jg [YehWu2009, eq. 17].
-  T surface() const { return Jw_i_ / Jg_; }
-
-  // ---- inputs -------------------------------------------------------------------------------------------------
-
-  /// Freezes the inputs to the pieces that hold from t on.
-  void enter(double t) {
-    motor_.enter(t);
-    load_.enter(t);
-  }
-  /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.
-  void command(double t, double tau_m) { motor_.command(t, tau_m); }
-  /// The smooth piece of the motor's command that holds now [N m].
-  const Piece& motor_piece() const { return motor_.piece(); }
-  /// First time after t at which an input jumps or bends.
-  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
-  /// Highest angular frequency of the present inputs [rad/s].
-  double fastest_input() const { return std::max(motor_piece().fastest(), load_.fastest()); }
+  using Balance::Balance;
 
   // ---- continuous motion --------------------------------------------------------------------------------------
 
-  template <class S>
-  Moment<S> moment(const S& t, const S& theta_g, const S& omega_g) const {
-    return {t, theta_g, omega_g, mesh_.i * omega_g, mesh_.i * theta_g};
-  }
-  Moment<T> moment(const Instant& now) const { return moment(T(now.t), now.x[0], now.x[1]); }
-  /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
-  template <class S>
-  struct SideTorques {
-    S worm, gear;
-  };
-  /// Those of motor and load alone.
-  template <class S>
-  SideTorques<S> inputs(const Moment<S>& at) const {
-    return {effects_.motor_torque(motor_piece()(at.t), at), effects_.load_torque(load_, at)};
-  }
-  template <class S>
-  SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
-    return side_torques(inputs(at), at, motion);
-  }
-
-  /// Coefficient of friction between the teeth while the drive moves, or starts to move, in a direction.
-  template <class S>
-  S friction(const Moment<S>& at, Motion motion) const {
-    return effects_.friction(S(mesh_.mu), Contact<S>{at, motion, mesh_.sliding_speed(at.omega_w)});
-  }
-
-  /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
-  template <class S>
-  S beyond_surface(const Moment<S>& at, Motion motion) const {
-    const SideTorques<S> tau = side_torques(at, motion);
-    return tau.worm - surface() * tau.gear;
-  }
-
-  /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
-  template <class S>
-  S acceleration(const Moment<S>& at, Mode mode) const {
-    return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), at, mode);
-  }
+  Moment<T> moment(const Instant& now) const { return resting(moment(T(now.t), now.x[0], now.x[1]), now); }
 
   State derivative(double t, const State& x, Mode mode) const {
     return {mode.motion == Motion::stuck ? T(0) : x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
@@ -138,9 +67,8 @@ class WormDrive {
     at.theta_g[1] = now.x[1];
     at.omega_g[1] = acceleration(moment(now), now.mode);
     for (int k = 1;; ++k) {
-      at.omega_w = mesh_.i * at.omega_g;
-      at.theta_w = mesh_.i * at.theta_g;
-      if (k == N) return at;
+      this->turn_worm(at);
+      if (k == N) return resting(at, now);
       const Flow a = acceleration(at, now.mode);
       at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
       at.omega_g[k + 1] = a[k] / T(k + 1);
@@ -168,7 +96,7 @@ class WormDrive {
     Series<T, 1> theta_g(now.x[0]), omega_g(now.x[1]);
     theta_g[1] = now.x[1];
     omega_g[1] = acceleration(moment(now), now.mode);
-    return guards(moment(Series<T, 1>::variable(T(now.t)), theta_g, omega_g), now.mode);
+    return guards(resting(moment(Series<T, 1>::variable(T(now.t)), theta_g, omega_g), now), now.mode);
   }
 
   static std::string_view guard_name(Mode mode, int guard) {
@@ -182,6 +110,7 @@ class WormDrive {
       now.mode = moving(now, guard == forward_guard ? Motion::forward : Motion::backward);
     } else if (guard == speed_guard) {
       now.x[1] = T(0);
+      now.since = T(now.t);
       const Motion reversed = now.mode.motion == Motion::forward ? Motion::backward : Motion::forward;
       now.mode = starts(now, reversed) ? moving(now, reversed) : Mode{};
     } else {
@@ -199,7 +128,7 @@ class WormDrive {
   }
 
   /// The gear angle that the sensor sees [rad].
-  T measured_angle(const Instant& now) const { return effects_.measured_angle(now.x[0]); }
+  T measured_angle(const Instant& now) const { return effects().measured_angle(now.x[0]); }
 
   // ---- what is reported ---------------------------------------------------------------------------------------
 
@@ -207,31 +136,21 @@ class WormDrive {
     const Moment<double> at = moment(now);
     const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
     const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
-    return {
-        .theta_g = now.x[0],
-        .omega_g = now.x[1],
-        .alpha_g = alpha,
-        .tau_m = input.worm,
-        .tau_l = input.gear,
-        .normal_force = mesh_.normal_force(tau.worm, tau.gear, Jg_ * alpha, now.mode, signed_friction(at, now.mode)),
-        .mode = now.mode};
+    return {.theta_g = now.x[0],
+            .omega_g = now.x[1],
+            .alpha_g = alpha,
+            .tau_m = input.worm,
+            .tau_l = input.gear,
+            .normal_force = mesh().normal_force(this->along_gear(tau.worm, at), tau.gear, Jg() * alpha, now.mode,
+                                                signed_friction(at, now.mode)),
+            .mode = now.mode};
   }
 
  private:
   template <class S>
-  SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
-    return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
-  }
-  /// m = motion * flank * mu.
-  template <class S>
-  S signed_friction(const Moment<S>& at, Mode mode) const {
-    if (!friction_changes_) return S(T(mode.product()) * mesh_.mu);
-    return S(T(mode.product())) * friction(at, mode.motion);
-  }
-  template <class S>
-  S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
-    const S C = mesh_.C(signed_friction(at, mode));
-    return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+  static Moment<S> resting(Moment<S> at, const Instant& now) {
+    if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
+    return at;
   }
   /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
   /// better than the square root of epsilon in its period; still far below anything mechanical.
@@ -250,27 +169,29 @@ class WormDrive {
   }
   template <class S>
   Flank flank_at(const S& beyond) const {
-    if (!mesh_.has_teeth) return Flank::none;
+    if (!mesh().has_teeth) return Flank::none;
     return beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
 
   /// Whether the gear starts from rest in this direction: by its acceleration now or, where that is zero, just after.
   bool starts(const Instant& now, Motion motion) const {
-    const Instant rest{now.t, {now.x[0], T(0)}, {}};
+    const Instant rest{now.t, {now.x[0], T(0)}, {}, now.since};
     const T a_now = release_acceleration(moment(rest), motion);
-    if (lasts(a_now * Jw_i_, side_torques(moment(rest), motion))) return (a_now > T(0)) == (motion == Motion::forward);
+    if (lasts(a_now * mesh().Jw * mesh().i, side_torques(moment(rest), motion)))
+      return (a_now > T(0)) == (motion == Motion::forward);
     const auto a = release_acceleration(ahead<order>(rest), motion);
     return a[0] != T(0) && sign_just_after(a, instant()) == sign(motion);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
   Mode moving(const Instant& now, Motion motion) const {
-    if (!mesh_.has_teeth) return {motion, Flank::none};
-    const SideTorques<T> tau = side_torques(moment(now), motion);
-    const T distance = tau.worm - surface() * tau.gear;
+    if (!mesh().has_teeth) return {motion, Flank::none};
+    const Moment<T> at = moment(now);
+    const SideTorques<T> tau = side_torques(at, motion);
+    const T distance = beyond_surface(tau, at);
     const Flank now_on = flank_at(distance);
     if (lasts(distance, tau)) return {motion, now_on};
-    const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}}), motion);
+    const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}, now.since}), motion);
     return {motion, sign_just_after(beyond, instant()) > 0 ? Flank::right : Flank::left};
   }
 
@@ -285,13 +206,6 @@ class WormDrive {
     if (side == 0) return now.mode.flank == Flank::left ? Flank::right : Flank::left;
     return side > 0 ? Flank::right : Flank::left;
   }
-
-  GearMesh<T> mesh_;
-  Load load_;
-  Effects<T> effects_;
-  MotorInput motor_;
-  T Jw_i_{}, Jg_{};
-  bool friction_changes_ = false;  ///< else C is that of the mesh alone
 };
 
 }  // namespace wormdrive

@@ -13,6 +13,8 @@ namespace wormdrive {
 /// Open loop: nobody samples.
 struct NoController {
   template <class System>
+  void latch(const System&, const typename System::Instant&) {}
+  template <class System>
   double sample(const System&, const typename System::Instant&) {
     return 0.0;
   }
@@ -37,7 +39,8 @@ typename System::Mode settle(const System& system, Solver& solver, const typenam
 
 /// Runs a hybrid system to the end of its timetable and returns its last instant.
 ///
-/// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next.
+/// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next;
+/// latch(system, now) comes before it, where samples see an older angle.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
 /// returns the guard at which it stopped, if any. record(system, now) sees every report and both sides of every event,
 /// in order. Throws Halt when the run cannot go on.
@@ -53,6 +56,7 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         timetable.schedule_knot(system.next_knot(now.t));
         now.mode = system.settle(now);
         break;
+      case Reason::latch: controller.latch(system, now); break;
       case Reason::sample: {
         const double tau_m = controller.sample(system, now);
         if (!std::isfinite(tau_m))
@@ -71,7 +75,7 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
       case Reason::report: break;
       case Reason::end: return now;
     }
-    if (reason != Reason::report) {
+    if (reason != Reason::report && reason != Reason::latch) {
       record(system, now);
       if (!System::at_rest(now.mode)) solver.restart(now);
     }
@@ -81,8 +85,8 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
     } catch (const SolverFault& fault) {
       throw log.halt(now.t, now.mode, fault.what());
     }
-    record(system, now);
     reason = guard ? Reason::guard : timetable.pop();
+    if (reason != Reason::latch) record(system, now);
   }
 }
 

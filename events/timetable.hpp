@@ -8,6 +8,7 @@ namespace wormdrive {
 /// Why an integration pauses.
 enum class Reason {
   knot,    ///< an input jumps or bends
+  latch,   ///< the sensor takes the angle that a later sample will see; nothing changes
   sample,  ///< the controller takes a sample
   guard,   ///< a guard of the present mode fell through zero
   report,  ///< a row is due; nothing changes
@@ -18,6 +19,7 @@ enum class Reason {
 struct Sampling {
   double period = std::numeric_limits<double>::infinity();
   double offset = std::numeric_limits<double>::infinity();
+  double age = 0.0;  ///< of the angle that a sample sees [s]; above 0 every sample has a latch that long before it
 };
 
 /// The time events of a run: knots of the inputs, samples, reports at begin + k interval, the end.
@@ -27,20 +29,26 @@ class Timetable {
   Timetable(double begin, double end, double report_interval, Sampling sampling = {})
       : begin_(begin), end_(end), interval_(report_interval), knot_(begin), sampling_(sampling) {
     schedule_sample();
+    schedule_latch();
     schedule_report();
   }
 
   /// The next time event of any kind.
-  double next_time() const { return std::min(next_stop(), report_); }
+  double next_time() const { return std::min({next_stop(), latch_, report_}); }
   /// The next time past which no solver may look: behind it the inputs differ.
   double next_stop() const { return std::min({knot_, sample_, end_}); }
 
-  /// Takes the event that is due at next_time(); simultaneous ones in the order knot, sample, report, end.
+  /// Takes the event that is due at next_time(); simultaneous ones in the order knot, latch, sample, report, end.
   Reason pop() {
     const double t = next_time();
     if (knot_ <= t && knot_ < end_) {
       knot_ = std::numeric_limits<double>::infinity();
       return Reason::knot;
+    }
+    if (latch_ <= t && latch_ < end_) {
+      ++latches_;
+      schedule_latch();
+      return Reason::latch;
     }
     if (sample_ <= t && sample_ < end_) {
       ++samples_;
@@ -59,10 +67,14 @@ class Timetable {
 
  private:
   // Counted, not accumulated, so that the k-th sample or report is where its number says.
-  void schedule_sample() {
+  double sample_time(long k) const {
     // 0 times an infinite period would not be a number
-    const double since = samples_ == 0 ? 0.0 : static_cast<double>(samples_) * sampling_.period;
-    sample_ = begin_ + sampling_.offset + since;
+    return begin_ + sampling_.offset + (k == 0 ? 0.0 : static_cast<double>(k) * sampling_.period);
+  }
+  void schedule_sample() { sample_ = sample_time(samples_); }
+  /// What a sample sees from before the begin is the angle at the begin.
+  void schedule_latch() {
+    if (sampling_.age > 0.0) latch_ = std::max(begin_, sample_time(latches_) - sampling_.age);
   }
   /// A report on the end is the end's own row.
   void schedule_report() {
@@ -72,8 +84,8 @@ class Timetable {
 
   double begin_, end_, interval_, knot_;
   Sampling sampling_;
-  double sample_ = 0.0, report_ = 0.0;
-  long samples_ = 0, reports_ = 1;
+  double sample_ = 0.0, latch_ = std::numeric_limits<double>::infinity(), report_ = 0.0;
+  long samples_ = 0, latches_ = 0, reports_ = 1;
 };
 
 /// True where so little time is left that a solver could not take a step: at most 2 ulp of t.

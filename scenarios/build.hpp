@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <variant>
 
 #include "core/worm_drive.hpp"
@@ -24,12 +25,14 @@ decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
       scenario.load);
 }
 
-/// The mesh of a scenario with what its effects add to the inertias and, at the start and at rest, to the friction;
-/// with a direction, as the drive starts to move in it.
+/// The mesh of a scenario with what its effects add to the inertias and, at the start and after a long rest, to the
+/// friction; with a direction, as the drive starts to move in it.
 inline GearMesh<double> make_mesh(const Scenario& scenario, Motion motion = Motion::stuck) {
   return with_drive(scenario, [&](const auto& drive) {
     GearMesh<double> mesh = drive.mesh();
-    if (mesh.has_teeth) mesh.mu = drive.friction(drive.moment(0.0, scenario.initial.theta_g, 0.0), motion);
+    Moment<double> at = drive.moment(0.0, scenario.initial.theta_g, 0.0);
+    at.rest = std::numeric_limits<double>::infinity();
+    if (mesh.has_teeth) mesh.mu = drive.friction(at, motion);
     return mesh;
   });
 }

@@ -23,7 +23,7 @@ inline std::optional<double> constant_torque(const Signal& signal) {
   return sum;
 }
 
-/// The nominal model that knows the drive exactly; a load other than an arm or a constant is taken for 0.
+/// The drive of a scenario as a nominal model; a load other than an arm or a constant is taken for 0.
 inline NominalModel exact_nominal(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   NominalModel exact{mesh.C1(), mesh.C2(), mesh.Jw * mesh.i, total_gear_inertia(scenario)};
@@ -33,26 +33,39 @@ inline NominalModel exact_nominal(const Scenario& scenario) {
   } else if (const auto* signal = std::get_if<Signal>(&scenario.load)) {
     exact.load_constant = constant_torque(*signal).value_or(0.0);
   }
+  if (const auto& magnitude = std::get<std::optional<LoadMagnitude<double>>>(scenario.effects.list)) {
+    exact.load_torque *= 1.0 + magnitude->share;
+    exact.load_constant *= 1.0 + magnitude->share;
+  }
+  if (const auto& angle = std::get<std::optional<LoadAngle<double>>>(scenario.effects.list))
+    exact.load_angle_offset += angle->shift;
   return exact;
 }
 
-/// What the controller believes: as stated, else what the drive is.
+/// A scenario as the nominal drive: what effects add is what its controller does not know.
+inline Scenario without_effects(Scenario scenario) {
+  scenario.effects = {};
+  return scenario;
+}
+
+/// What the controller believes: as stated, else what mesh and load state.
 inline NominalModel make_nominal(const Scenario& scenario) {
-  return completed(scenario.control->nominal, exact_nominal(scenario));
+  return completed(scenario.control->nominal, exact_nominal(without_effects(scenario)));
 }
 inline Variations make_variations(const Scenario& scenario) {
-  return in_terms_of_C(scenario.control->variations, make_mesh(scenario));
+  return in_terms_of_C(scenario.control->variations, stated_mesh(scenario));
 }
 
 /// Whether the load is one that a nominal model can describe.
-inline bool is_estimable(const LoadParameters& load) {
-  const auto* signal = std::get_if<Signal>(&load);
-  return std::holds_alternative<GravityArm>(load) || (signal && constant_torque(*signal));
+inline bool is_estimable(const Scenario& scenario) {
+  if (std::get<std::optional<LoadSpring<double>>>(scenario.effects.list)) return false;
+  const auto* signal = std::get_if<Signal>(&scenario.load);
+  return std::holds_alternative<GravityArm>(scenario.load) || (signal && constant_torque(*signal));
 }
 
 /// Largest |tau_l - tau_l_hat| [N m] over all angles; unknown, infinity, for a load that no nominal model describes.
 inline double largest_load_error(const Scenario& scenario) {
-  if (!is_estimable(scenario.load)) return std::numeric_limits<double>::infinity();
+  if (!is_estimable(scenario)) return std::numeric_limits<double>::infinity();
   const NominalModel exact = exact_nominal(scenario), nominal = make_nominal(scenario);
   const auto arm = [](const NominalModel& n) { return std::polar(1.0, n.load_angle_offset) * n.load_torque; };
   return std::abs(arm(exact) - arm(nominal)) + std::abs(exact.load_constant - nominal.load_constant);

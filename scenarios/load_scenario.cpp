@@ -2,17 +2,17 @@
 
 #include <cmath>
 #include <filesystem>
-#include <type_traits>
 
 #include <fmt/format.h>
 
+#include "core/elastic_teeth.hpp"
 #include "scenarios/build.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/read_control.hpp"
+#include "scenarios/read_effects.hpp"
 #include "scenarios/read_load.hpp"
 #include "scenarios/read_reference.hpp"
 #include "scenarios/read_signal.hpp"
-#include "scenarios/refuse_teeth.hpp"
 #include "scenarios/table_reader.hpp"
 
 namespace wormdrive {
@@ -30,7 +30,7 @@ class ScenarioReader {
     read_mesh();
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());
-    read_effects(purpose);
+    read_effects(root_, scenario_, purpose);
     root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
     read_control(root_, scenario_, folder());
@@ -74,49 +74,6 @@ class ScenarioReader {
       signal = read_signal(motor.tables("torque"), "motor.torque", motor, folder());
     });
     return signal;
-  }
-
-  void read_effects(Purpose purpose) {
-    root_.section("effect", [&](TableReader& effects) {
-      scenario_.effects.for_each([&](auto& effect) {
-        using Effect = typename std::decay_t<decltype(effect)>::value_type;
-        const toml::table* table = effects.table(std::string(Effect::id));
-        if (!table) return;
-        TableReader reader(table, fmt::format("effect.{}", Effect::id), scenario_.axis, faults_, effects.where());
-        const bool on = reader.truth("on").value_or(true);
-        Effect parameters;
-        reader.read_fields(parameters);
-        if constexpr (requires { parameters.exponent; }) require_whole(reader, "exponent", parameters.exponent);
-        reader.finish();
-        if (!on) return;
-        effect = parameters;
-        if (purpose == Purpose::look || !faults_.empty()) return;
-        if (const std::string why_not = refusal(parameters); !why_not.empty())
-          effects.fault(std::string(Effect::id), fmt::format("effect.{} {}", Effect::id, why_not));
-      });
-    });
-  }
-
-  /// What the bounds of an effect's fields cannot say; empty if nothing speaks against it.
-  template <class Effect>
-  std::string refusal(const Effect& effect) const {
-    if constexpr (requires { teeth_refusal(effect, scenario_); }) return teeth_refusal(effect, scenario_);
-    const GearMesh<double> mesh = stated_mesh(scenario_);
-    if (Effect::place == Place::mesh && !mesh.has_teeth) return "needs teeth that rub, and mesh.kind is \"none\"";
-    if constexpr (std::is_same_v<Effect, WormInertia<double>>)
-      if (mesh.has_teeth ? mesh.Jw + effect.inertia <= 0.0 : effect.inertia < 0.0)
-        return fmt::format("leaves no inertia on the worm side: {} + {} kg m^2", mesh.Jw, effect.inertia);
-    if constexpr (std::is_same_v<Effect, GearInertia<double>>)
-      if (mesh.Jg + effect.inertia <= 0.0)
-        return fmt::format("leaves no inertia on the gear side: {} + {} kg m^2", mesh.Jg, effect.inertia);
-    if constexpr (std::is_same_v<Effect, BearingAsymmetry<double>>) {
-      const auto& dry = std::get<std::optional<WormCoulomb<double>>>(scenario_.effects.list);
-      const auto& viscous = std::get<std::optional<WormViscous<double>>>(scenario_.effects.list);
-      if (std::abs(effect.torque) > (dry ? dry->torque : 0.0) ||
-          std::abs(effect.coefficient) > (viscous ? viscous->coefficient : 0.0))
-        return "is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm";
-    }
-    return "";
   }
 
   void read_run(Purpose purpose) {

@@ -18,9 +18,14 @@ class Replay : public Drive {
   Replay(const Drive& drive, std::vector<Held> held) : Drive(drive), held_(std::move(held)) {}
 
   void enter(double t) {
-    Drive::enter(t);
-    const auto next = after(t);
-    if (next != held_.begin()) Drive::command(t, std::prev(next)->torque);
+    if (t < entered_) {
+      Drive::rewind();
+      entered_ = -std::numeric_limits<double>::infinity();
+      issued_ = 0;
+    }
+    // a torque that lags or is delayed hangs on everything that came before it
+    for (double next = next_knot(entered_); next < t; next = next_knot(next)) take_up(next);
+    take_up(t);
   }
   double next_knot(double t) const {
     const auto next = after(t);
@@ -28,10 +33,18 @@ class Replay : public Drive {
   }
 
  private:
+  void take_up(double t) {
+    Drive::enter(t);
+    for (; issued_ < held_.size() && held_[issued_].t <= t; ++issued_)
+      Drive::command(held_[issued_].t, held_[issued_].torque);
+    entered_ = t;
+  }
   auto after(double t) const {
     return std::upper_bound(held_.begin(), held_.end(), t, [](double a, const Held& h) { return a < h.t; });
   }
   std::vector<Held> held_;
+  std::size_t issued_ = 0;
+  double entered_ = std::numeric_limits<double>::infinity();  ///< [s]; the drive has been through a run
 };
 
 }  // namespace wormdrive

@@ -64,7 +64,7 @@ class DriveRun {
       if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied});
     };
     const Timetable timetable(0.0, scenario_.run.duration, scenario_.run.rows_every(),
-                              {control.sampling.period, control.sampling.offset});
+                              {control.sampling.period, control.sampling.offset, drive_.effects().measuring_delay()});
     std::visit(
         [&](const auto& law) {
           ClosedLoop loop(make_controller(law, nominal, variations), control.reference, control.sensor,

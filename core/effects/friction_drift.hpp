@@ -3,9 +3,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/sliding_contact.hpp"
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/sliding_contact.hpp"
 
 namespace wormdrive {
 
@@ -26,7 +26,7 @@ struct FrictionDrift {
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>
-  S friction(const S& mu, const Contact<S>& at) const {
+  S friction(const S& mu, const SlidingContact<S>& at) const {
     return mu + mu * (share / time * at.t);
   }
   FrictionRange friction_range(const FrictionRange& mu, double end) const {

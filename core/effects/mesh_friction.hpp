@@ -2,9 +2,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/sliding_contact.hpp"
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/sliding_contact.hpp"
 
 namespace wormdrive {
 
@@ -23,7 +23,7 @@ struct MeshFriction {
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>
-  S friction(const S& mu, const Contact<S>&) const {
+  S friction(const S& mu, const SlidingContact<S>&) const {
     return mu + change;
   }
   FrictionRange friction_range(const FrictionRange& mu, double) const { return {mu.low + change, mu.high + change}; }

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/sliding_contact.hpp"
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/sliding_contact.hpp"
 
 namespace wormdrive {
 
@@ -25,7 +25,7 @@ struct PositionFriction {
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>
-  S friction(const S& mu, const Contact<S>& at) const {
+  S friction(const S& mu, const SlidingContact<S>& at) const {
     using std::sin;
     return mu + mu * (amplitude * sin(at.theta_g + phase));
   }

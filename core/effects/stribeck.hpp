@@ -4,9 +4,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/sliding_contact.hpp"
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/sliding_contact.hpp"
 
 namespace wormdrive {
 
@@ -31,7 +31,7 @@ struct Stribeck {
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>
-  S friction(const S& mu, const Contact<S>& at) const {
+  S friction(const S& mu, const SlidingContact<S>& at) const {
     using std::exp;
     // |v| by the sign of the motion: smooth where an integrator looks beyond a reversal, and bounded beyond that
     S x = T(sign(at.motion)) * at.sliding_speed / speed;

@@ -18,6 +18,10 @@ TEST_CASE("an effect out of its bounds is told with the rule") {
        "s.toml:21:17: error: effect.stribeck.speed_m_per_s = 0 m/s must be greater than 0 m/s"},
       {"half an exponent", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\nexponent = 1.5\n"),
        "s.toml:22:12: error: effect.stribeck.exponent = 1.5 must be a whole number"},
+      {"a lag of nothing", with("[effect.actuator_lag]\ntime_constant_s = 0\n"),
+       "s.toml:20:19: error: effect.actuator_lag.time_constant_s = 0 s must be greater than 0 s"},
+      {"a sensor that foresees", with("[effect.encoder_delay]\ndelay_s = -1e-3\n"),
+       "s.toml:20:11: error: effect.encoder_delay.delay_s = -0.001 s must be at least 0 s"},
       {"a dead motor", with("[effect.torque_gain]\nshare = -1\n"),
        "s.toml:20:9: error: effect.torque_gain.share = -1 must be greater than -1"},
       {"too eccentric", with("[effect.position_friction]\namplitude = 1.1\nphase_deg = 0\n"),
@@ -27,13 +31,23 @@ TEST_CASE("an effect out of its bounds is told with the rule") {
 TEST_CASE("an effect that contradicts the drive is told with what it would come to") {
   refuse_all(Folder(), {
       {"no teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n[run]\nduration_s = 1\n[effect.mesh_friction]\nchange = 0.1\n",
-       "s.toml:6:1: error: effect.mesh_friction needs teeth that rub, and mesh.kind is \"none\""},
+       "s.toml:6:1: error: effect.mesh_friction needs teeth, and mesh.kind is \"none\""},
       {"no worm", with("[effect.worm_inertia]\ninertia_kgm2 = -2.53e-5\n"),
        "s.toml:19:1: error: effect.worm_inertia leaves no inertia on the worm side: 2.53e-05 + -2.53e-05 kg m^2"},
       {"no gear", with("[effect.gear_inertia]\ninertia_kgm2 = -1e-3\n"),
        "s.toml:19:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.000739 + -0.001 kg m^2"},
       {"a bearing that drives", with("[effect.bearing_asymmetry]\ntorque_Nm = 0.002\ncoefficient_Nms_per_rad = 0\n[effect.worm_coulomb]\ntorque_Nm = 0.001\n"),
        "s.toml:19:1: error: effect.bearing_asymmetry is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm"}});
+}
+
+TEST_CASE("two effects that say the same, or of which one leaves out the other, are told with the reason") {
+  refuse_all(Folder(), {
+      {"two curves", with("[effect.agma]\n[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\n"),
+       "s.toml:19:1: error: effect.agma excludes effect.stribeck: both say how friction falls with the sliding speed; keep one of them"},
+      {"rest on elastic teeth", with("[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n[effect.static_friction]\nrise = 0.05\n"),
+       "s.toml:22:1: error: effect.static_friction excludes effect.tooth_compliance: elastic teeth hold with the friction of sliding; keep one of them"},
+      {"uneven elastic teeth", with("[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n[effect.transmission_error]\namplitude_deg = 0.1\nphase_deg = 0\n"),
+       "s.toml:22:1: error: effect.transmission_error excludes effect.tooth_compliance: elastic teeth run at an even pitch; keep one of them"}});
 }
 
 TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 is told with how far it goes") {

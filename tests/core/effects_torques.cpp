@@ -65,7 +65,7 @@ TEST_CASE(
   const auto potential = [&](double theta_g) { return A / N * std::cos(N * 60.0 * theta_g + p); };
   for (const By by : every_solver) {
     const auto end = after_a_second(d, by, 0.1, omega);
-    const double gained = kinetic_energy(d, end.x[1]) - kinetic_energy(d, omega);
+    const double gained = stored_energy(d, end) - stored_energy(d, {0.0, {0.1, omega}, {}});
     REQUIRE(std::abs(gained) >= 1e-5);
     REQUIRE(std::abs(gained + potential(end.x[0]) - potential(0.1)) <= 1e-10);
   }
@@ -114,7 +114,7 @@ TEST_CASE("worm_inertia and gear_inertia: the drive is the one whose mesh states
     const auto at = stated.moment(0.1, 0.4, sign(mode.motion) * 1.0);
     REQUIRE(stated.acceleration(at, mode) == added.acceleration(at, mode));
   }
-  REQUIRE(kinetic_energy(stated, 2.0) == kinetic_energy(added, 2.0));
+  REQUIRE(stored_energy(stated, {0.0, {0.0, 2.0}, {}}) == stored_energy(added, {0.0, {0.0, 2.0}, {}}));
 }
 
 TEST_CASE("worm_inertia: without a gear 0.5 kg m^2 on a wheel of 2 turns a parabola of torque/2.5") {
@@ -199,7 +199,7 @@ TEST_CASE("with every effect on, motor and load still pay for friction and kinet
         auto now = decltype(d)::Instant{0.1, {theta, sign(motion) * speed}, {}};
         now.mode = d.settle(now);
         const Power flow = power(d, now);
-        const double gained = 2.0 * kinetic_energy(d, 1.0) * d.observe(now).alpha_g * now.x[1];
+        const double gained = 2.0 * stored_energy(d, {0.0, {0.0, 1.0}, {}}) * d.observe(now).alpha_g * now.x[1];
         REQUIRE(flow.loss > 0.0);
         REQUIRE(std::abs(flow.motor + flow.load - flow.loss - gained) <=
                 1e-12 * (std::abs(flow.motor) + std::abs(flow.load)));

@@ -123,6 +123,8 @@ void maybe(Dice& dice, Effects<double>& on, const Effect& effect) {
 /// A third of the effects that the nominal drive does not have, each of a size that shows.
 Effects<double> random_effects(Dice& dice) {
   Effects<double> on = effects(WormCoulomb<double>{2e-3}, WormViscous<double>{2e-5});
+  maybe(dice, on, ActuatorDelay<double>{dice.between(0, 0.05)});
+  maybe(dice, on, ActuatorLag<double>{dice.between(0.002, 0.05)});
   maybe(dice, on, TorqueGain<double>{dice.between(-0.3, 0.3)});
   maybe(dice, on, TorqueOffset<double>{dice.between(-0.01, 0.01)});
   maybe(dice, on, Cogging<double>{dice.between(0, 0.005), 1.0 + dice.below(3), dice.between(0, 6)});
@@ -133,6 +135,8 @@ Effects<double> random_effects(Dice& dice) {
   maybe(dice, on, FrictionAsymmetry<double>{dice.between(-0.03, 0.03)});
   maybe(dice, on, PositionFriction<double>{dice.between(0, 0.3), dice.between(0, 6)});
   maybe(dice, on, FrictionDrift<double>{dice.between(-0.3, 0.3), duration});
+  maybe(dice, on, StaticFriction<double>{dice.between(0, 0.05), dice.one_in(2) ? 0.0 : dice.between(0.05, 0.5)});
+  maybe(dice, on, TransmissionError<double>{dice.between(-0.05, 0.05), dice.between(0, 6)});
   maybe(dice, on, GearInertia<double>{dice.between(-2e-4, 1e-3)});
   maybe(dice, on, LoadMagnitude<double>{dice.between(-0.3, 0.3)});
   maybe(dice, on, LoadAngle<double>{dice.between(-1, 1)});

@@ -1,0 +1,42 @@
+#pragma once
+#include <cmath>
+#include <string_view>
+#include <tuple>
+
+#include "core/field.hpp"
+#include "core/place.hpp"
+#include "core/sliding_contact.hpp"
+
+namespace wormdrive {
+
+/// Teeth at rest hold more than sliding ones: mu + rise, with a growth time mu + rise (1 - exp(-rest/growth_time)),
+/// where rest is how long the gear has been at rest [Coulomb 1785].
+template <class T>
+struct StaticFriction {
+  static constexpr std::string_view id = "static_friction";
+  static constexpr Place place = Place::mesh;
+  static constexpr std::string_view cause =
+      "at rest the teeth press the lubricant out of the contact, the longer the more";
+  static constexpr Exclusion excludes[] = {{"tooth_compliance", "elastic teeth hold with the friction of sliding"}};
+  T rise{};
+  T growth_time{0};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&StaticFriction::rise, "rise", unit::none, bounds::not_negative,
+                            "what the coefficient of friction at break-away has beside that of sliding"},
+                      Field{&StaticFriction::growth_time, "growth_time", unit::second, bounds::not_negative,
+                            "time at rest after which 63 % of the rise hold; 0 is at once", Presence::optional}};
+  }
+  /// Coefficient of friction out of that without this effect.
+  template <class S>
+  S friction(const S& mu, const SlidingContact<S>& at) const {
+    using std::exp;
+    if (at.rest < S(T(0))) return mu;
+    return growth_time > T(0) ? mu + rise * (S(T(1)) - exp(-at.rest / growth_time)) : mu + S(rise);
+  }
+  FrictionRange friction_range(const FrictionRange& mu, double) const { return {mu.low, mu.high + rise}; }
+  /// Highest angular frequency with which friction at rest changes [rad/s].
+  double fastest_at_rest() const { return growth_time > T(0) ? 1.0 / static_cast<double>(growth_time) : 0.0; }
+};
+
+}  // namespace wormdrive

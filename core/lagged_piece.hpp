@@ -1,0 +1,42 @@
+#pragma once
+#include <cmath>
+#include <utility>
+
+#include "core/piece.hpp"
+
+namespace wormdrive {
+
+/// What a first-order lag, lag y' = u - y, makes of a piece u of a signal, in closed form: the response that stays,
+/// and a rest of what was before that decays.
+template <class T>
+class LaggedPiece {
+ public:
+  LaggedPiece() = default;
+  /// lag [s]; y(begin) = y_begin.
+  LaggedPiece(Piece u, const T& lag, const T& begin, const T& y_begin)
+      : u_(std::move(u)), lag_(lag), begin_(begin), excess_(y_begin - staying(begin)) {}
+
+  template <class S>
+  S operator()(const S& t) const {
+    using std::exp;
+    return staying(t) + excess_ * exp((begin_ - t) / lag_);
+  }
+
+ private:
+  template <class S>
+  S staying(const S& t) const {
+    using std::cos, std::sin;
+    S y = u_.constant + u_.slope * (t - u_.start - lag_);
+    for (const Cosine& c : u_.cosines) {
+      const T turn = c.omega * lag_;
+      const S x = c.omega * t + c.phase;
+      y += c.amplitude / (1.0 + turn * turn) * (cos(x) + turn * sin(x));
+    }
+    return y;
+  }
+
+  Piece u_{};
+  T lag_{1.0}, begin_{}, excess_{};
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,154 @@
+#pragma once
+#include <algorithm>
+#include <utility>
+
+#include "core/effects.hpp"
+#include "core/mesh.hpp"
+#include "core/moment.hpp"
+#include "core/motor_input.hpp"
+
+namespace wormdrive {
+
+/// The torques on both shafts of a rigid worm drive and what they come to in a mode: one linear equation [YehWu2009,
+/// eq. 18-19]. Inputs (motor torque and a load over time) are frozen to the smooth piece that holds now.
+///
+/// T is the scalar of the parameters, the scalar S of a moment may differ (derivatives along the motion).
+template <class T, class Load>
+class TorqueBalance {
+ public:
+  TorqueBalance(GearMesh<T> mesh, Load load, Effects<T> effects, Signal motor)
+      : mesh_(std::move(mesh)),
+        load_(std::move(load)),
+        effects_(std::move(effects)),
+        motor_(std::move(motor), effects_.torque_limit(), effects_.delay(), effects_.lag()) {
+    mesh_.Jw = mesh_.Jw + effects_.worm_inertia();
+    mesh_.Jg = mesh_.Jg + effects_.gear_inertia();
+    Jw_i_ = mesh_.Jw * mesh_.i;
+    Jg_ = mesh_.Jg + load_.inertia();
+    friction_changes_ = effects_.change_friction();
+    pitch_varies_ = effects_.pitch_varies();
+  }
+
+  /// The mesh with the inertias that effects add; its friction is that without effects.
+  const GearMesh<T>& mesh() const { return mesh_; }
+  const Load& load() const { return load_; }
+  const Effects<T>& effects() const { return effects_; }
+  /// Inertia of the gear side with the load's own [kg m^2].
+  T Jg() const { return Jg_; }
+  /// Slope of the switching surface, Jw i / Jg [YehWu2009, eq. 17].
+  T surface() const { return Jw_i_ / Jg_; }
+
+  // ---- inputs -------------------------------------------------------------------------------------------------
+
+  /// Freezes the inputs to the pieces that hold from t on.
+  void enter(double t) {
+    motor_.enter(t);
+    load_.enter(t);
+  }
+  /// Forgets the inputs of the past, for a new run from its start.
+  void rewind() { motor_.rewind(); }
+  /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.
+  void command(double t, double tau_m) { motor_.command(t, tau_m); }
+  /// The smooth piece of the motor's command that holds now [N m].
+  const Piece& motor_piece() const { return motor_.piece(); }
+  /// First time after t at which an input jumps or bends.
+  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
+  /// Highest angular frequency of the present inputs [rad/s].
+  double fastest_input() const { return std::max({motor_.fastest(), load_.fastest(), effects_.fastest_at_rest()}); }
+
+  // ---- torques ------------------------------------------------------------------------------------------------
+
+  template <class S>
+  Moment<S> moment(const S& t, const S& theta_g, const S& omega_g) const {
+    Moment<S> at{t, theta_g, omega_g, {}};
+    turn_worm(at);
+    return at;
+  }
+  /// Lets the worm follow the gear.
+  template <class S>
+  void turn_worm(Moment<S>& at) const {
+    at.omega_w = mesh_.i * at.omega_g;
+    at.theta_w = mesh_.i * at.theta_g;
+    if (!pitch_varies_) return;
+    const Transmission<S> worm = effects_.transmission(at.theta_g);
+    at.omega_w = worm.slope * at.omega_w;
+    at.theta_w = mesh_.i * worm.angle;
+  }
+
+  /// Torques on both sides of the mesh [N m]: tau_w on the worm, tau_g on the gear.
+  template <class S>
+  struct SideTorques {
+    S worm, gear;
+  };
+  /// Those of motor and load alone.
+  template <class S>
+  SideTorques<S> inputs(const Moment<S>& at) const {
+    return {effects_.motor_torque(motor_(at.t), at), effects_.load_torque(load_, at)};
+  }
+  template <class S>
+  SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
+    return side_torques(inputs(at), at, motion);
+  }
+
+  /// Coefficient of friction between the teeth while the drive moves, or starts to move, in a direction.
+  template <class S>
+  S friction(const Moment<S>& at, Motion motion) const {
+    return effects_.friction(S(mesh_.mu), SlidingContact<S>{at, motion, mesh_.sliding_speed(at.omega_w)});
+  }
+
+  /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
+  template <class S>
+  S beyond_surface(const Moment<S>& at, Motion motion) const {
+    return beyond_surface(side_torques(at, motion), at);
+  }
+
+  /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
+  template <class S>
+  S acceleration(const Moment<S>& at, Mode mode) const {
+    return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), at, mode);
+  }
+
+  // ---- the same from torques that are known already -----------------------------------------------------------
+
+  template <class S>
+  SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
+    return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
+  }
+  /// m = motion * flank * mu.
+  template <class S>
+  S signed_friction(const Moment<S>& at, Mode mode) const {
+    if (!friction_changes_) return S(T(mode.product()) * mesh_.mu);
+    return S(T(mode.product())) * friction(at, mode.motion);
+  }
+  template <class S>
+  S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
+    const S C = mesh_.C(signed_friction(at, mode));
+    if (!pitch_varies_) return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+    // the worm's balance, as work at the gear: its lever arms are 1/k of those of an even pitch
+    const Transmission<S> worm = effects_.transmission(at.theta_g);
+    const S inertial = Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
+    return (worm.slope * (tau.worm - inertial) + C * tau.gear) / (Jw_i_ * worm.slope * worm.slope + C * Jg_);
+  }
+  /// tau_w - Jw theta_w'' where the flanks do not push: theta_g'' = tau_g/Jg.
+  template <class S>
+  S beyond_surface(const SideTorques<S>& tau, const Moment<S>& at) const {
+    if (!pitch_varies_) return tau.worm - surface() * tau.gear;
+    const Transmission<S> worm = effects_.transmission(at.theta_g);
+    return tau.worm - surface() * (worm.slope * tau.gear) - Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
+  }
+  /// A torque on the worm [N m] as one on a worm of even pitch.
+  T along_gear(const T& torque, const Moment<T>& at) const {
+    return pitch_varies_ ? effects_.transmission(at.theta_g).slope * torque : torque;
+  }
+
+ private:
+  GearMesh<T> mesh_;
+  Load load_;
+  Effects<T> effects_;
+  MotorInput<T> motor_;
+  T Jw_i_{}, Jg_{};
+  bool friction_changes_ = false;  ///< else C is that of the mesh alone
+  bool pitch_varies_ = false;      ///< else theta_w = i theta_g
+};
+
+}  // namespace wormdrive

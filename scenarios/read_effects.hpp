@@ -1,0 +1,10 @@
+#pragma once
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/table_reader.hpp"
+
+namespace wormdrive {
+
+/// Reads [effect.ID] tables into a scenario whose mesh is known, and refuses what bounds alone cannot.
+void read_effects(TableReader& root, Scenario& scenario, Purpose purpose);
+
+}  // namespace wormdrive
