@@ -13,17 +13,26 @@
 namespace wormdrive {
 namespace {
 
+/// How a field is written, and its default in that unit if it has one to show.
+template <class Parameters, class Field>
+std::pair<Spelling, std::optional<double>> stated(const Field& field) {
+  const Parameters defaults{};
+  const Spelling s = spellings(field.name, field.unit, Axis::rotary).front();
+  const std::optional<double> value = defaults.*field.member;
+  if (field.presence == Presence::required || !value || !std::isfinite(*value)) return {s, std::nullopt};
+  return {s, *value / s.unit.si};
+}
+
+bool bounded(const Bounds& bounds) { return std::isfinite(bounds.low) || std::isfinite(bounds.high); }
+
 template <class Parameters>
 void print_fields() {
-  const Parameters defaults{};
-  for_each_field<Parameters>([&](const auto& field) {
-    const Spelling s = spellings(field.name, field.unit, Axis::rotary).front();
-    const std::optional<double> value = defaults.*field.member;
+  for_each_field<Parameters>([](const auto& field) {
+    const auto [s, value] = stated<Parameters>(field);
     std::string note = field.presence == Presence::required ? ", required" : "";
-    if (field.presence == Presence::optional && value && std::isfinite(*value))
-      note = fmt::format(", default {:g}", *value / s.unit.si);
-    const bool bounded = std::isfinite(field.bounds.low) || std::isfinite(field.bounds.high);
-    fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note, bounded ? "; " + rule(field.bounds, s.unit) : "");
+    if (value) note = fmt::format(", default {:g}", *value);
+    fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note,
+               bounded(field.bounds) ? "; " + rule(field.bounds, s.unit) : "");
   });
 }
 
@@ -48,12 +57,35 @@ void print_kinds(std::string_view otherwise) {
   (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
+/// Calls visit.template operator()<Effect>() for every effect of the catalogue.
+template <class Visit>
+void for_each_effect(Visit&& visit) {
+  Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) { visit.template operator()<Effect>(); });
+}
+
 void list_effects() {
   fmt::print("effects: [effect.ID] in a scenario; on = false keeps one without using it\n");
-  Effects<double>{}.for_each([](const auto& effect) {
-    using Effect = typename std::decay_t<decltype(effect)>::value_type;
+  for_each_effect([]<class Effect>() {
     print_kind(Effect::id, fmt::format("{}: {}", name(Effect::place), Effect::cause));
+    fmt::print("      {}\n", Effect::law);
     print_fields<Effect>();
+  });
+}
+
+/// The catalogue as docs/effects.md has it, without the worked values.
+void list_effects_as_markdown() {
+  for_each_effect([]<class Effect>() {
+    fmt::print("## `{}`\n\nActs on the **{}**: {}.\n\n    {}\n\n", Effect::id, name(Effect::place), Effect::cause,
+               Effect::law);
+    if constexpr (requires { Effect::source; }) fmt::print("Source: {}.\n\n", Effect::source);
+    fmt::print("| key | unit | default | limits | meaning |\n|---|---|---|---|---|\n");
+    for_each_field<Effect>([](const auto& field) {
+      const auto [s, value] = stated<Effect>(field);
+      const std::string absent = field.presence == Presence::required ? "required" : "none";
+      fmt::print("| `{}` | {} | {} | {} | {} |\n", s.key, s.unit.symbol, value ? fmt::format("{:g}", *value) : absent,
+                 bounded(field.bounds) ? rule(field.bounds, s.unit) : "", field.meaning);
+    });
+    fmt::print("\n");
   });
 }
 
@@ -106,6 +138,7 @@ void list_scenarios() {
 
 int list_command(const std::string& what) {
   if (what == "effects") list_effects();
+  if (what == "effects.md") list_effects_as_markdown();
   if (what == "torques") list_torques();
   if (what == "loads") list_loads();
   if (what == "controllers") list_controllers();

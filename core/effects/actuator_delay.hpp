@@ -14,6 +14,7 @@ struct ActuatorDelay {
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause =
       "the command travels over a bus, or the amplifier computes, before the motor acts";
+  static constexpr std::string_view law = "tau_m(t) = u(t - delay), 0 before the first command has arrived";
   T time{};
 
   static constexpr auto fields() {

@@ -13,6 +13,7 @@ struct ActuatorLag {
   static constexpr std::string_view id = "actuator_lag";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause = "the current loop of the motor needs time to build up the torque";
+  static constexpr std::string_view law = "time_constant tau_m' = u - tau_m, from 0 at the start";
   T time{};
 
   static constexpr auto fields() {

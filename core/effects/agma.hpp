@@ -21,6 +21,9 @@ struct Agma {
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause =
       "friction falls with the sliding speed as for a steel worm in a bronze gear with mineral oil";
+  static constexpr std::string_view law =
+      "scale times the fit of the standard over the sliding speed, whatever the mesh states; 0.150 at rest";
+  static constexpr std::string_view source = "ANSI/AGMA 6034-B92";
   static constexpr Exclusion excludes[] = {{"stribeck", "both say how friction falls with the sliding speed"}};
   T scale{1};
 

@@ -15,6 +15,10 @@ struct BearingAsymmetry {
   static constexpr std::string_view id = "bearing_asymmetry";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause = "a preloaded bearing or a seal resists one direction more than the other";
+  static constexpr std::string_view law =
+      "-(torque + coefficient |theta_w'|) on the worm, beside worm_coulomb and worm_viscous: more friction forward, "
+      "less backward";
+  static constexpr std::string_view source = "A. Janot, M. Gautier, M. Brunot, EMPS benchmark, 2019";
   T torque{};
   T coefficient{};
 

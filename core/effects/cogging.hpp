@@ -15,6 +15,7 @@ struct Cogging {
   static constexpr std::string_view id = "cogging";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause = "the magnets of the motor prefer some angles of its iron";
+  static constexpr std::string_view law = "tau_m = u + amplitude sin(periods theta_w + phase)";
   T amplitude{};
   T periods{};
   T phase{};

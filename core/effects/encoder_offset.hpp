@@ -13,6 +13,7 @@ struct EncoderOffset {
   static constexpr std::string_view id = "encoder_offset";
   static constexpr Place place = Place::sensor;
   static constexpr std::string_view cause = "the encoder's zero is not the zero of the gear angle";
+  static constexpr std::string_view law = "theta_g + angle";
   T angle{};
 
   static constexpr auto fields() {

@@ -13,6 +13,7 @@ struct EncoderScale {
   static constexpr std::string_view id = "encoder_scale";
   static constexpr Place place = Place::sensor;
   static constexpr std::string_view cause = "counts per turn, or a gear before the encoder, are not what was assumed";
+  static constexpr std::string_view law = "(1 + share) theta_g";
   T share{};
 
   static constexpr auto fields() {

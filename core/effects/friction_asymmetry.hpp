@@ -15,6 +15,7 @@ struct FrictionAsymmetry {
   static constexpr std::string_view id = "friction_asymmetry";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the flanks differ in finish or wear between the two directions";
+  static constexpr std::string_view law = "mu + change sgn(theta_g')";
   T change{};
 
   static constexpr auto fields() {

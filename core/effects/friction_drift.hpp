@@ -15,6 +15,7 @@ struct FrictionDrift {
   static constexpr std::string_view id = "friction_drift";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the drive warms up, or its lubricant is used up, during the run";
+  static constexpr std::string_view law = "mu (1 + share t/time)";
   T share{};
   T time{};
 

@@ -14,6 +14,8 @@ struct GearCoulomb {
   static constexpr std::string_view id = "gear_coulomb";
   static constexpr Place place = Place::gear_shaft;
   static constexpr std::string_view cause = "dry friction in the bearings and seals of the gear shaft";
+  static constexpr std::string_view law = "-torque sgn(theta_g') on the gear; at rest it holds up to torque";
+  static constexpr std::string_view source = "C. A. Coulomb, Theorie des machines simples, 1785";
   T torque{};
 
   static constexpr auto fields() {

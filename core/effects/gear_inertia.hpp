@@ -14,6 +14,7 @@ struct GearInertia {
   static constexpr Place place = Place::gear_shaft;
   static constexpr std::string_view cause =
       "a flange, a shaft or a payload on the gear shaft, or a gear other than stated";
+  static constexpr std::string_view law = "Jg + inertia";
   T inertia{};
 
   static constexpr auto fields() {

@@ -14,6 +14,7 @@ struct GearViscous {
   static constexpr std::string_view id = "gear_viscous";
   static constexpr Place place = Place::gear_shaft;
   static constexpr std::string_view cause = "viscous friction on the gear shaft or in the load";
+  static constexpr std::string_view law = "-coefficient theta_g' on the gear";
   T coefficient{};
 
   static constexpr auto fields() {

@@ -13,6 +13,7 @@ struct LoadAngle {
   static constexpr std::string_view id = "load_angle";
   static constexpr Place place = Place::load;
   static constexpr std::string_view cause = "the arm is mounted at another angle, or the drive stands tilted";
+  static constexpr std::string_view law = "tau_l at theta_g + angle";
   T shift{};
 
   static constexpr auto fields() {

@@ -14,6 +14,7 @@ struct LoadMagnitude {
   static constexpr std::string_view id = "load_magnitude";
   static constexpr Place place = Place::load;
   static constexpr std::string_view cause = "the payload or its arm is not what was assumed";
+  static constexpr std::string_view law = "(1 + share) tau_l";
   T share{};
 
   static constexpr auto fields() {

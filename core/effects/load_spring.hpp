@@ -14,6 +14,7 @@ struct LoadSpring {
   static constexpr std::string_view id = "load_spring";
   static constexpr Place place = Place::load;
   static constexpr std::string_view cause = "a cable, a hose or a balancing spring pulls the gear towards an angle";
+  static constexpr std::string_view law = "tau_l - stiffness (theta_g - angle)";
   T stiffness{};
   T rest{};
 

@@ -15,6 +15,7 @@ struct MeshFriction {
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause =
       "lubrication, temperature, wear or the finish of the teeth is not what was assumed";
+  static constexpr std::string_view law = "mu + change";
   T change{};
 
   static constexpr auto fields() {

@@ -15,6 +15,7 @@ struct PositionFriction {
   static constexpr std::string_view id = "position_friction";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the gear runs out of true, or its teeth are worn over a part of the turn";
+  static constexpr std::string_view law = "mu (1 + amplitude sin(theta_g + phase))";
   T amplitude{};
   T phase{};
 

@@ -17,6 +17,10 @@ struct StaticFriction {
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause =
       "at rest the teeth press the lubricant out of the contact, the longer the more";
+  static constexpr std::string_view law =
+      "at rest mu + rise (1 - exp(-rest/growth_time)), where rest is the time since the gear came to rest; mu + rise "
+      "without a growth time";
+  static constexpr std::string_view source = "E. Rabinowicz, J. Appl. Phys. 22 (1951) 1373";
   static constexpr Exclusion excludes[] = {{"tooth_compliance", "elastic teeth hold with the friction of sliding"}};
   T rise{};
   T growth_time{0};

@@ -17,6 +17,10 @@ struct Stribeck {
   static constexpr std::string_view id = "stribeck";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the lubricant parts the teeth the more the faster they slide";
+  static constexpr std::string_view law =
+      "mu - drop (1 - exp(-(|v|/speed)^exponent)) over the sliding speed v = lw theta_w'/cos(lambda); mu is the value "
+      "at rest";
+  static constexpr std::string_view source = "R. Stribeck, Z. VDI 46 (1902)";
   T drop{};
   T speed{};
   T exponent{1};

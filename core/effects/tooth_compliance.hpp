@@ -14,6 +14,10 @@ struct ToothCompliance {
   static constexpr std::string_view id = "tooth_compliance";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "teeth bend and flatten under load, and shafts and housing with them";
+  static constexpr std::string_view law =
+      "Wn = stiffness d (1 + damping d') or stiffness d + min(stiffness d, damping d') at the penetration d of a flank";
+  static constexpr std::string_view source =
+      "K. Hunt, F. Crossley, J. Appl. Mech. 42 (1975) 440; ElastoBacklash of the Modelica Standard Library 4.1.0";
   T stiffness{};
   std::optional<T> growing_damping{};  ///< of HuntCrossley [s/m]
   std::optional<T> limited_damping{};  ///< of LimitedDamper [N s/m]

@@ -15,6 +15,7 @@ struct TorqueGain {
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause =
       "the torque constant of the motor or the gain of its amplifier is not what was assumed";
+  static constexpr std::string_view law = "tau_m = (1 + share) u";
   T share{};
 
   static constexpr auto fields() {

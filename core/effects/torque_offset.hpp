@@ -14,6 +14,7 @@ struct TorqueOffset {
   static constexpr std::string_view id = "torque_offset";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause = "the amplifier's zero is off, or a constant torque acts on the motor";
+  static constexpr std::string_view law = "tau_m = u + torque";
   T torque{};
 
   static constexpr auto fields() {

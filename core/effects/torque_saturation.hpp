@@ -13,6 +13,7 @@ struct TorqueSaturation {
   static constexpr std::string_view id = "torque_saturation";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause = "the motor or its amplifier gives no more than a limiting torque";
+  static constexpr std::string_view law = "tau_m = min(max(u, -limit), limit)";
   T limit{};
 
   static constexpr auto fields() {

@@ -15,6 +15,7 @@ struct TransmissionError {
   static constexpr std::string_view id = "transmission_error";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the gear is cut or mounted off its centre";
+  static constexpr std::string_view law = "theta_w = i (theta_g + amplitude sin(theta_g + phase))";
   static constexpr Exclusion excludes[] = {{"tooth_compliance", "elastic teeth run at an even pitch"}};
   T amplitude{};
   T phase{};

@@ -14,6 +14,8 @@ struct WormCoulomb {
   static constexpr std::string_view id = "worm_coulomb";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause = "dry friction in the bearings and seals of the worm shaft";
+  static constexpr std::string_view law = "-torque sgn(theta_w') on the worm; at rest it holds up to torque";
+  static constexpr std::string_view source = "C. A. Coulomb, Theorie des machines simples, 1785";
   T torque{};
 
   static constexpr auto fields() {

@@ -14,6 +14,7 @@ struct WormInertia {
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause =
       "a brake, a coupling or an encoder on the worm shaft, or a rotor other than stated";
+  static constexpr std::string_view law = "Jw + inertia";
   T inertia{};
 
   static constexpr auto fields() {

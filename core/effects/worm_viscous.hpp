@@ -14,6 +14,7 @@ struct WormViscous {
   static constexpr std::string_view id = "worm_viscous";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause = "viscous friction (grease, motor) on the worm shaft";
+  static constexpr std::string_view law = "-coefficient theta_w' on the worm";
   T coefficient{};
 
   static constexpr auto fields() {
