@@ -12,9 +12,9 @@ template <class T>
 class LaggedPiece {
  public:
   LaggedPiece() = default;
-  /// lag [s]; y(begin) = y_begin.
-  LaggedPiece(Piece u, const T& lag, const T& begin, const T& y_begin)
-      : u_(std::move(u)), lag_(lag), begin_(begin), excess_(y_begin - staying(begin)) {}
+  /// constant: that of the piece, with its derivatives; lag [s]; y(begin) = y_begin.
+  LaggedPiece(Piece u, const T& constant, const T& lag, const T& begin, const T& y_begin)
+      : u_(std::move(u)), constant_(constant), lag_(lag), begin_(begin), excess_(y_begin - staying(begin)) {}
 
   template <class S>
   S operator()(const S& t) const {
@@ -26,7 +26,7 @@ class LaggedPiece {
   template <class S>
   S staying(const S& t) const {
     using std::cos, std::sin;
-    S y = u_.constant + u_.slope * (t - u_.start - lag_);
+    S y = constant_ + u_.slope * (t - u_.start - lag_);
     for (const Cosine& c : u_.cosines) {
       const T turn = c.omega * lag_;
       const S x = c.omega * t + c.phase;
@@ -36,7 +36,7 @@ class LaggedPiece {
   }
 
   Piece u_{};
-  T lag_{1.0}, begin_{}, excess_{};
+  T constant_{}, lag_{1.0}, begin_{}, excess_{};
 };
 
 }  // namespace wormdrive

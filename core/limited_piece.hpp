@@ -12,6 +12,7 @@ namespace wormdrive {
 /// A piece cut at +-limit: what holds from a time on, and until when it does.
 struct LimitedPiece {
   Piece piece;
+  int side;      ///< of the limit that holds, +1 or -1; 0 where the piece is not cut
   double until;  ///< [s]; at the latest one period on, where the piece is simply looked at again
 };
 
@@ -52,11 +53,11 @@ inline LimitedPiece limited(const Piece& raw, double limit, double t) {
     const double crossing = raw.start + (target - raw.constant) / raw.slope;
     if (crossing > t) until = crossing;
   }
-  if (!cut) return {raw, until};
+  if (!cut) return {raw, 0, until};
   Piece held;
   held.start = t;
   held.constant = side * limit;
-  return {held, until};
+  return {held, side < 0.0 ? -1 : 1, until};
 }
 
 }  // namespace wormdrive

@@ -37,6 +37,17 @@ struct MeshParameters {
   }
 };
 
+/// A drive without a gear, `[mesh] kind = "none"`.
+template <class T>
+struct SingleInertia {
+  T J{};  ///< [kg m^2], or [kg] for a linear axis
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{&SingleInertia::J, "inertia", unit::kilogram_square_metre, bounds::positive, "inertia that moves"}};
+  }
+};
+
 /// What locks, decided by the static friction of the mesh [YehWu2009, section 3].
 enum class LockingRegime {
   back_drivable,      ///< mu < mu_w: either side can drive the other

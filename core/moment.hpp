@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/jet.hpp"
 #include "core/mode.hpp"
 
 namespace wormdrive {

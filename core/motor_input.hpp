@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/jet.hpp"
 #include "core/lagged_piece.hpp"
 #include "core/limited_piece.hpp"
 #include "core/signal.hpp"
@@ -18,7 +19,7 @@ class MotorInput {
  public:
   /// limit [N m], infinity without one; delay [s]; time constant of the lag [s], 0 without one.
   MotorInput(Signal signal, const T& limit, const T& delay, const T& lag)
-      : signal_(std::move(signal)), limit_(as_double(limit)), delay_(delay), late_(as_double(delay)), lag_(lag) {}
+      : signal_(std::move(signal)), limit_(limit), delay_(delay), late_(nominal(delay)), lag_(lag) {}
 
   /// Forgets what was commanded, for a new run from its start.
   void rewind() {
@@ -28,36 +29,45 @@ class MotorInput {
   }
   /// Freezes the torque to the piece that holds from t on.
   void enter(double t) {
+    arrival_ = T(t);
     while (!on_the_way_.empty() && on_the_way_.front().arrival <= t) {
       held_ = on_the_way_.front().torque;
       on_the_way_.pop_front();
+      arrival_ = moving(t);
     }
     // A knot of the command arrives late_ after it; rounding must not make it a moment too early to be seen.
-    const double commanded = knot_ + late_ <= t ? std::max(t - late_, knot_) : t - late_;
+    const bool arrives = knot_ + late_ <= t;
+    const double commanded = arrives ? std::max(t - late_, knot_) : t - late_;
+    if (arrives) arrival_ = moving(t);
     const Piece signal = commanded < 0.0 ? Piece{} : signal_.piece(commanded);
     knot_ = commanded < 0.0 ? 0.0 : signal_.next_knot(commanded);
     signal_constant_ = signal.constant;
-    freeze(signal, t, commanded);
+    freeze(signal, commanded);
   }
   /// Commands a torque [N m] from t on, in addition to the signal.
   void command(double t, double torque) {
+    arrival_ = T(t);
     if (late_ > 0.0) {
       on_the_way_.push_back({t + late_, torque});
       return;
     }
     held_ = torque;
-    if (std::isinf(limit_) && !lags())
+    arrival_ = moving(t);
+    if (std::isinf(nominal(limit_)) && !lags())
       piece_.constant = signal_constant_ + torque;
     else
-      freeze(signal_.piece(t), t, t);
+      freeze(signal_.piece(t), t);
   }
 
   /// The torque at a time of the piece [N m].
   template <class S>
   S operator()(const S& t) const {
-    if (!lags()) return late_ > 0.0 ? piece_(t - delay_) : piece_(t);
-    return lagged_(t - delay_);
+    const S then = t - delay_;
+    if (lags()) return lagged_(then);
+    return side_ == 0 ? piece_(then) : S(limit());
   }
+  /// When what holds now has arrived [s]: a knot of the command moves with the delay, one of the load does not.
+  const T& arrival() const { return arrival_; }
   /// The smooth piece of the command that the motor has now; its time is delayed.
   const Piece& piece() const { return piece_; }
   /// First time after t at which the torque jumps or bends.
@@ -67,7 +77,7 @@ class MotorInput {
     return std::min({signal, limit_knot_ + late_, arrival});
   }
   /// Highest angular frequency of the torque, or rate of its decay [rad/s].
-  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / as_double(lag_)) : piece_.fastest(); }
+  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / nominal(lag_)) : piece_.fastest(); }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -75,25 +85,26 @@ class MotorInput {
     double arrival, torque;
   };
 
-  static double as_double(double x) { return x; }
-  template <class Derivative>
-  static double as_double(const Derivative& x) {
-    return x.a;
-  }
   bool lags() const { return lag_ > T(0); }
 
-  /// Takes up the piece of the signal that was commanded then and arrives at t.
-  void freeze(Piece piece, double t, double commanded) {
+  /// A time at which something commanded arrives, with its derivative by the delay.
+  T moving(double t) const { return T(t) + (delay_ - late_); }
+  /// The limit that holds now [N m].
+  T limit() const { return T(side_) * limit_; }
+
+  /// Takes up the piece of the signal that was commanded then.
+  void freeze(Piece piece, double commanded) {
     piece.constant += held_;
     limit_knot_ = never;
-    if (!std::isinf(limit_)) {
-      LimitedPiece cut = limited(piece, limit_, commanded);
+    if (!std::isinf(nominal(limit_))) {
+      LimitedPiece cut = limited(piece, nominal(limit_), commanded);
       piece = std::move(cut.piece);
+      side_ = cut.side;
       limit_knot_ = cut.until;
     }
     if (lags()) {
-      const T then = T(t) - delay_, before = started_ ? lagged_(then) : T(0);
-      lagged_ = {piece, lag_, then, before};
+      const T then(commanded), before = started_ ? lagged_(then) : T(0);
+      lagged_ = {piece, side_ == 0 ? T(piece.constant) : limit(), lag_, then, before};
       started_ = true;
     }
     piece_ = std::move(piece);
@@ -101,10 +112,12 @@ class MotorInput {
 
   Signal signal_;
   Piece piece_{};
-  double limit_;
+  T limit_;
   T delay_;
   double late_;  ///< the delay's value [s]
   T lag_;
+  int side_ = 0;  ///< of the limit that holds now, 0 for none
+  T arrival_{};
   LaggedPiece<T> lagged_{};
   bool started_ = false;
   std::deque<Command> on_the_way_{};           ///< what a controller has commanded and has not arrived

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <concepts>
 
 namespace wormdrive {
 
@@ -12,7 +13,12 @@ struct Series {
   std::array<T, N + 1> c{};
 
   Series() = default;
-  Series(T constant) { c[0] = constant; }  // NOLINT(google-explicit-constructor): constants mix freely
+  /// A constant, or a number that a constant is made from: they mix freely, also where T carries derivatives.
+  template <class Constant>
+    requires std::constructible_from<T, Constant>
+  Series(const Constant& constant) {  // NOLINT(google-explicit-constructor)
+    c[0] = T(constant);
+  }
 
   /// The series of the variable itself, value + s.
   static Series variable(T value) {

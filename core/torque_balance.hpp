@@ -42,9 +42,13 @@ class TorqueBalance {
 
   /// Freezes the inputs to the pieces that hold from t on.
   void enter(double t) {
-    motor_.enter(t);
-    load_.enter(t);
+    enter_load(t);
+    enter_motor(t);
   }
+  void enter_load(double t) { load_.enter(t); }
+  void enter_motor(double t) { motor_.enter(t); }
+  /// When the motor's present piece has arrived [s], with derivatives.
+  const T& motor_arrival() const { return motor_.arrival(); }
   /// Forgets the inputs of the past, for a new run from its start.
   void rewind() { motor_.rewind(); }
   /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.

@@ -10,7 +10,7 @@ namespace wormdrive {
 /// The mesh as a scenario states it, with teeth or without; effects do not show in it.
 inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh)) return GearMesh<double>(*worm);
-  return GearMesh<double>::without_teeth(std::get<SingleInertia>(scenario.mesh).J);
+  return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
 }
 
 /// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on.

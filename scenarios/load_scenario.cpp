@@ -62,7 +62,7 @@ class ScenarioReader {
         mesh.set_axis(Axis::linear);
         root_.set_axis(Axis::linear);
       }
-      SingleInertia inertia;
+      SingleInertia<double> inertia;
       mesh.read_fields(inertia);
       scenario_.mesh = inertia;
     });

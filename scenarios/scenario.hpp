@@ -6,6 +6,7 @@
 
 #include "core/effects.hpp"
 #include "core/field.hpp"
+#include "core/initial_state.hpp"
 #include "core/load.hpp"
 #include "core/mesh.hpp"
 #include "core/signal.hpp"
@@ -14,28 +15,6 @@
 #include "scenarios/control_scenario.hpp"
 
 namespace wormdrive {
-
-/// A drive without a gear, `[mesh] kind = "none"`.
-struct SingleInertia {
-  double J{};  ///< [kg m^2], or [kg] for a linear axis
-  static constexpr auto fields() {
-    return std::tuple{
-        Field{&SingleInertia::J, "inertia", unit::kilogram_square_metre, bounds::positive, "inertia that moves"}};
-  }
-};
-
-/// Where a run starts.
-struct InitialState {
-  double theta_g{0.0};  ///< [rad]
-  double omega_g{0.0};  ///< [rad/s]
-  static constexpr auto fields() {
-    using P = InitialState;
-    return std::tuple{
-        Field{&P::theta_g, "gear_angle", unit::radian, bounds::any, "gear angle at the start", Presence::optional},
-        Field{&P::omega_g, "gear_speed", unit::radian_per_second, bounds::any, "gear speed at the start",
-              Presence::optional}};
-  }
-};
 
 /// How long and how exactly a scenario is simulated, and how often a row is written.
 struct RunSettings {
@@ -74,11 +53,11 @@ struct RunSettings {
 struct Scenario {
   std::string title;
   Axis axis = Axis::rotary;
-  std::variant<MeshParameters<double>, SingleInertia> mesh;
+  std::variant<MeshParameters<double>, SingleInertia<double>> mesh;
   LoadParameters load = Signal{};
   Effects<double> effects;
   Signal motor;
-  InitialState initial;
+  InitialState<double> initial;
   RunSettings run;
   std::optional<ControlScenario> control;  ///< nothing: the motor's signal alone
 };

@@ -108,7 +108,7 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   s.load = load;
   s.effects.for_each(
       [&](auto& effect) { effect = filler.make<typename std::decay_t<decltype(effect)>::value_type>(); });
-  s.initial = filler.make<InitialState>();
+  s.initial = filler.make<InitialState<double>>();
   s.run = filler.make<RunSettings>();
   s.run.report_interval = s.run.duration / 7.0;
   s.run.solver = SolverKind::taylor;
@@ -151,7 +151,7 @@ TEST_CASE("a scenario with every torque, load, effect and axis is the same after
                                      LoadParameters(table), LoadParameters(Signal{})}) {
     Scenario s = full(filler, load);
     require_round_trip(s);
-    s.mesh = filler.make<SingleInertia>();
+    s.mesh = filler.make<SingleInertia<double>>();
     require_round_trip(s);
     if (std::holds_alternative<GravityArm>(load)) continue;  // it turns: no linear axis has one
     s.axis = Axis::linear;
