@@ -2,20 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <string>
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.hpp>
-#include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "events/cvode_handles.hpp"
 #include "events/halt.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
@@ -25,7 +22,8 @@ namespace wormdrive {
 /// SUNDIALS CVODE with two root functions per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
 ///
 /// A guard that dips below zero and comes back within one step changes no sign at the step's ends. So the guard's rate
-/// is watched too: on the way to the root of the rate, CVODE evaluates all root functions and finds the guard below zero.
+/// is watched too: on the way to the root of the rate, CVODE evaluates all root functions and finds the guard below
+/// zero.
 ///
 /// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial, for
 /// a call of CVODE and a look at the guards per report would cost more than the report.
@@ -40,26 +38,26 @@ class CvodeSolver {
       : system_(system), max_step_(settings.max_step), y_(N_VNew_Serial(System::state_size, context_)) {
     memory_.reset(CVodeCreate(settings.method == Method::bdf ? CV_BDF : CV_ADAMS, context_));
     if (!memory_ || !y_) throw std::bad_alloc();
-    check(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
-    check(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
-    check(CVodeSetUserData(memory(), this));
-    check(CVodeSetMaxNumSteps(memory(), max_steps));
+    check_cvode(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
+    check_cvode(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
+    check_cvode(CVodeSetUserData(memory(), this));
+    check_cvode(CVodeSetMaxNumSteps(memory(), max_steps));
     set_longest_step(max_step_);
     if (settings.method == Method::bdf) {
       matrix_.reset(SUNDenseMatrix(System::state_size, System::state_size, context_));
       linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
-      check(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()));
-      check(CVodeSetJacFn(memory(), jacobian));
+      check_cvode(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()));
+      check_cvode(CVodeSetJacFn(memory(), jacobian));
     } else {
       fixed_point_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
-      check(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
+      check_cvode(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
     }
-    check(CVodeRootInit(memory(), root_count, roots));
+    check_cvode(CVodeRootInit(memory(), root_count, roots));
     std::array<int, root_count> directions;
     for (int k = 0; k < root_count; ++k) directions[k] = k < System::guard_count ? -1 : 1;  // guards fall, rates rise
-    check(CVodeSetRootDirection(memory(), directions.data()));
-    check(CVodeSetNoInactiveRootWarn(memory()));
-    silence();
+    check_cvode(CVodeSetRootDirection(memory(), directions.data()));
+    check_cvode(CVodeSetNoInactiveRootWarn(memory()));
+    silence_cvode(context_, memory());
   }
   CvodeSolver(const CvodeSolver&) = delete;
   CvodeSolver& operator=(const CvodeSolver&) = delete;
@@ -72,7 +70,7 @@ class CvodeSolver {
     fired_.reset();
     finite_ = true;
     state() = now.x;
-    check(CVodeReInit(memory(), now.t, y_.get()));
+    check_cvode(CVodeReInit(memory(), now.t, y_.get()));
     if constexpr (requires { system_.longest_step(now.mode); })
       set_longest_step(std::min(max_step_, system_.longest_step(now.mode)));
     limit_ = std::numeric_limits<double>::quiet_NaN();
@@ -84,12 +82,12 @@ class CvodeSolver {
       now.t = next;
       return std::nullopt;
     }
-    if (limit != limit_) check(CVodeSetStopTime(memory(), limit_ = limit));
+    if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), limit_ = limit));
     for (long step = 0; ahead_.t < next && !fired_; ++step) {
       const int flag = CVode(memory(), next, y_.get(), &ahead_.t, next < limit ? CV_ONE_STEP : CV_NORMAL);
       if (flag < 0 || step == max_steps) {
         now.t = ahead_.t;
-        throw SolverFault(reason(flag >= 0 ? CV_TOO_MUCH_WORK : finite_ ? flag : CV_RHSFUNC_FAIL));
+        throw SolverFault(cvode_reason(flag >= 0 ? CV_TOO_MUCH_WORK : finite_ ? flag : CV_RHSFUNC_FAIL));
       }
       ahead_.x = state();
       if (flag == CV_ROOT_RETURN) fired_ = crossed();
@@ -107,11 +105,11 @@ class CvodeSolver {
   SolverStatistics statistics() const {
     SolverStatistics sum = total_;
     long steps = 0, evaluations = 0, jacobians = 0, failures = 0, roots = 0;
-    check(CVodeGetNumSteps(memory(), &steps));
-    check(CVodeGetNumRhsEvals(memory(), &evaluations));
-    check(CVodeGetNumErrTestFails(memory(), &failures));
-    check(CVodeGetNumGEvals(memory(), &roots));
-    if (linear_) check(CVodeGetNumJacEvals(memory(), &jacobians));
+    check_cvode(CVodeGetNumSteps(memory(), &steps));
+    check_cvode(CVodeGetNumRhsEvals(memory(), &evaluations));
+    check_cvode(CVodeGetNumErrTestFails(memory(), &failures));
+    check_cvode(CVodeGetNumGEvals(memory(), &roots));
+    if (linear_) check_cvode(CVodeGetNumJacEvals(memory(), &jacobians));
     sum.steps += steps;
     sum.evaluations += evaluations;
     sum.jacobians += jacobians;
@@ -123,16 +121,6 @@ class CvodeSolver {
  private:
   static constexpr int root_count = 2 * System::guard_count;  ///< every guard and its rate
   static constexpr long max_steps = 10'000'000;  ///< between two stops; a stalled run fails earlier for its step size
-
-  struct Free {
-    void operator()(void* memory) const { CVodeFree(&memory); }
-    void operator()(N_Vector v) const { N_VDestroy(v); }
-    void operator()(SUNMatrix A) const { SUNMatDestroy(A); }
-    void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
-    void operator()(SUNNonlinearSolver s) const { SUNNonlinSolFree(s); }
-  };
-  template <class Handle>
-  using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
     auto& solver = *static_cast<CvodeSolver*>(self);
@@ -162,7 +150,7 @@ class CvodeSolver {
   /// The guard whose crossing CVODE stopped at; none at a minimum above zero.
   std::optional<int> crossed() const {
     std::array<int, root_count> found;
-    check(CVodeGetRootInfo(memory(), found.data()));
+    check_cvode(CVodeGetRootInfo(memory(), found.data()));
     for (int k = 0; k < System::guard_count; ++k)
       if (found[k] != 0) return k;
     return std::nullopt;
@@ -172,46 +160,20 @@ class CvodeSolver {
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
   /// At a time within the latest step.
   Eigen::Map<State> state_at(double t) {
-    check(CVodeGetDky(memory(), t, 0, y_.get()));
+    check_cvode(CVodeGetDky(memory(), t, 0, y_.get()));
     return state();
   }
 
-  void set_longest_step(double step) { check(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
-
-  static std::string reason(int flag) {
-    switch (flag) {
-      case CV_TOO_MUCH_WORK: return "CVODE took 10 million steps without getting there";
-      case CV_TOO_MUCH_ACC: return "the tolerance is finer than the arithmetic; raise run.relative_tolerance";
-      case CV_ERR_FAILURE: return "CVODE's error test failed repeatedly at the smallest step";
-      case CV_CONV_FAILURE: return "CVODE's nonlinear solver does not converge at the smallest step";
-      case CV_RHSFUNC_FAIL: return "the acceleration is not a finite number";
-    }
-    const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
-    return std::string("CVODE stopped with ") + name.get();
-  }
-  static void check(int flag) {
-    if (flag < 0) throw SolverFault(reason(flag));
-  }
-  /// Faults are told once, by the exception.
-  void silence() {
-#if SUNDIALS_VERSION_MAJOR >= 7
-    SUNContext_ClearErrHandlers(context_);
-    SUNContext_PushErrHandler(
-        context_, [](int, const char*, const char*, const char*, SUNErrCode, void*, SUNContext) {}, nullptr);
-#else
-    check(CVodeSetErrHandlerFn(
-        memory(), [](int, const char*, const char*, char*, void*) {}, nullptr));
-#endif
-  }
+  void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
 
   const System& system_;
   double max_step_;  ///< [s]
   sundials::Context context_;
-  Owned<N_Vector> y_;
-  Owned<SUNMatrix> matrix_;
-  Owned<SUNLinearSolver> linear_;
-  Owned<SUNNonlinearSolver> fixed_point_;
-  std::unique_ptr<void, Free> memory_;
+  CvodeOwned<N_Vector> y_;
+  CvodeOwned<SUNMatrix> matrix_;
+  CvodeOwned<SUNLinearSolver> linear_;
+  CvodeOwned<SUNNonlinearSolver> fixed_point_;
+  CvodeMemory memory_;
   Instant ahead_{};           ///< how far CVODE has gone without a guard firing ...
   std::optional<int> fired_;  ///< ... or the guard that fired there
   bool finite_ = true;        ///< every acceleration since the latest restart was a number
