@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,13 @@ struct NoController {
   double sample(const System&, const typename System::Instant&) {
     return 0.0;
   }
+};
+
+/// Why a run stopped, and what the loop alone knows of it.
+struct Cause {
+  Reason reason;
+  std::optional<int> guard;  ///< the one that fired
+  double torque = 0.0;       ///< held from a sample on [N m], once the controller has answered
 };
 
 /// Stays at rest until next or until a guard releases the system, which is returned.
@@ -43,14 +51,19 @@ typename System::Mode settle(const System& system, Solver& solver, const typenam
 /// latch(system, now) comes before it, where samples see an older angle.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
 /// returns the guard at which it stopped, if any. record(system, now) sees every report and both sides of every event,
-/// in order. Throws Halt when the run cannot go on.
+/// in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
 template <class System, class Solver, class Controller, class Recorder>
 typename System::Instant simulate(System& system, Solver& solver, Controller& controller, Timetable timetable,
                                   typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
   EventLog log(chatter);
-  std::optional<int> guard;
-  for (Reason reason = timetable.pop();;) {
-    switch (reason) {
+  const auto tell = [&](const Cause& cause) {
+    if constexpr (std::invocable<Recorder&, const System&, const typename System::Instant&, const Cause&>)
+      record(system, now, cause);
+    else
+      record(system, now);
+  };
+  for (Cause cause{timetable.pop(), {}};;) {
+    switch (cause.reason) {
       case Reason::knot:
         system.enter(now.t);
         timetable.schedule_knot(system.next_knot(now.t));
@@ -61,6 +74,7 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         const double tau_m = controller.sample(system, now);
         if (!std::isfinite(tau_m))
           throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
+        cause.torque = tau_m;
         system.command(now.t, tau_m);
         timetable.schedule_knot(system.next_knot(now.t));
         now.mode = settle(system, solver, now);
@@ -68,25 +82,26 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
       }
       case Reason::guard: {
         const auto before = now.mode;
-        now = system.jump(now, *guard);
-        log.count(now.t, std::string(System::guard_name(before, *guard)), before, now.mode);
+        now = system.jump(now, *cause.guard);
+        log.count(now.t, std::string(System::guard_name(before, *cause.guard)), before, now.mode);
         break;
       }
       case Reason::report: break;
       case Reason::end: return now;
     }
-    if (reason != Reason::report && reason != Reason::latch) {
-      record(system, now);
+    if (cause.reason != Reason::report && cause.reason != Reason::latch) {
+      tell(cause);
       if (!System::at_rest(now.mode)) solver.restart(now);
     }
     const double next = timetable.next_time();
+    std::optional<int> guard;
     try {
       guard = System::at_rest(now.mode) ? rest(system, now, next) : solver.advance(now, next, timetable.next_stop());
     } catch (const SolverFault& fault) {
       throw log.halt(now.t, now.mode, fault.what());
     }
-    reason = guard ? Reason::guard : timetable.pop();
-    if (reason != Reason::latch) record(system, now);
+    cause = {guard ? Reason::guard : timetable.pop(), guard};
+    if (cause.reason != Reason::latch) tell(cause);
   }
 }
 
