@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
 
 namespace wormdrive {
@@ -20,13 +21,7 @@ class SeriesFlow {
   /// The motion from now on, accurate over a step of at most h.
   static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     to_order<8>(system, now, h, accuracy, e);
-    if (holds(system, now, e.step, accuracy, e)) return;
-    double holding = 0.0, failing = e.step;
-    for (int halvings = 0; halvings < 60; ++halvings) {
-      const double middle = 0.5 * (holding + failing);
-      (holds(system, now, middle, accuracy, e) ? holding : failing) = middle;
-    }
-    e.step = holding;
+    e.step = longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e); });
   }
 
  private:

@@ -1,0 +1,49 @@
+#pragma once
+#include "events/course.hpp"
+
+namespace wormdrive {
+
+/// The time at which a guard falls through zero [s], with its derivatives by the parameters that the state carries: the
+/// guard's own derivatives along the run over the rate at which it falls.
+template <class Drive>
+auto crossing_time(const Drive& drive, const typename Drive::Instant& now, int guard) {
+  const auto ahead = drive.guards_ahead(now)[guard];
+  auto t = ahead[0];
+  t.a = now.t;
+  t.v /= -ahead[1].a;
+  return t;
+}
+
+/// The derivatives of a state just behind an event that moves in time: s+ = s- + (f- - f+) dt/dp, for up to the event
+/// the state flows with the derivative of the mode before, f-, and from there on with that of the mode behind, f+.
+template <class State, class T>
+State saltated(const State& x, const State& before, const State& behind, const T& t) {
+  return x + (before - behind) * T(t - t.a);
+}
+
+/// Takes a state of Jets across a stop of the course and returns the time of the stop, with derivatives [s]. Mode and
+/// values are those of the course; the inputs of the drive go on to what holds behind the stop.
+template <class Drive, class Stop>
+auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
+  using T = typename Drive::State::Scalar;
+  const auto take_values = [&now](const auto& x) {
+    for (int k = 0; k < Drive::state_size; ++k) now.x[k].a = x[k];
+  };
+  take_values(stop.before.x);
+  const auto before = drive.derivative(now.t, now.x, now.mode);
+  T t(now.t);
+  switch (stop.cause.reason) {
+    case Reason::guard: t = crossing_time(drive, now, *stop.cause.guard); break;
+    case Reason::knot: drive.enter(now.t); break;
+    case Reason::sample: drive.command(now.t, stop.cause.torque); break;
+    case Reason::report:
+    case Reason::end: return t;
+  }
+  now.mode = stop.after.mode;
+  now.x = saltated(now.x, before, drive.derivative(now.t, now.x, now.mode), t);
+  take_values(stop.after.x);
+  if (Drive::at_rest(now.mode)) now.x[1] = T(0.0);  // at rest whatever the parameters are
+  return t;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,133 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/jet.h>
+
+#include "core/rigid_drive.hpp"
+#include "events/course.hpp"
+#include "events/cvodes_sensitivity.hpp"
+#include "events/saltation.hpp"
+#include "events/series_sensitivity.hpp"
+#include "events/solvers.hpp"
+
+namespace wormdrive {
+
+/// A run with its derivatives by parameters, all in SI.
+struct Sensitivities {
+  /// At a report; just behind an event at that time.
+  struct Row {
+    double t;                        ///< [s]
+    Eigen::Vector2d state;           ///< theta_g [rad], theta_g' [rad/s]
+    double measured;                 ///< gear angle as the sensor sees it [rad]
+    Eigen::Matrix2Xd state_by;       ///< d(state)/d(parameter), 2 x parameters
+    Eigen::RowVectorXd measured_by;  ///< d(measured)/d(parameter), 1 x parameters
+  };
+  /// A change of the mode.
+  struct Event {
+    double t;  ///< [s]
+    Mode before, after;
+    Eigen::RowVectorXd time_by;  ///< dt/d(parameter), 1 x parameters
+  };
+  std::vector<Parameter> parameters;
+  std::vector<Row> rows;
+  std::vector<Event> events;
+};
+
+/// A scalar with its derivatives by four parameters, as many as are followed at a time: more would share the cost of
+/// the state itself, fewer carry less that nobody asked for.
+using Followed = ceres::Jet<double, 4>;
+
+/// The rows and events of a course, their derivatives by the parameters still zero.
+template <class System>
+Sensitivities outline(const Course<System>& course, const System& drive, std::span<const Parameter> parameters) {
+  Sensitivities made{{parameters.begin(), parameters.end()}, {}, {}};
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  for (const auto& stop : course.stops()) {
+    const auto& now = stop.after;
+    if (stop.passed())
+      made.rows.push_back(
+          {now.t, now.x, drive.measured_angle(now), Eigen::Matrix2Xd::Zero(2, count), Eigen::RowVectorXd::Zero(count)});
+    else if (stop.changes_mode())
+      made.events.push_back({now.t, stop.before.mode, now.mode, Eigen::RowVectorXd::Zero(count)});
+  }
+  return made;
+}
+
+/// Carries a state of Jets along a course and writes the derivatives by `count` parameters, from column `first` on.
+template <class System, class Drive, class Carrier>
+void follow(const Course<System>& course, Drive& drive, Carrier& carrier, typename Drive::Instant now,
+            Eigen::Index first, Eigen::Index count, Sensitivities& made) {
+  const auto write = [&](auto&& row, const Followed& value) {
+    row.segment(first, count) = value.v.head(count).transpose();
+  };
+  auto row = made.rows.begin();
+  auto event = made.events.begin();
+  const auto& stops = course.stops();
+  for (auto stop = stops.begin(); stop != stops.end(); ++stop) {
+    if (Drive::at_rest(now.mode))
+      now.t = stop->before.t;
+    else
+      carrier.advance(now, stop->before.t);
+    if (stop->passed()) {
+      for (int k = 0; k < Drive::state_size; ++k) write(row->state_by.row(k), now.x[k]);
+      write(row->measured_by, drive.measured_angle(now));
+      ++row;
+      continue;
+    }
+    const Followed t = cross(drive, now, *stop);
+    if (stop->changes_mode()) write((event++)->time_by, t);
+    if (Drive::at_rest(now.mode)) continue;
+    const auto behind =
+        std::find_if(stop + 1, stops.end(), [](const auto& s) { return s.cause.reason != Reason::report; });
+    carrier.restart(now, behind->before.t);
+  }
+}
+
+/// Runs a drive and finds the derivatives of its state by parameters, through every event.
+///
+/// settings.solver makes the run and carries the derivatives: power series of Jets, or CVODES. What the controller
+/// holds is taken as given, as a recorded torque is; the derivatives do not go through its law. Throws Halt or
+/// SolverFault when the run cannot go on.
+template <class Load, class Controller>
+Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
+                            const Timetable& timetable, const SolverSettings& settings, Controller& controller) {
+  using System = WormDrive<double, Load>;
+  System system(parts.mesh, parts.load, parts.effects, parts.motor);
+  const double begin = timetable.next_time();
+  const typename System::Instant start{begin, {parts.initial.theta_g, parts.initial.omega_g}, {}};
+  Course<System> course(start);
+  with_solver(system, settings, [&](auto& solver) { simulate(system, solver, controller, timetable, start, course); });
+
+  Sensitivities made = outline(course, system, parameters);
+  constexpr std::size_t together = Followed::DIMENSION;
+  for (std::size_t first = 0; first < parameters.size(); first += together) {
+    const auto some = parameters.subspan(first, std::min(together, parameters.size() - first));
+    auto [drive, initial] = SeededDrive<Followed, Load>(parts, some);
+    using Drive = decltype(drive);
+    const auto count = static_cast<int>(some.size());
+    const auto along = [&](auto carrier) {
+      follow(course, drive, carrier, {begin, {initial.theta_g, initial.omega_g}, {}}, static_cast<Eigen::Index>(first),
+             count, made);
+    };
+    switch (settings.solver) {
+      case SolverKind::cvode: along(CvodesSensitivity<Drive>(drive, count, settings)); break;
+      case SolverKind::taylor: along(SeriesSensitivity<Drive>(drive, settings)); break;
+    }
+  }
+  return made;
+}
+
+/// The same in open loop.
+template <class Load>
+Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
+                            const Timetable& timetable, const SolverSettings& settings) {
+  NoController nobody;
+  return sensitivities(parts, parameters, timetable, settings, nobody);
+}
+
+}  // namespace wormdrive

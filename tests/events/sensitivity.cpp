@@ -1,0 +1,117 @@
+#include <cmath>
+#include <iostream>
+
+#include "catch.hpp"
+#include "derivatives.hpp"
+
+// The derivatives of a run by its parameters, through reversals, stick, break-away and changes of the flank.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+constexpr double duration = 2.0;
+
+/// Two sinusoids against an arm, chosen for events of every kind, none of them near to another.
+RigidDrive<GravityLoad> lively(Effects<double> on = {}) {
+  GravityArm arm;
+  arm.amplitude = 0.033;
+  arm.offset = 2.241;
+  const Signal motor{{Sinusoid{.amplitude = 0.021, .frequency = 1.5, .phase = 90 * unit::degree},
+                      Sinusoid{.amplitude = 0.023, .frequency = 3.119}, Constant{0.003}}};
+  const auto unless_on = [&]<class E>(const E& effect) {
+    auto& place = std::get<std::optional<E>>(on.list);
+    if (!place) place = effect;
+  };
+  unless_on(WormCoulomb<double>{0.0058});
+  unless_on(GearCoulomb<double>{0.0069});
+  unless_on(WormViscous<double>{2e-5});
+  return {GearMesh<double>(table1()), make_load(arm), on, motor};
+}
+
+std::vector<Parameter> in_table(const std::vector<Parameter>& all, std::string_view table) {
+  std::vector<Parameter> some;
+  for (const Parameter& p : all)
+    if (p.table == table) some.push_back(p);
+  return some;
+}
+
+/// An effect alone: derivatives by its parameters along a run with every kind of event.
+template <class Effect>
+void check_effect(const Effect& effect) {
+  const auto drive = lively(effects(effect));
+  const auto found =
+      agreement(drive, in_table(continuous_parameters(drive), Effect::id), Timetable(0, duration, 0.0131));
+  const Kinds kinds(found.series.events);
+  std::cout << Effect::id << ": " << kinds.reversals << " reversals, " << kinds.captures << " captures, "
+            << kinds.releases << " releases, " << kinds.flank_changes << " flank changes; series against CVODES "
+            << found.cvodes << ", against differences " << found.differences << "\n";
+  CHECK(kinds.reversals >= 1);
+  CHECK(kinds.captures >= 1);
+  CHECK(kinds.releases >= 1);
+  CHECK(kinds.flank_changes >= 1);
+}
+
+}  // namespace
+
+TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives by every effect's parameters") {
+  check_effect(TorqueSaturation<double>{0.03});
+  check_effect(TorqueGain<double>{0.05});
+  check_effect(TorqueOffset<double>{0.001});
+  check_effect(Cogging<double>{0.001, 2.0, 0.3});
+  check_effect(WormCoulomb<double>{0.006});
+  check_effect(WormViscous<double>{4e-5});
+  check_effect(BearingAsymmetry<double>{5e-4, 1e-5});
+  check_effect(WormInertia<double>{2e-6});
+  check_effect(MeshFriction<double>{0.01});
+  check_effect(Stribeck<double>{0.03, 0.1, 1.0});
+  check_effect(FrictionAsymmetry<double>{0.01});
+  check_effect(PositionFriction<double>{0.1, 0.4});
+  check_effect(FrictionDrift<double>{0.05, 2.0});
+  check_effect(GearCoulomb<double>{0.008});
+  check_effect(GearViscous<double>{1e-4});
+  check_effect(GearInertia<double>{1e-4});
+  check_effect(LoadMagnitude<double>{0.05});
+  check_effect(LoadAngle<double>{0.05});
+  check_effect(LoadSpring<double>{0.01, 0.2});
+  check_effect(EncoderScale<double>{0.01});
+  check_effect(EncoderOffset<double>{0.01});
+}
+
+TEST_CASE("they agree where the parameters are zero, as they are where a fit starts") {
+  const auto drive = lively(effects(
+      TorqueGain<double>{}, TorqueOffset<double>{}, Cogging<double>{0.0, 24.0, 0.3}, BearingAsymmetry<double>{},
+      WormInertia<double>{}, MeshFriction<double>{}, Stribeck<double>{0.0, 0.1, 2.0}, FrictionAsymmetry<double>{},
+      PositionFriction<double>{0.0, 0.4}, FrictionDrift<double>{0.0, 2.0}, GearViscous<double>{}, GearInertia<double>{},
+      LoadMagnitude<double>{}, LoadAngle<double>{}, LoadSpring<double>{0.0, 0.2}));
+  std::vector<Parameter> zero;
+  for (const Parameter& p : continuous_parameters(drive))
+    if (p.value == 0.0 && p.table != "initial") zero.push_back(p);
+  REQUIRE(zero.size() == 16);
+  const auto found = agreement(drive, zero, Timetable(0, duration, 0.0131));
+  std::cout << "at zero: series against CVODES " << found.cvodes << ", against differences " << found.differences
+            << "\n";
+}
+
+TEST_CASE("they agree on the derivatives by the mesh and by the state at the start") {
+  auto drive = lively();
+  drive.initial = {0.1, 0.7};
+  auto by = in_table(continuous_parameters(drive), "mesh");
+  REQUIRE(by.size() == 8);
+  for (const Parameter& p : in_table(continuous_parameters(drive), "initial")) by.push_back(p);
+  const auto found = agreement(drive, by, Timetable(0, duration, 0.0131));
+  std::cout << "mesh and start: series against CVODES " << found.cvodes << ", against differences " << found.differences
+            << "\n";
+}
+
+TEST_CASE("they agree under a load that changes its law at the points of a table") {
+  const AngleTable table{.angles = {-3.0, -0.4, -0.1, 0.05, 0.3, 0.9, 3.0},
+                         .torques = {0.03, 0.02, -0.03, 0.01, 0.025, -0.02, 0.01}};
+  const auto arm = lively(effects(LoadAngle<double>{0.05}));
+  const RigidDrive<TableLoad> drive{arm.mesh, make_load(table), arm.effects, arm.motor};
+  const auto found =
+      agreement(drive, {parameter(drive, "load_angle", "angle"), parameter(drive, "worm_coulomb", "torque")},
+                Timetable(0, duration, 0.0131));
+  std::cout << "table: series against CVODES " << found.cvodes << ", against differences " << found.differences << "\n";
+}
