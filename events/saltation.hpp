@@ -21,28 +21,42 @@ State saltated(const State& x, const State& before, const State& behind, const T
   return x + (before - behind) * T(t - t.a);
 }
 
+/// Gives a state of Jets the values of the run; its derivatives stay.
+template <class Instant, class State>
+void take_values(Instant& now, const State& x) {
+  for (int k = 0; k < x.size(); ++k) now.x[k].a = x[k];
+}
+
 /// Takes a state of Jets across a stop of the course and returns the time of the stop, with derivatives [s]. Mode and
 /// values are those of the course; the inputs of the drive go on to what holds behind the stop.
+///
+/// A knot of the motor's command moves with its delay, which a knot of the load does not: the load goes first.
 template <class Drive, class Stop>
 auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
   using T = typename Drive::State::Scalar;
-  const auto take_values = [&now](const auto& x) {
-    for (int k = 0; k < Drive::state_size; ++k) now.x[k].a = x[k];
-  };
-  take_values(stop.before.x);
+  take_values(now, stop.before.x);
+  if (stop.cause.reason == Reason::knot) drive.enter_load(now.t);
   const auto before = drive.derivative(now.t, now.x, now.mode);
   T t(now.t);
   switch (stop.cause.reason) {
     case Reason::guard: t = crossing_time(drive, now, *stop.cause.guard); break;
-    case Reason::knot: drive.enter(now.t); break;
-    case Reason::sample: drive.command(now.t, stop.cause.torque); break;
+    case Reason::knot:
+      drive.enter_motor(now.t);
+      t = drive.motor_arrival();
+      break;
+    case Reason::sample:
+      drive.command(now.t, stop.cause.torque);
+      t = drive.motor_arrival();
+      break;
+    case Reason::latch:
     case Reason::report:
     case Reason::end: return t;
   }
   now.mode = stop.after.mode;
   now.x = saltated(now.x, before, drive.derivative(now.t, now.x, now.mode), t);
-  take_values(stop.after.x);
+  take_values(now, stop.after.x);
   if (Drive::at_rest(now.mode)) now.x[1] = T(0.0);  // at rest whatever the parameters are
+  if (stop.after.since != stop.before.since) now.since = t;
   return t;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <span>
 #include <vector>
 
@@ -23,7 +22,7 @@ struct Sensitivities {
   struct Row {
     double t;                        ///< [s]
     Eigen::Vector2d state;           ///< theta_g [rad], theta_g' [rad/s]
-    double measured;                 ///< gear angle as the sensor sees it [rad]
+    double measured;                 ///< gear angle as the sensor sees it at t and hands it on after its delay [rad]
     Eigen::Matrix2Xd state_by;       ///< d(state)/d(parameter), 2 x parameters
     Eigen::RowVectorXd measured_by;  ///< d(measured)/d(parameter), 1 x parameters
   };
@@ -58,12 +57,25 @@ Sensitivities outline(const Course<System>& course, const System& drive, std::sp
   return made;
 }
 
+/// The measured angle as the sensor hands it on, which is at a time that does not move with the sensor's delay: the
+/// longer the delay, the earlier the angle.
+template <class Drive>
+auto handed_on(const Drive& drive, typename Drive::Instant now) {
+  const auto age = drive.effects().measuring_delay();
+  now.x -= drive.derivative(now.t, now.x, now.mode) * typename Drive::State::Scalar(age - age.a);
+  return drive.measured_angle(now);
+}
+
 /// Carries a state of Jets along a course and writes the derivatives by `count` parameters, from column `first` on.
 template <class System, class Drive, class Carrier>
 void follow(const Course<System>& course, Drive& drive, Carrier& carrier, typename Drive::Instant now,
             Eigen::Index first, Eigen::Index count, Sensitivities& made) {
   const auto write = [&](auto&& row, const Followed& value) {
     row.segment(first, count) = value.v.head(count).transpose();
+  };
+  const auto limit = [&](auto stop) {
+    while (stop->cause.reason == Reason::report) ++stop;
+    return stop->before.t;
   };
   auto row = made.rows.begin();
   auto event = made.events.begin();
@@ -74,17 +86,15 @@ void follow(const Course<System>& course, Drive& drive, Carrier& carrier, typena
     else
       carrier.advance(now, stop->before.t);
     if (stop->passed()) {
+      take_values(now, stop->before.x);
       for (int k = 0; k < Drive::state_size; ++k) write(row->state_by.row(k), now.x[k]);
-      write(row->measured_by, drive.measured_angle(now));
+      write(row->measured_by, handed_on(drive, now));
       ++row;
       continue;
     }
     const Followed t = cross(drive, now, *stop);
     if (stop->changes_mode()) write((event++)->time_by, t);
-    if (Drive::at_rest(now.mode)) continue;
-    const auto behind =
-        std::find_if(stop + 1, stops.end(), [](const auto& s) { return s.cause.reason != Reason::report; });
-    carrier.restart(now, behind->before.t);
+    if (!Drive::at_rest(now.mode)) carrier.restart(now, limit(stop + 1));
   }
 }
 
@@ -107,16 +117,18 @@ Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Param
   constexpr std::size_t together = Followed::DIMENSION;
   for (std::size_t first = 0; first < parameters.size(); first += together) {
     const auto some = parameters.subspan(first, std::min(together, parameters.size() - first));
-    auto [drive, initial] = SeededDrive<Followed, Load>(parts, some);
-    using Drive = decltype(drive);
+    SeededDrive<Followed, Load> seeded(parts, some);
+    using Drive = decltype(seeded.drive);
     const auto count = static_cast<int>(some.size());
+    // what moves at the start is in the mode that it goes on in: nothing has happened yet
+    const Mode mode = parts.initial.omega_g != 0.0 ? course.stops().front().after.mode : Mode{};
+    const typename Drive::Instant now{begin, {seeded.initial.theta_g, seeded.initial.omega_g}, mode, {}};
     const auto along = [&](auto carrier) {
-      follow(course, drive, carrier, {begin, {initial.theta_g, initial.omega_g}, {}}, static_cast<Eigen::Index>(first),
-             count, made);
+      follow(course, seeded.drive, carrier, now, static_cast<Eigen::Index>(first), count, made);
     };
     switch (settings.solver) {
-      case SolverKind::cvode: along(CvodesSensitivity<Drive>(drive, count, settings)); break;
-      case SolverKind::taylor: along(SeriesSensitivity<Drive>(drive, settings)); break;
+      case SolverKind::cvode: along(CvodesSensitivity<Drive>(seeded.drive, count, settings)); break;
+      case SolverKind::taylor: along(SeriesSensitivity<Drive>(seeded.drive, settings)); break;
     }
   }
   return made;

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <iostream>
 
@@ -57,6 +58,8 @@ void check_effect(const Effect& effect) {
 
 TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives by every effect's parameters") {
   check_effect(TorqueSaturation<double>{0.03});
+  check_effect(ActuatorDelay<double>{0.007});
+  check_effect(ActuatorLag<double>{0.004});
   check_effect(TorqueGain<double>{0.05});
   check_effect(TorqueOffset<double>{0.001});
   check_effect(Cogging<double>{0.001, 2.0, 0.3});
@@ -64,11 +67,14 @@ TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives b
   check_effect(WormViscous<double>{4e-5});
   check_effect(BearingAsymmetry<double>{5e-4, 1e-5});
   check_effect(WormInertia<double>{2e-6});
+  check_effect(Agma<double>{0.9});
   check_effect(MeshFriction<double>{0.01});
   check_effect(Stribeck<double>{0.03, 0.1, 1.0});
   check_effect(FrictionAsymmetry<double>{0.01});
   check_effect(PositionFriction<double>{0.1, 0.4});
   check_effect(FrictionDrift<double>{0.05, 2.0});
+  check_effect(StaticFriction<double>{0.05, 0.02});
+  check_effect(TransmissionError<double>{0.005, 0.3});
   check_effect(GearCoulomb<double>{0.008});
   check_effect(GearViscous<double>{1e-4});
   check_effect(GearInertia<double>{1e-4});
@@ -114,4 +120,34 @@ TEST_CASE("they agree under a load that changes its law at the points of a table
       agreement(drive, {parameter(drive, "load_angle", "angle"), parameter(drive, "worm_coulomb", "torque")},
                 Timetable(0, duration, 0.0131));
   std::cout << "table: series against CVODES " << found.cvodes << ", against differences " << found.differences << "\n";
+}
+
+TEST_CASE("they agree where knots of the command move with its delay, at a limit and through a lag") {
+  for (const bool lags : {false, true}) {
+    Effects<double> on =
+        effects(TorqueSaturation<double>{0.03}, ActuatorDelay<double>{0.0073}, TorqueGain<double>{0.02});
+    if (lags) std::get<std::optional<ActuatorLag<double>>>(on.list) = {0.004};
+    auto drive = lively(on);
+    for (const double t : {0.31, 0.77, 1.43, 1.69})
+      drive.motor.terms.push_back(Step{.torque = (t > 1.5 ? -0.02 : 0.01), .time = t});
+    auto by = in_table(continuous_parameters(drive), "actuator_delay");
+    for (const auto* table : {"torque_saturation", "actuator_lag", "torque_gain", "worm_coulomb"})
+      for (const Parameter& p : in_table(continuous_parameters(drive), table)) by.push_back(p);
+    REQUIRE(by.size() == (lags ? 5 : 4));
+    const auto found = agreement(drive, by, Timetable(0, duration, 0.0131));
+    std::cout << "steps" << (lags ? " with a lag" : "") << ": series against CVODES " << found.cvodes
+              << ", against differences " << found.differences << "\n";
+  }
+}
+
+TEST_CASE("a measured angle that comes late is an earlier one: its derivative by the delay is minus the speed") {
+  const auto drive = lively(effects(EncoderDelay<double>{0.01}, EncoderScale<double>{0.02}));
+  const std::array by{parameter(drive, "encoder_delay", "delay")};
+  for (const By solver : every_solver) {
+    const Sensitivities s = sensitivities(drive, by, Timetable(0, duration, 0.0131), tight(solver, 1e-12));
+    for (const auto& row : s.rows) {
+      CHECK(std::abs(row.measured_by[0] + 1.02 * row.state[1]) <= 1e-15);
+      CHECK(row.state_by.isZero(0.0));
+    }
+  }
 }

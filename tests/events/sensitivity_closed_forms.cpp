@@ -28,6 +28,8 @@ struct Recorded {
   std::size_t next = 0;
 
   template <class System>
+  void latch(const System&, const typename System::Instant&) {}
+  template <class System>
   double sample(const System&, const typename System::Instant&) {
     return torques.at(next++);
   }
@@ -107,6 +109,21 @@ TEST_CASE("a flywheel that a ramp sets off: more friction, later break-away") {
     check_row(s.rows.back().state_by.row(1), {-since / J, 0.0, -rate * since * since / (2 * J * J)});
     check_row(s.rows.back().state_by.row(0),
               {-since * since / (2 * J), 0.0, -rate * since * since * since / (6 * J * J)});
+  }
+}
+
+TEST_CASE("a delay of zero has a derivative, also where a torque stands from the start on: all happens later") {
+  constexpr double tau = 0.2, at = 0.3, step = 0.1, end = 1.0, a = (tau - T) / J, more = (tau + step - T) / J;
+  for (const double w : {0.0, 3.0}) {
+    auto drive = flywheel({{Constant{tau}, Step{.torque = step, .time = at}}}, w);
+    std::get<std::optional<ActuatorDelay<double>>>(drive.effects.list) = {0.0};
+    const std::array which{parameter(drive, "actuator_delay", "delay")};
+    const double idle = w > 0.0 ? -T / J : 0.0;  // without a torque it runs down, or stays
+    for (const By by : every_solver) {
+      const Sensitivities s = sensitivities(drive, which, Timetable(0, end, end), tight(by, 1e-12));
+      CHECK(std::abs(s.rows.back().state_by(1, 0) - ((idle - a) + (a - more))) <= 1e-9);
+      CHECK(std::abs(s.rows.back().state_by(0, 0) - ((idle - a) * end + (a - more) * (end - at))) <= 1e-9);
+    }
   }
 }
 
