@@ -44,10 +44,10 @@ TEST_CASE("the audit of fig. 9 with impacts confirms every event, misses none, a
   REQUIRE(events >= 20);
   REQUIRE(report.events == events);
   REQUIRE(report.findings.empty());
-  REQUIRE(report.largest_time_error <= 1e-7);
+  REQUIRE(report.largest_time_error <= 1e-8);
   REQUIRE(report.largest_angle_error <= 1e-8);
   REQUIRE(report.largest_speed_error <= 1e-5);
-  REQUIRE(std::abs(report.energy_error) <= 1e-8 * report.work);
+  REQUIRE(std::abs(report.energy_error) <= 1e-11 * report.work);
 }
 
 TEST_CASE("an impact that a run passed over, and an opening, are found with their time and guard") {
