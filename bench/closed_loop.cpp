@@ -36,9 +36,8 @@ struct Sensor {
     double t;
     std::array<double, 2> x;
   };
-  wormdrive::Effects<double> none{};
   static double measured_angle(const Instant& now) { return now.x[0]; }
-  const wormdrive::Effects<double>& effects() const { return none; }
+  static double torque_limit() { return never; }
 };
 
 struct Nobody {

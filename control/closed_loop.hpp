@@ -60,17 +60,17 @@ class ClosedLoop {
 
   template <class System>
   double sample(const System& system, const typename System::Instant& now) {
+    const ReferencePoint desired = reference_.at(now.t);
     const auto at = system.moment(now);
     const double angle = encoder_(latched_.empty() ? system.measured_angle(now) : latched_.front(), k_);
     if (!latched_.empty()) latched_.pop_front();
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
-    const Measurement m{now.t, angle, exact_speed_ ? at.omega_g : difference, k_ == 0 ? 0.0 : period_,
-                        reference_.at(now.t)};
+    const Measurement m{now.t, angle, exact_speed_ ? at.omega_g : difference, k_ == 0 ? 0.0 : period_, desired};
     const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
     const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
-    const double limit = system.effects().torque_limit();
+    const double limit = system.torque_limit();
     const double applied = std::clamp(torque + disturbance, -limit, limit);
     listener_(ControlRecord{at.theta_g, m, decided, applied});
     return applied;

@@ -27,19 +27,21 @@ struct DisturbanceSettings {
 class TorqueDisturbance {
  public:
   TorqueDisturbance(const DisturbanceSettings& settings, double period)
-      : settings_(settings), keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0) {}
+      : settings_(settings),
+        keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0),
+        renew_(std::sqrt(1.0 - keep_ * keep_)) {}
 
   /// The torque [N m] from the k-th sample on; its variance is the same from the first sample.
   double operator()(std::uint64_t k) {
     if (settings_.deviation <= 0.0) return 0.0;
     const double fresh = normal(static_cast<std::uint64_t>(settings_.seed), Stream::torque_disturbance, k);
-    state_ = k == 0 ? fresh : keep_ * state_ + std::sqrt(1.0 - keep_ * keep_) * fresh;
+    state_ = k == 0 ? fresh : keep_ * state_ + renew_ * fresh;
     return settings_.deviation * state_;
   }
 
  private:
   DisturbanceSettings settings_;
-  double keep_, state_ = 0.0;
+  double keep_, renew_, state_ = 0.0;
 };
 
 }  // namespace wormdrive

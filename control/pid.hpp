@@ -60,7 +60,10 @@ inline double mean_inertia(const NominalModel& nominal) {
 class PidController {
  public:
   PidController(const PidParameters& parameters, const NominalModel& nominal)
-      : p_(parameters), nominal_(nominal), gains_(lqr_gains(parameters, mean_inertia(nominal))) {}
+      : p_(parameters),
+        nominal_(nominal),
+        gains_(lqr_gains(parameters, mean_inertia(nominal))),
+        feedforward_(parameters.feedforward * mean_inertia(nominal)) {}
 
   const PidGains& gains() const { return gains_; }
 
@@ -68,7 +71,7 @@ class PidController {
     const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
     integral_ += e * m.period;
     const double feedback = -(gains_.Ki * integral_ + gains_.Kp * e + gains_.Kd * e_rate);
-    const double feedforward = p_.feedforward * mean_inertia(nominal_) * m.desired.acceleration;
+    const double feedforward = feedforward_ * m.desired.acceleration;
     const double load = nominal_.load(m.angle);
     const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
     return {feedback + feedforward + compensation, 0.0, 0.0, compensation};
@@ -78,6 +81,7 @@ class PidController {
   PidParameters p_;
   NominalModel nominal_;
   PidGains gains_;
+  double feedforward_;  ///< inertia that feedforward counts on [kg m^2]
   double integral_ = 0.0;
 };
 

@@ -33,10 +33,12 @@ struct SensorSettings {
 /// The encoder: noise, then rounding to counts.
 class Encoder {
  public:
-  explicit Encoder(const SensorSettings& settings) : settings_(settings) {}
+  explicit Encoder(const SensorSettings& settings)
+      : settings_(settings), exact_(settings.noise <= 0.0 && settings.counts <= 0.0) {}
 
   /// The measured angle [rad] at the k-th sample.
   double operator()(double theta_g, std::uint64_t k) const {
+    if (exact_) return theta_g;
     if (settings_.noise > 0.0)
       theta_g += settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
     if (settings_.counts <= 0.0) return theta_g;
@@ -46,25 +48,26 @@ class Encoder {
 
  private:
   SensorSettings settings_;
+  bool exact_;
 };
 
 /// Backward difference of the measured angle behind a one-pole low-pass.
 class SpeedEstimator {
  public:
   SpeedEstimator(double cutoff, double period)
-      : gain_(cutoff > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0), period_(period) {}
+      : gain_(cutoff > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0), rate_(1.0 / period) {}
 
   /// Starts from an angle [rad] at which nothing has moved yet.
   void start(double angle) { previous_ = angle; }
   /// The speed [rad/s] after one more sample.
   double operator()(double angle) {
-    speed_ += gain_ * ((angle - previous_) / period_ - speed_);
+    speed_ += gain_ * ((angle - previous_) * rate_ - speed_);
     previous_ = angle;
     return speed_;
   }
 
  private:
-  double gain_, period_, previous_ = 0.0, speed_ = 0.0;
+  double gain_, rate_, previous_ = 0.0, speed_ = 0.0;
 };
 
 }  // namespace wormdrive

@@ -11,6 +11,7 @@
 #include "control/lemma1.hpp"
 #include "control/nominal.hpp"
 #include "core/field.hpp"
+#include "core/pair.hpp"
 
 namespace wormdrive {
 
@@ -63,54 +64,60 @@ class SlidingController {
       : SlidingController(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))) {}
 
   ControlSignals operator()(const Measurement& m) {
+    const double load = nominal_.load(m.angle);
     const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
     integral_ += e * m.period;
-    const double twice = 2.0 * p_.lambda_c, square = p_.lambda_c * p_.lambda_c;
-    const double s = e_rate + twice * e + square * integral_;
-    const double load = nominal_.load(m.angle);
-    const double wanted = m.desired.acceleration - twice * e_rate - square * e;
-    // u1 carries the left flank and is used for s >= Phi, u2 the right one for s <= -Phi [eq. 22-23]
+    const double s = e_rate + twice_lambda_ * e + lambda_squared_ * integral_;
+    const double wanted = m.desired.acceleration - twice_lambda_ * e_rate - lambda_squared_ * e;
     const bool forward = branch(m.speed, m.desired.speed) == Motion::forward;
-    const double u1 = branches_[forward ? 0 : 1].input(-1.0, load, wanted);
-    const double u2 = branches_[forward ? 1 : 0].input(1.0, load, wanted);
-    const double share = std::clamp(s / p_.Phi, -1.0, 1.0);
-    const double u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
+    const Pair u12 = laws_[forward ? 0 : 1].inputs(load, wanted);
+    const double share = std::clamp(s * per_layer_, -1.0, 1.0);
+    const double u = 0.5 * (1.0 + share) * u12[0] + 0.5 * (1.0 - share) * u12[1];  // [eq. 24]
     const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
     return {u + (surface_ * load + compensation), s, u, compensation};
   }
 
  private:
-  /// The law where C1 or C2 acts, with everything in it that no sample changes.
-  class Branch {
+  /// The law for one direction of motion, side by side: u1 carries the left flank and is used for s >= Phi, u2 the
+  /// right one for s <= -Phi [eq. 22-23]. It holds everything that no sample changes.
+  class Law {
    public:
-    Branch(const NominalModel& nominal, double C, double beta, double D, double least)
-        : inertia_(nominal.inertia(C)),
-          d_((C + nominal.surface()) / inertia_),
-          of_load_(beta * D),
-          of_input_(beta - 1.0),
-          constant_(beta * least) {}
+    /// left, right: 0 where C1 acts on that flank, 1 where C2 does.
+    Law(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds, int left, int right) {
+      for (const int lane : {0, 1}) {
+        const int k = lane == 0 ? left : right;
+        const double C = k == 0 ? nominal.C1 : nominal.C2, beta = k == 0 ? p.beta1 : p.beta2;
+        inertia_[lane] = nominal.inertia(C);
+        d_[lane] = (C + nominal.surface()) / inertia_[lane];
+        of_load_[lane] = beta * bounds.D[k];
+        of_input_[lane] = beta - 1.0;
+        constant_[lane] = beta * (bounds.E[k] + p.eta);
+      }
+    }
 
-    /// (u_hat + side k) / b_hat [N m], with the gain k = beta (D |tau_l_hat| + E + eta) + (beta - 1) |u_hat|.
-    double input(double side, double load, double wanted) const {
-      const double u_hat = wanted - d_ * load;
-      return inertia_ * (u_hat + side * (of_load_ * std::abs(load) + constant_ + of_input_ * std::abs(u_hat)));
+    /// (u_hat -+ k) / b_hat [N m], with the gain k = beta (D |tau_l_hat| + E + eta) + (beta - 1) |u_hat|.
+    Pair inputs(double load, double wanted) const {
+      const Pair u_hat = wanted - d_ * load;
+      return inertia_ * (u_hat + Pair{-1.0, 1.0} * (of_load_ * std::abs(load) + constant_ + of_input_ * abs(u_hat)));
     }
 
    private:
-    double inertia_, d_, of_load_, of_input_, constant_;
+    Pair inertia_{}, d_{}, of_load_{}, of_input_{}, constant_{};
   };
 
   SlidingController(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds)
       : p_(p),
         nominal_(nominal),
         surface_(nominal.surface()),
-        branches_{Branch(nominal, nominal.C1, p.beta1, bounds.D[0], bounds.E[0] + p.eta),
-                  Branch(nominal, nominal.C2, p.beta2, bounds.D[1], bounds.E[1] + p.eta)} {}
+        twice_lambda_(2.0 * p.lambda_c),
+        lambda_squared_(p.lambda_c * p.lambda_c),
+        per_layer_(1.0 / p.Phi),
+        laws_{Law(p, nominal, bounds, 0, 1), Law(p, nominal, bounds, 1, 0)} {}
 
   SlidingParameters p_;
   NominalModel nominal_;
-  double surface_;
-  std::array<Branch, 2> branches_;  ///< of C1 and C2
+  double surface_, twice_lambda_, lambda_squared_, per_layer_;
+  std::array<Law, 2> laws_;  ///< forward, backward
   double integral_ = 0.0;
 };
 

@@ -55,10 +55,10 @@ class CompliantDrive {
   const GearMesh<T>& mesh() const { return rigid_.mesh(); }
   const WormDrive<T, Load>& rigid() const { return rigid_; }
   const Effects<T>& effects() const { return rigid_.effects(); }
+  double torque_limit() const { return rigid_.torque_limit(); }
   const ToothContact<T>& contact() const { return contact_; }
 
-  // ---- inputs, those of the rigid drive -----------------------------------------------------------------------
-
+  // Inputs are those of the rigid drive.
   void enter(double t) { rigid_.enter(t); }
   void rewind() { rigid_.rewind(); }
   void command(double t, double tau_m) { rigid_.command(t, tau_m); }

@@ -64,12 +64,14 @@ class MotorInput {
   S operator()(const S& t) const {
     const S then = t - delay_;
     if (lags()) return lagged_(then);
-    return side_ == 0 ? piece_(then) : S(limit());
+    return side_ == 0 ? piece_(then) : S(cut_off());
   }
   /// When what holds now has arrived [s]: a knot of the command moves with the delay, one of the load does not.
   const T& arrival() const { return arrival_; }
   /// The smooth piece of the command that the motor has now; its time is delayed.
   const Piece& piece() const { return piece_; }
+  /// Largest magnitude of the command [N m], infinity without a limit.
+  double limit() const { return nominal(limit_); }
   /// First time after t at which the torque jumps or bends.
   double next_knot(double t) const {
     const double arrival = on_the_way_.empty() ? never : on_the_way_.front().arrival;
@@ -89,8 +91,8 @@ class MotorInput {
 
   /// A time at which something commanded arrives, with its derivative by the delay.
   T moving(double t) const { return T(t) + (delay_ - late_); }
-  /// The limit that holds now [N m].
-  T limit() const { return T(side_) * limit_; }
+  /// What the limit leaves of the command now [N m].
+  T cut_off() const { return T(side_) * limit_; }
 
   /// Takes up the piece of the signal that was commanded then.
   void freeze(Piece piece, double commanded) {
@@ -104,7 +106,7 @@ class MotorInput {
     }
     if (lags()) {
       const T then(commanded), before = started_ ? lagged_(then) : T(0);
-      lagged_ = {piece, side_ == 0 ? T(piece.constant) : limit(), lag_, then, before};
+      lagged_ = {piece, side_ == 0 ? T(piece.constant) : cut_off(), lag_, then, before};
       started_ = true;
     }
     piece_ = std::move(piece);

@@ -33,6 +33,8 @@ class TorqueBalance {
   const GearMesh<T>& mesh() const { return mesh_; }
   const Load& load() const { return load_; }
   const Effects<T>& effects() const { return effects_; }
+  /// Largest magnitude of the motor's command [N m], infinity without a limit.
+  double torque_limit() const { return motor_.limit(); }
   /// Inertia of the gear side with the load's own [kg m^2].
   T Jg() const { return Jg_; }
   /// Slope of the switching surface, Jw i / Jg [YehWu2009, eq. 17].
