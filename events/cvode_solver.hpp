@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -67,7 +66,7 @@ class CvodeSolver {
     total_ = statistics();
     ++total_.restarts;
     ahead_ = now;
-    fired_.reset();
+    fired_ = no_guard;
     finite_ = true;
     state() = now.x;
     check_cvode(CVodeReInit(memory(), now.t, y_.get()));
@@ -76,14 +75,15 @@ class CvodeSolver {
     limit_ = std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier.
-  std::optional<int> advance(Instant& now, double next, double limit) {
+  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
+  /// no_guard.
+  int advance(Instant& now, double next, double limit) {
     if (already_there(now.t, next)) {
       now.t = next;
-      return std::nullopt;
+      return no_guard;
     }
     if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), limit_ = limit));
-    for (long step = 0; ahead_.t < next && !fired_; ++step) {
+    for (long step = 0; ahead_.t < next && fired_ == no_guard; ++step) {
       const int flag = CVode(memory(), next, y_.get(), &ahead_.t, next < limit ? CV_ONE_STEP : CV_NORMAL);
       if (flag < 0 || step == max_steps) {
         now.t = ahead_.t;
@@ -98,7 +98,7 @@ class CvodeSolver {
     }
     now.t = next;
     now.x = state_at(next);
-    return std::nullopt;
+    return no_guard;
   }
 
   /// What the solver did since it was made.
@@ -148,12 +148,12 @@ class CvodeSolver {
   }
 
   /// The guard whose crossing CVODE stopped at; none at a minimum above zero.
-  std::optional<int> crossed() const {
+  int crossed() const {
     std::array<int, root_count> found;
     check_cvode(CVodeGetRootInfo(memory(), found.data()));
     for (int k = 0; k < System::guard_count; ++k)
       if (found[k] != 0) return k;
-    return std::nullopt;
+    return no_guard;
   }
 
   void* memory() const { return memory_.get(); }
@@ -175,7 +175,7 @@ class CvodeSolver {
   CvodeOwned<SUNNonlinearSolver> fixed_point_;
   CvodeMemory memory_;
   Instant ahead_{};           ///< how far CVODE has gone without a guard firing ...
-  std::optional<int> fired_;  ///< ... or the guard that fired there
+  int fired_ = no_guard;      ///< ... or the guard that fired there
   bool finite_ = true;        ///< every acceleration since the latest restart was a number
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include "core/pair.hpp"
+
 namespace wormdrive {
 
 inline constexpr int highest_order = 24;  ///< of a power series of the speed
@@ -17,22 +19,26 @@ using Polynomial = std::span<const double>;
 /// The value at s, by Horner's rule on the even and the odd powers.
 inline double value(Polynomial c, double s) {
   const double square = s * s;
-  double even = 0.0, odd = 0.0;
+  Pair sum{0.0, 0.0};
   auto k = c.size();
-  if (k % 2 == 1) even = c[--k];
-  while (k > 0) {
-    odd = odd * square + c[--k];
-    even = even * square + c[--k];
-  }
-  return even + s * odd;
+  if (k % 2 == 1) sum[0] = c[--k];
+  for (; k > 0; k -= 2) sum = sum * square + pair_at(&c[k - 2]);
+  return sum[0] + s * sum[1];
 }
 
 /// Proof that a polynomial has no root in [0, h]: nothing it can lose outweighs what it has at 0. It may fail where
 /// there is no root either.
 inline bool stays_positive(Polynomial c, double h) {
-  double low = c[0], power = h;
-  for (std::size_t k = 1; k < c.size(); ++k, power *= h) low += std::min(c[k], 0.0) * power;
-  return low > 1e-12 * c[0];  // far above rounding, so that the next step begins positive as well
+  const double square = h * h;
+  Pair loss{0.0, 0.0}, power{1.0, h};
+  std::size_t k = 0;
+  for (; k + 1 < c.size(); k += 2, power *= square) {
+    const Pair term = pair_at(&c[k]);
+    loss += (term < 0.0 ? term : Pair{0.0, 0.0}) * power;
+  }
+  if (k < c.size()) loss[0] += std::min(c[k], 0.0) * power[0];
+  return c[0] + (loss[0] + loss[1]) >
+         1e-12 * c[0];  // far above rounding, so that the next step begins positive as well
 }
 
 }  // namespace wormdrive

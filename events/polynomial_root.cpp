@@ -14,12 +14,21 @@ constexpr int deepest = 40;        // halvings of a step, until what is left is 
 struct Sample {
   double value = 0.0, slope = 0.0, size = 0.0;
 
+  /// By Horner's rule on the even and the odd powers; s >= 0.
   Sample(Polynomial c, double s) {
-    for (auto k = c.size(); k-- > 0;) {
-      slope = slope * s + value;
-      value = value * s + c[k];
-      size = size * s + std::abs(c[k]);
-    }
+    const double square = s * s;
+    Pair values{0.0, 0.0}, slopes{0.0, 0.0}, sizes{0.0, 0.0};  // slopes: against the square
+    const auto take = [&](Pair next) {
+      slopes = slopes * square + values;
+      values = values * square + next;
+      sizes = sizes * square + abs(next);
+    };
+    auto k = c.size();
+    if (k % 2 == 1) take(Pair{c[--k], 0.0});
+    for (; k > 0; k -= 2) take(pair_at(&c[k - 2]));
+    value = values[0] + s * values[1];
+    slope = values[1] + 2.0 * s * (slopes[0] + s * slopes[1]);
+    size = sizes[0] + s * sizes[1];
   }
 };
 

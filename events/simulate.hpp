@@ -1,7 +1,6 @@
 #pragma once
 #include <cmath>
 #include <concepts>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,16 +23,16 @@ struct NoController {
 /// Why a run stopped, and what the loop alone knows of it.
 struct Cause {
   Reason reason;
-  std::optional<int> guard;  ///< the one that fired
-  double torque = 0.0;       ///< held from a sample on [N m], once the controller has answered
+  int guard = no_guard;  ///< the one that fired
+  double torque = 0.0;   ///< held from a sample on [N m], once the controller has answered
 };
 
-/// Stays at rest until next or until a guard releases the system, which is returned.
+/// Stays at rest until next or until a guard releases the system, which is returned, else no_guard.
 template <class System>
-std::optional<int> rest(const System& system, typename System::Instant& now, double next) {
+int rest(const System& system, typename System::Instant& now, double next) {
   const auto released = RestWatch<System>(system, now).first_crossing(next);
   now.t = released ? released->t : next;
-  return released ? std::optional(released->guard) : std::nullopt;
+  return released ? released->guard : no_guard;
 }
 
 /// The mode after the inputs have changed; a solver may find it from what it needs anyway.
@@ -50,8 +49,8 @@ typename System::Mode settle(const System& system, Solver& solver, const typenam
 /// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next;
 /// latch(system, now) comes before it, where samples see an older angle.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
-/// returns the guard at which it stopped, if any. record(system, now) sees every report and both sides of every event,
-/// in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
+/// returns the guard at which it stopped, or no_guard. record(system, now) sees every report and both sides of every
+/// event, in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
 template <class System, class Solver, class Controller, class Recorder>
 typename System::Instant simulate(System& system, Solver& solver, Controller& controller, Timetable timetable,
                                   typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
@@ -62,7 +61,8 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
     else
       record(system, now);
   };
-  for (Cause cause{timetable.pop(), {}};;) {
+  int guard = no_guard;
+  for (Cause cause{timetable.pop()};;) {
     switch (cause.reason) {
       case Reason::knot:
         system.enter(now.t);
@@ -82,8 +82,8 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
       }
       case Reason::guard: {
         const auto before = now.mode;
-        now = system.jump(now, *cause.guard);
-        log.count(now.t, std::string(System::guard_name(before, *cause.guard)), before, now.mode);
+        now = system.jump(now, guard);
+        log.count(now.t, std::string(System::guard_name(before, guard)), before, now.mode);
         break;
       }
       case Reason::report: break;
@@ -94,13 +94,12 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
       if (!System::at_rest(now.mode)) solver.restart(now);
     }
     const double next = timetable.next_time();
-    std::optional<int> guard;
     try {
       guard = System::at_rest(now.mode) ? rest(system, now, next) : solver.advance(now, next, timetable.next_stop());
     } catch (const SolverFault& fault) {
       throw log.halt(now.t, now.mode, fault.what());
     }
-    cause = {guard ? Reason::guard : timetable.pop(), guard};
+    cause = {guard != no_guard ? Reason::guard : timetable.pop(), guard};
     if (cause.reason != Reason::latch) tell(cause);
   }
 }

@@ -36,20 +36,20 @@ class TaylorAccuracy {
 
   /// Whether the last terms of speed and guards are negligible over a step of h.
   template <class Expansion>
-  bool suffices(const Expansion& e, double h) const {
+  bool suffices(Expansion& e, double h) const {
     if (e.order < window + 2) return false;
     double power = h;
     for (int k = 2; k <= e.order - window; ++k) power *= h;
     for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
       if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0]))) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      if (guard_step(e.guard(static_cast<int>(g)), h) < h) return false;
+      if (guard_step(e, static_cast<int>(g), h) < h) return false;
     return true;
   }
 
   /// The step within h over which the series suffices.
   template <class Expansion>
-  double step(const Expansion& e, double h) const {
+  double step(Expansion& e, double h) const {
     const double allowed_log2 = rough_log2(allowed(e.omega[0]));
     double log2_step = rough_log2(h);
     for (int k = e.order - window + 1; k <= e.order; ++k) {
@@ -60,7 +60,7 @@ class TaylorAccuracy {
     h = std::min(h, rough_exp2(log2_step));
     double shortest = h;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      shortest = std::min(shortest, guard_step(e.guard(static_cast<int>(g)), h));
+      shortest = std::min(shortest, guard_step(e, static_cast<int>(g), h));
     return shortest;
   }
 
@@ -70,8 +70,11 @@ class TaylorAccuracy {
 
   /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
   /// the guard may only touch zero, would show as two events.
-  static double guard_step(Polynomial guard, double h) {
-    if (stays_positive(guard, h)) return h;
+  template <class Expansion>
+  static double guard_step(Expansion& e, int g, double h) {
+    const Polynomial guard = e.guard(g);
+    e.positive[g] = stays_positive(guard, h);
+    if (e.positive[g]) return h;
     double size = 0.0, last = 0.0, before = 0.0, power = 1.0;
     for (const double c : guard) {
       before = last;

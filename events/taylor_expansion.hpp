@@ -13,6 +13,7 @@ struct Expansion {
   double step = 0.0;  ///< over which they are accurate [s]
   Coefficients theta{}, omega{};
   std::array<Coefficients, guard_count> guards{};
+  std::array<bool, guard_count> positive{};  ///< the guard certainly stays positive over the step
 
   Polynomial angle() const { return {theta.data(), static_cast<std::size_t>(order) + 2}; }
   Polynomial speed() const { return {omega.data(), static_cast<std::size_t>(order) + 1}; }

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/load.hpp"
+#include "core/pair.hpp"
 #include "core/sine_cosine.hpp"
 #include "core/worm_drive.hpp"
 #include "events/taylor_accuracy.hpp"
@@ -35,12 +36,10 @@ class NominalFlow<WormDrive<double, Load>> {
   using Instant = typename System::Instant;
   using Motion = Expansion<System::guard_count>;
 
-  /// The system must outlive the flow; its inputs may change between calls of begin, its parameters must not.
+  /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
   explicit NominalFlow(const System& system)
-      : motor_(system.motor_piece()),
-        load_(system.load()),
-        surface_(system.surface()),
-        has_teeth_(system.mesh().has_teeth) {
+      : motor_(system.motor_piece()), load_(system.load()), surface_(system.surface()) {
+    if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
     double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
       if (!effect) return;
@@ -59,90 +58,91 @@ class NominalFlow<WormDrive<double, Load>> {
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
         const double C = mesh.C(motion * flank * mesh.mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
-        equations_[index(motion, flank)] = {.held = {.motion = static_cast<double>(motion),
-                                                     .flank = static_cast<double>(flank),
-                                                     .gravity = amplitude() * C * inverse,
-                                                     .drag = (worm_viscous + C * gear_viscous) * inverse,
-                                                     .lift = amplitude() * surface_,
-                                                     .skew = worm_viscous - surface_ * gear_viscous},
-                                            .per_worm_torque = inverse,
-                                            .per_gear_torque = C * inverse,
-                                            .worm_friction = -motion * worm_coulomb,
-                                            .gear_friction = -motion * gear_coulomb};
+        equations_[index(motion, flank)] = {
+            .mode = {wormdrive::Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}},
+            .held = {.motion = static_cast<double>(motion),
+                     .flank = static_cast<double>(flank),
+                     .gravity = amplitude() * C * inverse,
+                     .drag = (worm_viscous + C * gear_viscous) * inverse,
+                     .lift = amplitude() * surface_,
+                     .skew = worm_viscous - surface_ * gear_viscous},
+            .per_worm_torque = inverse,
+            .per_gear_torque = C * inverse,
+            .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
+                         -motion * (worm_coulomb - surface_ * gear_coulomb)}};
       }
   }
 
   /// False with an effect that this flow does not know.
   bool covers() const { return covers_; }
 
-  /// The mode in which a moving drive goes on after its inputs were set from outside, where the torques are clear of
-  /// the switching surface; otherwise the equations of core/ have to decide.
-  std::optional<Mode> settle(const Instant& now) {
-    if (now.x[1] == 0.0 || !has_teeth_ || !inputs_are_constant()) return std::nullopt;
-    settled_arm_ = arm_at(now.x[0]);
-    settled_at_ = now.x[0];
-    const auto motion = now.x[1] > 0.0 ? wormdrive::Motion::forward : wormdrive::Motion::backward;
-    const Equation& m = equations_[index(sign(motion), 1)];
-    const double beyond = held_torques(m).beyond, lift = m.held.lift * settled_arm_.cosine,
-                 skew = m.held.skew * now.x[1], distance = beyond - lift - skew;
-    if (std::abs(distance) <= 1e-3 * (std::abs(beyond) + std::abs(lift) + std::abs(skew))) return std::nullopt;
-    return Mode{motion, distance <= 0.0 ? Flank::left : Flank::right};
+  /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
+  /// the switching surface. Otherwise the equations of core/ have to decide.
+  bool goes_on(const Instant& now) {
+    const HeldMotion& m = mode_->held;
+    if (!(m.motion * now.x[1] > 0.0) || !inputs_are_constant()) return false;
+    const double skew = m.skew * now.x[1],
+                 distance = held_torques(*mode_).beyond - m.lift * arm_at(now.x[0]).cosine - skew;
+    return -m.flank * distance > 1e-3 * (std::abs(m.lift) + std::abs(skew));
   }
+  /// The latest mode.
+  Mode mode() const { return mode_->mode; }
 
-  /// Takes up mode and inputs.
+  /// Takes up the mode.
   void begin(const Instant& now) {
     // Modes outlast samples: a branch is foretold, an index would have to wait for the torque.
-    if (now.mode != latest_) {
-      latest_ = now.mode;
-      mode_ = &equations_[index(sign(latest_.motion), sign(latest_.flank))];
-    }
-    constant_inputs_ = inputs_are_constant();
+    if (now.mode != mode()) mode_ = &equations_[index(sign(now.mode.motion), sign(now.mode.flank))];
   }
 
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
-  bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) const {
-    if (!constant_inputs_) return false;
+  bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
+    if (!inputs_are_constant()) return false;
     if (!mode_->held.template leap<swings>(now.x[0], now.x[1], next - now.t, held_torques(*mode_), arm_at(now.x[0]),
                                            accuracy))
       return false;
     now.t = next;
+    look(now.x[0]);
     return true;
   }
 
   /// The motion from now on, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const Equation& m = *mode_;
-    input(motor_, now.t, accuracy.order(), worm_torque_);
-    worm_torque_[0] += m.worm_friction;
-    if constexpr (swings)
-      turn_to(now.x[0] + load_.offset);
-    else
-      input(load_.piece, now.t, accuracy.order(), gear_torque_);
-    gear_torque_[0] += m.gear_friction;
+    const int last = accuracy.order();
+    input(motor_, now.t, last, worm_torque_);
+    if constexpr (swings) {
+      const SineAndCosine& arm = arm_at(now.x[0]);
+      arm_[0] = Pair{arm.cosine, arm.sine};
+    } else {
+      input(load_.piece, now.t, last, gear_torque_);
+    }
 
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
     const double allowed = accuracy.allowed(e.omega[0]);
-    double power = 1.0 / h;  // h^(k-1)
+    double power = 1.0 / h, alpha = m.friction.push;  // power: h^(k-1)
     for (int k = 0;; ++k) {
       if constexpr (swings)
         if (k > 0) turn(e.omega, k);
-      e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
-      e.guards[System::speed_guard][k] = m.held.motion * e.omega[k];
-      e.guards[System::flank_guard][k] =
-          -m.held.flank * (worm_torque_[k] - surface_ * gear_torque_[k] - m.held.skew * e.omega[k]);
-      if (k == 0 && m.held.flank == 0.0) e.guards[System::flank_guard][0] = 1.0;
-      e.order = k;
-      if (k == accuracy.order()) break;
-      if (std::abs(e.omega[k]) * power <= allowed && accuracy.suffices(e, h)) {
-        e.step = h;
-        return;
+      if (k == last) break;
+      if (std::abs(e.omega[k]) * power <= allowed) {
+        complete(m, k, e);
+        if (accuracy.suffices(e, h)) {
+          e.step = h;
+          return;
+        }
       }
       power *= h;
-      const double alpha =
-          worm_torque_[k] * m.per_worm_torque + gear_torque_[k] * m.per_gear_torque - m.held.drag * e.omega[k];
+      // What is known first comes first: the series waits for the load.
+      alpha += worm_torque_[k] * m.per_worm_torque - m.held.drag * e.omega[k];
+      if constexpr (swings)
+        alpha += m.held.gravity * arm_[k][0];
+      else
+        alpha += gear_torque_[k] * m.per_gear_torque;
       e.omega[k + 1] = alpha * reciprocal[k + 1];
+      alpha = 0.0;
     }
+    complete(m, last, e);
     e.step = accuracy.step(e, h);
   }
 
@@ -153,14 +153,14 @@ class NominalFlow<WormDrive<double, Load>> {
       std::is_same_v<E, TorqueSaturation<double>> || std::is_same_v<E, WormInertia<double>> ||
       std::is_same_v<E, GearInertia<double>> || E::place == Place::sensor;
   static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
-  using Pair = double __attribute__((vector_size(16)));  // two sums in one register
 
   /// A mode: theta'' = per_worm_torque tau_w + per_gear_torque tau_g - drag theta', its distance from the switching
   /// surface tau_w - (Jw i/Jg) tau_g - skew theta'; tau_w and tau_g hold the dry friction, not the viscous. All in SI.
   struct Equation {
+    Mode mode;
     HeldMotion held;
     double per_worm_torque, per_gear_torque;
-    double worm_friction, gear_friction;
+    HeldTorques friction;  ///< what dry friction does to the drive
   };
 
   static constexpr auto reciprocal = [] {
@@ -178,10 +178,12 @@ class NominalFlow<WormDrive<double, Load>> {
       return is_constant(motor_) && is_constant(load_.piece);
   }
   HeldTorques held_torques(const Equation& m) const {
-    const double worm = motor_.constant + m.worm_friction;
-    double gear = m.gear_friction;
-    if constexpr (!swings) gear += load_.piece.constant;
-    return {worm * m.per_worm_torque + gear * m.per_gear_torque, worm - surface_ * gear};
+    HeldTorques held{motor_.constant * m.per_worm_torque + m.friction.push, motor_.constant + m.friction.beyond};
+    if constexpr (!swings) {
+      held.push += load_.piece.constant * m.per_gear_torque;
+      held.beyond -= load_.piece.constant * surface_;
+    }
+    return held;
   }
 
   double amplitude() const {
@@ -190,12 +192,17 @@ class NominalFlow<WormDrive<double, Load>> {
     else
       return 0.0;
   }
-  /// Sine and cosine of the arm's angle, worked out once for mode and motion.
-  SineAndCosine arm_at(double theta_g) const {
-    if constexpr (!swings)
-      return {0.0, 0.0};
-    else
-      return theta_g == settled_at_ ? settled_arm_ : sine_and_cosine(theta_g + load_.offset);
+  /// Works out sine and cosine of the arm's angle. Done as soon as the gear angle is known: no torque enters them.
+  void look(double theta_g) {
+    if constexpr (swings) {
+      const auto [sine, cosine] = sine_and_cosine(theta_g);
+      arm_now_ = {sine * offset_.cosine + cosine * offset_.sine, cosine * offset_.cosine - sine * offset_.sine};
+      arm_now_at_ = theta_g;
+    }
+  }
+  const SineAndCosine& arm_at(double theta_g) {
+    if (theta_g != arm_now_at_) look(theta_g);
+    return arm_now_;
   }
 
   /// Sets c to the coefficients of an input, up to the last that is asked for.
@@ -215,10 +222,18 @@ class NominalFlow<WormDrive<double, Load>> {
     }
   }
 
-  void turn_to(double angle) {
-    const SineAndCosine start = sine_and_cosine(angle);
-    arm_[0] = Pair{start.cosine, start.sine};
-    gear_torque_[0] = load_.amplitude * start.cosine;
+  /// Angle and guards to the order to which the speed is known.
+  void complete(const Equation& m, int order, Motion& e) const {
+    e.order = order;
+    Coefficients &speed = e.guards[System::speed_guard], &flank = e.guards[System::flank_guard];
+    const double side = -m.held.flank;
+    for (int k = 0; k <= order; ++k) {
+      e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
+      speed[k] = m.held.motion * e.omega[k];
+      const double load = swings ? m.held.lift * arm_[k][0] : surface_ * gear_torque_[k];
+      flank[k] = side * (worm_torque_[k] - load - m.held.skew * e.omega[k]);
+    }
+    flank[0] = side != 0.0 ? flank[0] + side * m.friction.beyond : 1.0;
   }
 
   /// Coefficient k of cosine and sine: k cos_k = -sum of omega_(j-1) sin_(k-j), k sin_k = sum of omega_(j-1) cos_(k-j).
@@ -232,21 +247,19 @@ class NominalFlow<WormDrive<double, Load>> {
     }
     const Pair sum = (lower + upper) * reciprocal[k];
     arm_[k] = Pair{-sum[1], sum[0]};
-    gear_torque_[k] = load_.amplitude * arm_[k][0];
   }
 
   const Piece& motor_;
   const Load& load_;
   double surface_;
-  bool has_teeth_, covers_ = true;
+  bool covers_ = true;
   std::array<Equation, 6> equations_{};
-  Mode latest_{};
   const Equation* mode_ = &equations_[0];  ///< that of the latest mode
-  bool constant_inputs_ = false;
-  Coefficients worm_torque_{}, gear_torque_{};                    ///< of the latest step, but for viscous friction
+  Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
   std::array<Pair, highest_order + 2> arm_{};                     ///< cosine and sine of the arm's angle
-  double settled_at_ = std::numeric_limits<double>::quiet_NaN();  ///< gear angle of the latest settle [rad]
-  SineAndCosine settled_arm_{};
+  SineAndCosine offset_{0.0, 1.0};                                ///< of the arm against the gear
+  SineAndCosine arm_now_{};                                       ///< of the arm at the latest gear angle ...
+  double arm_now_at_ = std::numeric_limits<double>::quiet_NaN();  ///< ... [rad]
 };
 
 }  // namespace wormdrive

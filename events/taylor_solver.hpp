@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "events/halt.hpp"
 #include "events/polynomial_root.hpp"
@@ -28,8 +27,7 @@ class TaylorSolver {
   /// The mode in which the system goes on after its inputs were set from outside.
   Mode settle(const Instant& now) {
     if constexpr (NominalFlow<System>::known)
-      if (nominal_.covers())
-        if (const auto mode = nominal_.settle(now)) return *mode;
+      if (nominal_.covers() && nominal_.goes_on(now)) return nominal_.mode();
     return system_.settle(now);
   }
 
@@ -38,26 +36,15 @@ class TaylorSolver {
     ++count_.restarts;
     armed_.fill(false);
     end_ = now.t;
-    fired_.reset();
+    fired_ = no_guard;
     if constexpr (NominalFlow<System>::known) nominal_.begin(now);
   }
 
-  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier.
-  std::optional<int> advance(Instant& now, double next, double limit) {
-    while (!already_there(now.t, next)) {
-      if (now.t >= end_) {
-        if (next == limit && leap(now, limit)) return std::nullopt;
-        begin_ = now;
-        if (next < limit && leap(now, limit))
-          there_ = now;
-        else
-          step(now, limit);
-      }
-      now = at(std::min(next, end_));
-      if (fired_ && now.t == end_) return fired_;
-    }
-    now.t = next;
-    return std::nullopt;
+  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
+  /// no_guard.
+  int advance(Instant& now, double next, double limit) {
+    if (next == limit && now.t < next && now.t >= end_ && leap(now, limit)) return no_guard;
+    return advance_step_by_step(now, next, limit);
   }
 
   /// What the solver did since it was made; an evaluation is one power series of the motion.
@@ -68,6 +55,22 @@ class TaylorSolver {
   }
 
  private:
+  [[gnu::noinline]] int advance_step_by_step(Instant& now, double next, double limit) {
+    while (!already_there(now.t, next)) {
+      if (now.t >= end_) {
+        begin_ = now;
+        if (next < limit && leap(now, limit))
+          there_ = now;
+        else
+          step(now, limit);
+      }
+      now = at(std::min(next, end_));
+      if (fired_ != no_guard && now.t == end_) return fired_;
+    }
+    now.t = next;
+    return no_guard;
+  }
+
   /// Goes on to the limit without a search for events, where the nominal flow can vouch for it.
   bool leap(Instant& now, double limit) {
     leapt_ = false;
@@ -78,13 +81,12 @@ class TaylorSolver {
       ++count_.evaluations;
       end_ = limit;
       leapt_ = true;
-      armed_.fill(true);
     }
     return leapt_;
   }
 
   /// The motion at a time of the present step.
-  Instant at(double t) const {
+  Instant at(double t) {
     if constexpr (NominalFlow<System>::known) {
       if (leapt_ && t == end_) return there_;
       if (leapt_) {
@@ -112,11 +114,15 @@ class TaylorSolver {
     stalled_ = end_ == now.t ? stalled_ + 1 : 0;
     if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
     if (end_ == now.t) end_ = std::nextafter(now.t, limit);
-    fired_.reset();
+    fired_ = no_guard;
     for (int g = 0; g < System::guard_count; ++g) {
+      if (series_.positive[g]) {
+        armed_[g] = true;
+        continue;
+      }
       const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end_ - now.t, armed_[g]);
       armed_[g] = armed_[g] || fall.armed;
-      if (!fall.at || (fired_ && now.t + *fall.at >= end_)) continue;
+      if (!fall.at || (fired_ != no_guard && now.t + *fall.at >= end_)) continue;
       end_ = std::min(now.t + *fall.at, end_);
       fired_ = g;
     }
@@ -146,7 +152,7 @@ class TaylorSolver {
   double end_ = 0.0;    ///< of the present step [s]
   bool leapt_ = false;  ///< the step is a leap to there_; else series_ describes it
   Instant there_{};
-  std::optional<int> fired_;  ///< the guard that falls through zero at the end
+  int fired_ = no_guard;  ///< the guard that falls through zero at the end
   RootSearch search_;
   std::array<bool, System::guard_count> armed_{};
   int stalled_ = 0;

@@ -15,6 +15,9 @@ enum class Reason {
   end,
 };
 
+/// In the place of a guard's index: none fell through zero.
+inline constexpr int no_guard = -1;
+
 /// When a controller takes its samples: at offset + k period [s], k = 0, 1, ...; by default never.
 struct Sampling {
   double period = std::numeric_limits<double>::infinity();
