@@ -36,6 +36,7 @@ struct Sensor {
     double t;
     std::array<double, 2> x;
   };
+  static Moment<double> moment(const Instant& now) { return {now.t, now.x[0], now.x[1], 0.0}; }
   static double measured_angle(const Instant& now) { return now.x[0]; }
   static double torque_limit() { return never; }
 };

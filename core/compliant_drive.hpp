@@ -58,8 +58,7 @@ class CompliantDrive {
   double torque_limit() const { return rigid_.torque_limit(); }
   const ToothContact<T>& contact() const { return contact_; }
 
-  // Inputs are those of the rigid drive.
-  void enter(double t) { rigid_.enter(t); }
+  void enter(double t) { rigid_.enter(t); }  // inputs are those of the rigid drive
   void rewind() { rigid_.rewind(); }
   void command(double t, double tau_m) { rigid_.command(t, tau_m); }
   double next_knot(double t) const { return rigid_.next_knot(t); }

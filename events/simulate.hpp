@@ -13,8 +13,6 @@ namespace wormdrive {
 /// Open loop: nobody samples.
 struct NoController {
   template <class System>
-  void latch(const System&, const typename System::Instant&) {}
-  template <class System>
   double sample(const System&, const typename System::Instant&) {
     return 0.0;
   }
@@ -47,7 +45,7 @@ typename System::Mode settle(const System& system, Solver& solver, const typenam
 /// Runs a hybrid system to the end of its timetable and returns its last instant.
 ///
 /// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next;
-/// latch(system, now) comes before it, where samples see an older angle.
+/// latch(system, now), if it has one, comes before it where samples see an older angle.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
 /// returns the guard at which it stopped, or no_guard. record(system, now) sees every report and both sides of every
 /// event, in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
@@ -69,7 +67,9 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         timetable.schedule_knot(system.next_knot(now.t));
         now.mode = system.settle(now);
         break;
-      case Reason::latch: controller.latch(system, now); break;
+      case Reason::latch:
+        if constexpr (requires { controller.latch(system, now); }) controller.latch(system, now);
+        break;
       case Reason::sample: {
         const double tau_m = controller.sample(system, now);
         if (!std::isfinite(tau_m))

@@ -26,8 +26,6 @@ Run<System> a_second(const System& system, By by) {
 struct Counting {
   double torque = 0.0;
   template <class System>
-  void latch(const System&, const typename System::Instant&) {}
-  template <class System>
   double sample(const System&, const typename System::Instant&) {
     return torque += 0.1;
   }

@@ -28,8 +28,6 @@ struct Recorded {
   std::size_t next = 0;
 
   template <class System>
-  void latch(const System&, const typename System::Instant&) {}
-  template <class System>
   double sample(const System&, const typename System::Instant&) {
     return torques.at(next++);
   }
