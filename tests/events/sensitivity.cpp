@@ -1,6 +1,8 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <optional>
+#include <type_traits>
 
 #include "catch.hpp"
 #include "derivatives.hpp"
@@ -54,35 +56,34 @@ void check_effect(const Effect& effect) {
   CHECK(kinds.flank_changes >= 1);
 }
 
+/// One of every effect of the rigid drive, of a size that shows.
+Effects<double> one_of_each() {
+  return effects(TorqueSaturation<double>{0.03}, ActuatorDelay<double>{0.007}, ActuatorLag<double>{0.004},
+                 TorqueGain<double>{0.05}, TorqueOffset<double>{0.001}, Cogging<double>{0.001, 2.0, 0.3},
+                 WormCoulomb<double>{0.006}, WormViscous<double>{4e-5}, BearingAsymmetry<double>{5e-4, 1e-5},
+                 WormInertia<double>{2e-6}, Agma<double>{0.9}, MeshFriction<double>{0.01},
+                 Stribeck<double>{0.03, 0.1, 1.0}, FrictionAsymmetry<double>{0.01}, PositionFriction<double>{0.1, 0.4},
+                 FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
+                 TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
+                 GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},
+                 LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
+}
+
+/// What makes the teeth elastic belongs to another drive; a late angle has a test of its own.
+template <class Effect>
+constexpr bool left_out = std::is_same_v<Effect, ToothCompliance<double>> || std::is_same_v<Effect, Backlash<double>> ||
+                          std::is_same_v<Effect, EncoderDelay<double>>;
+
 }  // namespace
 
 TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives by every effect's parameters") {
-  check_effect(TorqueSaturation<double>{0.03});
-  check_effect(ActuatorDelay<double>{0.007});
-  check_effect(ActuatorLag<double>{0.004});
-  check_effect(TorqueGain<double>{0.05});
-  check_effect(TorqueOffset<double>{0.001});
-  check_effect(Cogging<double>{0.001, 2.0, 0.3});
-  check_effect(WormCoulomb<double>{0.006});
-  check_effect(WormViscous<double>{4e-5});
-  check_effect(BearingAsymmetry<double>{5e-4, 1e-5});
-  check_effect(WormInertia<double>{2e-6});
-  check_effect(Agma<double>{0.9});
-  check_effect(MeshFriction<double>{0.01});
-  check_effect(Stribeck<double>{0.03, 0.1, 1.0});
-  check_effect(FrictionAsymmetry<double>{0.01});
-  check_effect(PositionFriction<double>{0.1, 0.4});
-  check_effect(FrictionDrift<double>{0.05, 2.0});
-  check_effect(StaticFriction<double>{0.05, 0.02});
-  check_effect(TransmissionError<double>{0.005, 0.3});
-  check_effect(GearCoulomb<double>{0.008});
-  check_effect(GearViscous<double>{1e-4});
-  check_effect(GearInertia<double>{1e-4});
-  check_effect(LoadMagnitude<double>{0.05});
-  check_effect(LoadAngle<double>{0.05});
-  check_effect(LoadSpring<double>{0.01, 0.2});
-  check_effect(EncoderScale<double>{0.01});
-  check_effect(EncoderOffset<double>{0.01});
+  one_of_each().for_each([]<class Effect>(const std::optional<Effect>& effect) {
+    if constexpr (!left_out<Effect>) {
+      INFO(Effect::id << " of the catalogue is missing here");
+      REQUIRE(effect.has_value());
+      check_effect(*effect);
+    }
+  });
 }
 
 TEST_CASE("they agree where the parameters are zero, as they are where a fit starts") {
