@@ -4,9 +4,9 @@
 namespace wormdrive {
 
 /// The value of a scalar without the derivatives that it may carry.
-inline double nominal(double x) { return x; }
+inline double value_of(double x) { return x; }
 template <int N>
-double nominal(const ceres::Jet<double, N>& x) {
+double value_of(const ceres::Jet<double, N>& x) {
   return x.a;
 }
 

@@ -19,7 +19,7 @@ class MotorInput {
  public:
   /// limit [N m], infinity without one; delay [s]; time constant of the lag [s], 0 without one.
   MotorInput(Signal signal, const T& limit, const T& delay, const T& lag)
-      : signal_(std::move(signal)), limit_(limit), delay_(delay), late_(nominal(delay)), lag_(lag) {}
+      : signal_(std::move(signal)), limit_(limit), delay_(delay), late_(value_of(delay)), lag_(lag) {}
 
   /// Forgets what was commanded, for a new run from its start.
   void rewind() {
@@ -53,7 +53,7 @@ class MotorInput {
     }
     held_ = torque;
     arrival_ = moving(t);
-    if (std::isinf(nominal(limit_)) && !lags())
+    if (std::isinf(value_of(limit_)) && !lags())
       piece_.constant = signal_constant_ + torque;
     else
       freeze(signal_.piece(t), t);
@@ -71,7 +71,7 @@ class MotorInput {
   /// The smooth piece of the command that the motor has now; its time is delayed.
   const Piece& piece() const { return piece_; }
   /// Largest magnitude of the command [N m], infinity without a limit.
-  double limit() const { return nominal(limit_); }
+  double limit() const { return value_of(limit_); }
   /// First time after t at which the torque jumps or bends.
   double next_knot(double t) const {
     const double arrival = on_the_way_.empty() ? never : on_the_way_.front().arrival;
@@ -79,7 +79,7 @@ class MotorInput {
     return std::min({signal, limit_knot_ + late_, arrival});
   }
   /// Highest angular frequency of the torque, or rate of its decay [rad/s].
-  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / nominal(lag_)) : piece_.fastest(); }
+  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / value_of(lag_)) : piece_.fastest(); }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -98,8 +98,8 @@ class MotorInput {
   void freeze(Piece piece, double commanded) {
     piece.constant += held_;
     limit_knot_ = never;
-    if (!std::isinf(nominal(limit_))) {
-      LimitedPiece cut = limited(piece, nominal(limit_), commanded);
+    if (!std::isinf(value_of(limit_))) {
+      LimitedPiece cut = limited(piece, value_of(limit_), commanded);
       piece = std::move(cut.piece);
       side_ = cut.side;
       limit_knot_ = cut.until;
