@@ -208,4 +208,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 };
 
+template <class T, class Load>
+WormDrive(GearMesh<T>, Load, Effects<T>, Signal) -> WormDrive<T, Load>;
+
 }  // namespace wormdrive
