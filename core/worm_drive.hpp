@@ -90,6 +90,13 @@ class WormDrive : public TorqueBalance<T, Load> {
     return {speed, -T(sign(mode.flank)) * beyond_surface(at, mode.motion)};
   }
 
+  /// Sizes of the terms of which the guards of a moving drive are the sums: what their rounding is a share of.
+  std::array<double, guard_count> guard_terms(const Moment<double>& at,
+                                              Mode mode) const requires std::same_as<T, double> {
+    const SideTorques<double> tau = side_torques(at, mode.motion);
+    return {std::abs(at.omega_g), std::abs(tau.worm) + std::abs(tau.worm - beyond_surface(tau, at))};
+  }
+
   /// Values and rates of the guards along the motion.
   std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
     // what ahead<1> finds, without the rate of the acceleration, which would be thrown away

@@ -11,7 +11,7 @@ namespace wormdrive {
 /// The motion of any drive as power series: the equations of core/ themselves, with a series for a scalar.
 ///
 /// A branch that an equation takes behind the start, as a table does at its points, is not in the series. So every
-/// step is tried: where acceleration and guards at its end are not those of the series, it ends at the branch.
+/// step is tried: where acceleration and guards on the way are not those of the series, it ends at the branch.
 template <class System>
 class SeriesFlow {
  public:
@@ -46,27 +46,31 @@ class SeriesFlow {
   /// Whether the equations at s are those that the series was made from.
   static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy,
                     const Motion& e) {
+    const double t = now.t + s;
     const auto near = [&](double found, Polynomial c, double allowed) {
-      double size = 0.0, power = 1.0;
-      for (const double x : c) {
-        size += std::abs(x) * power;
-        power *= s;
+      double size = 0.0, rate = 0.0, power = 1.0;
+      for (std::size_t k = 0; k < c.size(); ++k, power *= s) {
+        size += std::abs(c[k]) * power;
+        if (k + 1 < c.size()) rate += static_cast<double>(k + 1) * std::abs(c[k + 1]) * power;
       }
-      return std::abs(found - value(c, s)) <= allowed + (accuracy.relative() + rounding) * size;
+      // the inputs know the time to its own rounding only
+      return std::abs(found - value(c, s)) <=
+             allowed + (accuracy.relative() + rounding) * size + 4.0 * epsilon * std::abs(t) * rate;
     };
-    const auto there = system.moment(now.t + s, value(e.angle(), s), value(e.speed(), s));
+    const auto there = system.moment(t, value(e.angle(), s), value(e.speed(), s));
     Coefficients rate;
     for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * e.omega[k];
     const double a = system.acceleration(there, now.mode);
     if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, e.order * accuracy.allowed(there.omega_g)))
       return false;
     const auto guards = system.guards(there, now.mode);
+    const auto terms = system.guard_terms(there, now.mode);
     for (int g = 0; g < System::guard_count; ++g)
-      if (!near(guards[g], e.guard(g), 0.0)) return false;
+      if (!near(guards[g], e.guard(g), rounding * terms[g])) return false;
     return true;
   }
 
-  static constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  static constexpr double epsilon = std::numeric_limits<double>::epsilon(), rounding = 64.0 * epsilon;
 };
 
 }  // namespace wormdrive

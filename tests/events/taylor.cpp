@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "core/sine_cosine.hpp"
+#include "events/series_step.hpp"
 #include "support.hpp"
 
 // The solver of power series against 128-bit arithmetic, and where its series must not be believed.
@@ -131,6 +132,47 @@ TEST_CASE("a load whose law changes within a step is not stepped over") {
     REQUIRE(r.end.mode == Mode{Motion::forward, Flank::right});
     REQUIRE(std::abs(r.end.x[0] - (0.3 + x)) <= 1e-9);
   }
+}
+
+TEST_CASE("the longest step ends where a law ends first, though the law holds again at the end") {
+  REQUIRE(close(longest(1.0, [](double s) { return s <= 0.3 || s >= 0.9; }), 0.3, 1e-15));
+  REQUIRE(longest(0.7, [](double) { return true; }) == 0.7);
+  REQUIRE(longest(0.7, [](double) { return false; }) == 0.0);
+}
+
+TEST_CASE("a load whose law changes within a step and changes back is not stepped over") {
+  // thrown against a constant torque, the wheel goes 0.125 rad beyond the bend and comes back
+  const WormDrive<double, BentLoad> bent(GearMesh<double>::without_teeth(2.0), BentLoad{0.3, -3.0}, {},
+                                         constant(-10.0));
+  const auto end = [&](By by) { return run(bent, Timetable(0, 1, never), {0, {0.2, 1.5}, {}}, tight(by)).end.x; };
+  REQUIRE((end(taylor) - end(adams)).cwiseAbs().maxCoeff() <= 1e-9);
+}
+
+TEST_CASE("friction after the standard's table is followed from piece to piece, through every reversal") {
+  const auto by = [](By solver) {
+    return run(drive(table1(), fig9_load(), fig9_motor(), effects(Agma<double>{})), Timetable(0, 2, never), {},
+               tight(solver));
+  };
+  const auto series = by(taylor), cvode = by(adams);
+  REQUIRE(series.modes() == cvode.modes());
+  REQUIRE(series.events.size() == 12);
+  for (std::size_t k = 0; k < series.events.size(); ++k)
+    REQUIRE(std::abs(series.events[k].after.t - cvode.events[k].after.t) <= 1e-10);
+  REQUIRE((series.end.x - cvode.end.x).cwiseAbs().maxCoeff() <= 1e-9);
+}
+
+TEST_CASE("short steps and late times leave the equations of core their rounding, and the run goes on") {
+  const auto d = drive(table1(), fig9_load(), fig9_motor(), effects(TorqueGain<double>{0.1}));
+  const auto free = run(d, Timetable(0, 2, never), {}, tight(taylor));
+  SolverSettings short_steps = tight(taylor);
+  short_steps.max_step = 1e-4;
+  const auto short_ones = run(d, Timetable(0, 2, never), {}, short_steps);
+  REQUIRE(short_ones.modes() == free.modes());
+  REQUIRE((short_ones.end.x - free.end.x).cwiseAbs().maxCoeff() <= 1e-10);
+  // 1500 periods later the phase is known to 1e-12 only
+  const auto late = run(d, Timetable(1000, 1002, never), {1000.0, {0.0, 0.0}, {}}, tight(taylor, 1e-14));
+  REQUIRE(late.modes() == free.modes());
+  REQUIRE((late.end.x - free.end.x).cwiseAbs().maxCoeff() <= 1e-9);
 }
 
 TEST_CASE("sine and cosine are within one unit in the last place, whatever the angle and its quarter turn") {
