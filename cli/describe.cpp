@@ -37,7 +37,8 @@ std::string name(LockingRegime regime) {
 std::string describe_mesh(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) return "";
-  const double surface = mesh.Jw * mesh.i / total_gear_inertia(scenario);
+  const double slope = scenario.effects.least_slope();
+  const double surface = mesh.Jw * mesh.i * slope * slope / total_gear_inertia(scenario);
   std::string motion = fmt::format("eq. 17 holds ({:.3g} times)", surface / -mesh.C1());
   if (mesh.C1() >= 0.0) motion = "eq. 17 holds (C1 >= 0)";
   if (mesh.C1() <= -surface)

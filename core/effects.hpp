@@ -137,6 +137,10 @@ struct Effects {
     });
     return any;
   }
+  /// Smallest slope of the worm angle over the gear angle, per ratio i.
+  double least_slope() const {
+    return through(1.0, [](const auto& e, double) -> decltype(e.least_slope()) { return e.least_slope(); });
+  }
   /// How the worm follows the gear, per ratio i.
   template <class S>
   Transmission<S> transmission(const S& theta_g) const {

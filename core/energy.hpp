@@ -19,8 +19,9 @@ Power power(const WormDrive<double, Load>& drive, const typename WormDrive<doubl
   const Motion motion = now.mode.motion;
   const double bearings =
       -drive.effects().worm_torque(at, motion) * at.omega_w - drive.effects().gear_torque(at, motion) * at.omega_g;
+  // where the pitch is uneven, the worm's lever arms are shorter as its speed is greater: an even pitch's speed counts
   const double mesh = drive.mesh().has_teeth ? drive.friction(at, motion) * o.normal_force *
-                                                   std::abs(drive.mesh().sliding_speed(at.omega_w))
+                                                   std::abs(drive.mesh().sliding_speed(drive.mesh().i * at.omega_g))
                                              : 0.0;
   return {o.tau_m * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
 }

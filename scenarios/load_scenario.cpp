@@ -124,16 +124,19 @@ class ScenarioReader {
                                             friction, mesh.mu_g()));
       return;
     }
-    const double Jg = total_gear_inertia(scenario_), surface = mesh.Jw * mesh.i / Jg;
+    const double slope = scenario_.effects.least_slope(), Jw_i = mesh.Jw * mesh.i * slope * slope;
+    const double Jg = total_gear_inertia(scenario_), surface = Jw_i / Jg;
+    const std::string limit =
+        slope < 1.0 ? fmt::format("-Jw i k^2/Jg where the worm is slowest, k = {:.6g},", slope) : "-Jw i/Jg";
     if (mesh.C1() <= -surface)
       faults_.add(
           friction_at_,
           fmt::format(
-              "{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, -Jw i/Jg = {:.6g} with "
+              "{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, {} = {:.6g} with "
               "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2, "
               "lower the gear-side inertia below {:.6g} kg m^2, or add [effect.tooth_compliance]: elastic teeth "
               "can jam",
-              friction, mesh.C1(), -surface, Jg, -mesh.Jw * mesh.i / mesh.C1()));
+              friction, mesh.C1(), limit, -surface, Jg, -Jw_i / mesh.C1()));
   }
 
   std::string name_;

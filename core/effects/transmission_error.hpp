@@ -26,6 +26,8 @@ struct TransmissionError {
               "largest advance of the worm, counted at the gear"},
         Field{&TransmissionError::phase, "phase", unit::degrees, bounds::any, "phase at gear angle zero"}};
   }
+  /// Smallest slope of the worm angle over the gear angle, per ratio i.
+  double least_slope() const { return 1.0 - std::abs(amplitude); }
   /// How the worm follows the gear, per ratio i.
   template <class S>
   Transmission<S> transmission(const S& theta_g) const {

@@ -58,6 +58,8 @@ TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 
        "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], can follow it"},
       {"eq. 17 by inertia", with("[effect.gear_inertia]\ninertia_kgm2 = 0.999261\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.001518 with Jg = 1 kg m^2; *"},
+      {"eq. 17 by pitch", edited(with("[effect.transmission_error]\namplitude_deg = 28\nphase_deg = 0\n"), "7.39e-4", "0.02"),
+       "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i k^2/Jg where the worm is slowest, k = 0.511308, = -0.019843 with Jg = 0.02 kg m^2; *"},
       {"eq. 17 by friction", edited(with("[effect.friction_asymmetry]\nchange = -0.1\n"), "7.39e-4", "0.03"),
        "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 0.35 with its effects, violates eq. 17, C1 > -Jw i/Jg: C1 = *"}});
 }

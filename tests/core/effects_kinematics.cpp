@@ -52,6 +52,23 @@ TEST_CASE("transmission_error: without friction all work of motor and load is ki
   }
 }
 
+TEST_CASE("transmission_error: with friction motor and load pay for it and for kinetic energy, and nothing else") {
+  const MeshParameters<double> rough = closing(table1());
+  const auto d = entered(rough, constant(0.2), constant(0.01), uneven);
+  for (const Motion motion : {Motion::forward, Motion::backward})
+    for (const double theta_g : {-2.0, 0.4, 1.9}) {
+      auto now = decltype(d)::Instant{0.0, {theta_g, 3.0 * sign(motion)}, {}};
+      now.mode = d.settle(now);
+      const double omega = now.x[1], alpha = d.observe(now).alpha_g, k = slope(theta_g);
+      const double alpha_w = i * (k * alpha + curvature(theta_g) * omega * omega);
+      const double gained = rough.Jw * i * k * omega * alpha_w + rough.Jg * omega * alpha;
+      const Power flow = power(d, now);
+      REQUIRE(flow.loss > 0.0);
+      REQUIRE(std::abs(flow.motor + flow.load - flow.loss - gained) <=
+              1e-12 * (std::abs(flow.motor) + std::abs(flow.load)));
+    }
+}
+
 TEST_CASE("transmission_error: the acceleration and the normal force solve the balances of both shafts") {
   const MeshParameters<double> table = table1();
   const GearMesh<double> mesh(table);
