@@ -62,11 +62,11 @@ class CompliantDrive {
   void rewind() { rigid_.rewind(); }
   void command(double t, double tau_m) { rigid_.command(t, tau_m); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
-  double fastest_input() const { return rigid_.fastest_input(); }
+  double fastest_input(double t) const { return rigid_.fastest_input(t); }
   /// The longest step [s] within which a guard of a shaft at rest, which the state does not show, turns at most once.
   double longest_step(Mode mode) const {
-    const bool stuck = mode.worm == Motion::stuck || mode.gear == Motion::stuck;
-    return stuck && fastest_input() > 0.0 ? 0.05 / fastest_input() : std::numeric_limits<double>::infinity();
+    const double omega = mode.worm == Motion::stuck || mode.gear == Motion::stuck ? rigid_.fastest_input() : 0.0;
+    return omega > 0.0 ? 0.05 / omega : std::numeric_limits<double>::infinity();
   }
 
   // ---- continuous motion --------------------------------------------------------------------------------------

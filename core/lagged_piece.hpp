@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/jet.hpp"
 #include "core/piece.hpp"
 
 namespace wormdrive {
@@ -21,6 +22,9 @@ class LaggedPiece {
     using std::exp;
     return staying(t) + excess_ * exp((begin_ - t) / lag_);
   }
+
+  /// From when on what decays is below rounding [s].
+  double settled() const { return value_of(begin_) + 40.0 * value_of(lag_); }
 
  private:
   template <class S>

@@ -78,8 +78,11 @@ class MotorInput {
     const double signal = late_ > 0.0 ? knot_ + late_ : signal_.next_knot(t);
     return std::min({signal, limit_knot_ + late_, arrival});
   }
-  /// Highest angular frequency of the torque, or rate of its decay [rad/s].
-  double fastest() const { return lags() ? std::max(piece_.fastest(), 1.0 / value_of(lag_)) : piece_.fastest(); }
+  /// Highest angular frequency of the torque, or rate of its decay, from t on [rad/s].
+  double fastest(double t) const {
+    const bool decays = lags() && t - late_ < lagged_.settled();
+    return decays ? std::max(piece_.fastest(), 1.0 / value_of(lag_)) : piece_.fastest();
+  }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();

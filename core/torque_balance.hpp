@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/effects.hpp"
@@ -59,8 +60,10 @@ class TorqueBalance {
   const Piece& motor_piece() const { return motor_.piece(); }
   /// First time after t at which an input jumps or bends.
   double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
-  /// Highest angular frequency of the present inputs [rad/s].
-  double fastest_input() const { return std::max({motor_.fastest(), load_.fastest(), effects_.fastest_at_rest()}); }
+  /// Highest angular frequency of the present inputs from t on [rad/s].
+  double fastest_input(double t = -std::numeric_limits<double>::infinity()) const {
+    return std::max({motor_.fastest(t), load_.fastest(), effects_.fastest_at_rest()});
+  }
 
   // ---- torques ------------------------------------------------------------------------------------------------
 

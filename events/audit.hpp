@@ -125,7 +125,7 @@ class Audit {
     }
     long steps = finer * std::max(least_steps, solver_steps);
     if (System::at_rest(start.mode))
-      steps = std::max(steps, std::lround(finer * system_.fastest_input() * span / 0.05));
+      steps = std::max(steps, std::lround(finer * system_.fastest_input(start.t) * span / 0.05));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;

@@ -34,9 +34,9 @@ class RestWatch {
       armed[g] = left[g][0] >= 0.0;
     }
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
-    if (system_.fastest_input() == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
-    const double step = step_for(end);
+    if (system_.fastest_input(now_.t) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
     for (double a = now_.t; a < end;) {
+      const double step = step_from(a, end);
       const double b = a + step > a ? std::min(end, a + step) : end;  // within an ulp of a report there is one step
       const Guards right = guards_at(b);
       std::optional<Crossing> first;
@@ -69,9 +69,9 @@ class RestWatch {
     return std::all_of(guards.begin(), guards.end(), [](const auto& guard) { return guard[1] == 0.0; });
   }
 
-  /// Short against the fastest input, so that a guard turns at most once within a step.
-  double step_for(double end) const {
-    const double omega = system_.fastest_input(), span = end - now_.t;
+  /// Short against the fastest input from a on, so that a guard turns at most once within a step.
+  double step_from(double a, double end) const {
+    const double omega = system_.fastest_input(a), span = end - now_.t;
     return omega > 0.0 ? std::min(0.05 / omega, span) : span / 8.0;
   }
 

@@ -118,3 +118,11 @@ TEST_CASE("a lag of a thousandth of the motion's time changes fig. 9 by about th
   const auto delayed = end(effects(ActuatorDelay<double>{1e-4}));
   REQUIRE(std::abs((delayed[0] - bare[0]) / (lagged[0] - bare[0]) - 1.0) <= 0.01);  // to first order a lag is a delay
 }
+
+TEST_CASE("actuator_lag: a drive at rest is watched closely only until the torque has settled") {
+  auto d = entered(table1(), constant(0.5), constant(0.01), effects(ActuatorLag<double>{1e-6}));
+  REQUIRE(d.fastest_input(0.0) == 1e6);
+  REQUIRE(d.fastest_input(1e-4) == 0.0);
+  for (const By by : every_solver)
+    REQUIRE(run(d, Timetable(0, 1e4, 5e3), {}, tight(by)).end.mode.motion == Motion::stuck);
+}

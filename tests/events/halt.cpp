@@ -25,7 +25,7 @@ struct Autonomous {
   void enter(double) {}
   void command(double, double) {}
   double next_knot(double) const { return never; }
-  double fastest_input() const { return 0.0; }
+  double fastest_input(double) const { return 0.0; }
   static bool at_rest(Mode) { return false; }
 };
 
