@@ -14,6 +14,8 @@ struct HeldTorques {
   double push, beyond;
 };
 
+inline constexpr double above_one = 1.000001;  ///< what rounding could add to a bound
+
 /// A drive in one of its moving modes under constant torques: theta'' = push + gravity cos(arm) - drag theta', and the
 /// distance from the switching surface is beyond - lift cos(arm) - skew theta', where arm is the angle of a gravity
 /// load's arm, theta plus a constant. All in SI.
@@ -33,7 +35,6 @@ struct HeldMotion {
   }
 
  private:
-  static constexpr double above_one = 1.000001;  ///< what rounding could add to a bound
   static constexpr int longest = 9;
 
   template <bool swings, bool rubs>

@@ -7,11 +7,13 @@
 #include <type_traits>
 
 #include "core/load.hpp"
-#include "core/pair.hpp"
 #include "core/sine_cosine.hpp"
 #include "core/worm_drive.hpp"
+#include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
+#include "events/taylor_arm.hpp"
 #include "events/taylor_leap.hpp"
+#include "events/taylor_stribeck.hpp"
 
 namespace wormdrive {
 
@@ -51,13 +53,16 @@ class NominalFlow<WormDrive<double, Load>> {
         worm_viscous = effect->coefficient * system.mesh().i;
       else if constexpr (std::is_same_v<E, GearViscous<double>>)
         gear_viscous = effect->coefficient;
+      else if constexpr (std::is_same_v<E, Stribeck<double>>)
+        curve_ = {*effect, system.mesh()};
       else if constexpr (!contained<E>)
         covers_ = false;
     });
     const GearMesh<double>& mesh = system.mesh();
+    const double mu = curve_.falls() ? curve_.least_friction() : mesh.mu;
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
-        const double C = mesh.C(motion * flank * mesh.mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
+        const double C = mesh.C(motion * flank * mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
         equations_[index(motion, flank)] = {
             .mode = {wormdrive::Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}},
             .held = {.motion = static_cast<double>(motion),
@@ -69,7 +74,8 @@ class NominalFlow<WormDrive<double, Load>> {
             .per_worm_torque = inverse,
             .per_gear_torque = C * inverse,
             .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
-                         -motion * (worm_coulomb - surface_ * gear_coulomb)}};
+                         -motion * (worm_coulomb - surface_ * gear_coulomb)},
+            .fall = curve_.branch(mesh, system.Jg(), motion * flank)};
       }
   }
 
@@ -97,9 +103,15 @@ class NominalFlow<WormDrive<double, Load>> {
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     if (!inputs_are_constant()) return false;
-    if (!mode_->held.template leap<swings>(now.x[0], now.x[1], next - now.t, held_torques(*mode_), arm_at(now.x[0]),
-                                           accuracy))
+    const HeldMotion& m = mode_->held;
+    const double h = next - now.t;
+    if (curve_.falls()) {
+      if (!curve_.template leap<swings>(m, mode_->fall, now.x[0], now.x[1], h, held_torques(*mode_), arm_at(now.x[0]),
+                                        accuracy))
+        return false;
+    } else if (!m.template leap<swings>(now.x[0], now.x[1], h, held_torques(*mode_), arm_at(now.x[0]), accuracy)) {
       return false;
+    }
     now.t = next;
     look(now.x[0]);
     return true;
@@ -107,12 +119,18 @@ class NominalFlow<WormDrive<double, Load>> {
 
   /// The motion from now on, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    return curve_.falls() ? expand<true>(now, h, accuracy, e) : expand<false>(now, h, accuracy, e);
+  }
+
+ private:
+  template <bool falls>
+  void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const Equation& m = *mode_;
+    if constexpr (falls) curve_.begin(m.held, m.fall, now.x[1]);
     const int last = accuracy.order();
     input(motor_, now.t, last, worm_torque_);
     if constexpr (swings) {
-      const SineAndCosine& arm = arm_at(now.x[0]);
-      arm_[0] = Pair{arm.cosine, arm.sine};
+      arm_.begin(arm_at(now.x[0]));
     } else {
       input(load_.piece, now.t, last, gear_torque_);
     }
@@ -123,11 +141,11 @@ class NominalFlow<WormDrive<double, Load>> {
     double power = 1.0 / h, alpha = m.friction.push;  // power: h^(k-1)
     for (int k = 0;; ++k) {
       if constexpr (swings)
-        if (k > 0) turn(e.omega, k);
+        if (k > 0) arm_.turn(e.omega, k);
       if (k == last) break;
       if (std::abs(e.omega[k]) * power <= allowed) {
         complete(m, k, e);
-        if (accuracy.suffices(e, h)) {
+        if (accuracy.suffices(e, h) && (!falls || curve_.holds(k, h))) {
           e.step = h;
           return;
         }
@@ -136,17 +154,18 @@ class NominalFlow<WormDrive<double, Load>> {
       // What is known first comes first: the series waits for the load.
       alpha += worm_torque_[k] * m.per_worm_torque - m.held.drag * e.omega[k];
       if constexpr (swings)
-        alpha += m.held.gravity * arm_[k][0];
+        alpha += m.held.gravity * arm_.cosine(k);
       else
         alpha += gear_torque_[k] * m.per_gear_torque;
+      if constexpr (falls) alpha += curve_.term(k, e.omega, beyond(m, k, e));
       e.omega[k + 1] = alpha * reciprocal[k + 1];
       alpha = 0.0;
     }
     complete(m, last, e);
     e.step = accuracy.step(e, h);
+    if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
   }
 
- private:
   /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch the motion.
   template <class E>
   static constexpr bool contained =
@@ -160,14 +179,9 @@ class NominalFlow<WormDrive<double, Load>> {
     Mode mode;
     HeldMotion held;
     double per_worm_torque, per_gear_torque;
-    HeldTorques friction;  ///< what dry friction does to the drive
+    HeldTorques friction;  ///< what dry friction of the bearings does to the drive
+    StribeckCurve::Branch fall;
   };
-
-  static constexpr auto reciprocal = [] {
-    std::array<double, highest_order + 3> r{};
-    for (std::size_t k = 1; k < r.size(); ++k) r[k] = 1.0 / static_cast<double>(k);
-    return r;
-  }();
 
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   static bool is_constant(const Piece& piece) { return piece.cosines.empty() && piece.slope == 0.0; }
@@ -230,23 +244,15 @@ class NominalFlow<WormDrive<double, Load>> {
     for (int k = 0; k <= order; ++k) {
       e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
       speed[k] = m.held.motion * e.omega[k];
-      const double load = swings ? m.held.lift * arm_[k][0] : surface_ * gear_torque_[k];
-      flank[k] = side * (worm_torque_[k] - load - m.held.skew * e.omega[k]);
+      flank[k] = side * beyond(m, k, e);
     }
-    flank[0] = side != 0.0 ? flank[0] + side * m.friction.beyond : 1.0;
+    if (side == 0.0) flank[0] = 1.0;
   }
-
-  /// Coefficient k of cosine and sine: k cos_k = -sum of omega_(j-1) sin_(k-j), k sin_k = sum of omega_(j-1) cos_(k-j).
-  /// Summed from the middle outwards: the factors that are known last come last, and two sums run side by side.
-  void turn(const Coefficients& omega, int k) {
-    Pair lower{0.0, 0.0}, upper{0.0, 0.0};
-    if (k % 2 == 1) lower = omega[k / 2] * arm_[k / 2];
-    for (int j = k / 2; j >= 1; --j) {
-      lower += omega[j - 1] * arm_[k - j];
-      upper += omega[k - j] * arm_[j - 1];
-    }
-    const Pair sum = (lower + upper) * reciprocal[k];
-    arm_[k] = Pair{-sum[1], sum[0]};
+  /// Coefficient k of the distance from the switching surface.
+  double beyond(const Equation& m, int k, const Motion& e) const {
+    const double load = swings ? m.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
+    const double distance = worm_torque_[k] - load - m.held.skew * e.omega[k];
+    return k == 0 ? distance + m.friction.beyond : distance;
   }
 
   const Piece& motor_;
@@ -255,8 +261,9 @@ class NominalFlow<WormDrive<double, Load>> {
   bool covers_ = true;
   std::array<Equation, 6> equations_{};
   const Equation* mode_ = &equations_[0];  ///< that of the latest mode
+  StribeckCurve curve_;
   Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
-  std::array<Pair, highest_order + 2> arm_{};                     ///< cosine and sine of the arm's angle
+  ArmSeries arm_;                                                 ///< the arm's angle in the latest step
   SineAndCosine offset_{0.0, 1.0};                                ///< of the arm against the gear
   SineAndCosine arm_now_{};                                       ///< of the arm at the latest gear angle ...
   double arm_now_at_ = std::numeric_limits<double>::quiet_NaN();  ///< ... [rad]

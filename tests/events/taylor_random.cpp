@@ -157,6 +157,25 @@ Comparison compare_random_effects(Dice& dice) {
   return compare(drive(p, arm, motor, on), {0, {dice.between(-3, 3), omega}, {}});
 }
 
+/// Friction that falls with the sliding speed and bearings, all of a size that shows.
+Comparison compare_random_stribeck(Dice& dice) {
+  const MeshParameters<double> p = table1(dice.between(0.1, 0.35));
+  Effects<double> on =
+      effects(Stribeck<double>{dice.between(-0.05, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(4)});
+  maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
+  maybe(dice, on, GearCoulomb<double>{dice.between(0, 0.02)});
+  maybe(dice, on, WormViscous<double>{dice.between(0, 1e-4)});
+  maybe(dice, on, GearViscous<double>{dice.between(0, 1e-3)});
+  maybe(dice, on, GearInertia<double>{dice.between(-2e-4, 1e-3)});
+  const Signal motor{{random_term(dice, 0.04), random_term(dice, 0.04)}};
+  const double omega = dice.one_in(2) ? 0.0 : dice.between(-3, 3);
+  if (dice.one_in(4)) return compare(drive(p, Signal{{random_term(dice, 0.05)}}, motor, on), {0, {0.5, omega}, {}});
+  GravityArm arm;
+  arm.amplitude = dice.between(-0.1, 0.1);
+  arm.offset = dice.between(-3, 3);
+  return compare(drive(p, arm, motor, on), {0, {dice.between(-3, 3), omega}, {}});
+}
+
 }  // namespace
 
 TEST_CASE("a run that grazes an event by less than 1e-7 is known as such") {
@@ -216,6 +235,31 @@ TEST_CASE("in 100 random runs with a third of all effects on, power series and C
   }
   std::cout << runs << " random runs with effects, " << set_aside << " set aside; in the others " << events
             << " events, states within " << states << "\n";
+  REQUIRE(set_aside <= runs / 4);
+  REQUIRE(events >= 250);
+}
+
+TEST_CASE("in 100 random runs with a Stribeck curve and bearings, power series and CVODE tell the same within 1e-9") {
+  constexpr int runs = 100;
+  int set_aside = 0;
+  std::size_t events = 0;
+  Deviation states, times;
+  for (int k = 0; k < runs; ++k) {
+    Dice dice(2000 + static_cast<std::uint64_t>(k));
+    const Comparison c = compare_random_stribeck(dice);
+    if (c.set_aside) {
+      ++set_aside;
+      continue;
+    }
+    INFO("run " << k);
+    REQUIRE(c.same_events);
+    REQUIRE(c.states <= 1e-9);
+    events += c.events;
+    states.add(c.states.size);
+    times.add(c.times.size);
+  }
+  std::cout << runs << " random runs with a Stribeck curve, " << set_aside << " set aside; in the others " << events
+            << " events, states within " << states << ", event times within " << times << " s\n";
   REQUIRE(set_aside <= runs / 4);
   REQUIRE(events >= 250);
 }
