@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <boost/numeric/odeint.hpp>
@@ -101,17 +102,18 @@ Contender alone(const char* name, double period, const Torques& torques, bool ad
           },
           adjustable};
 }
-template <class Integrator>
+template <class Plant, class Integrator>
 Contender by_hand(const char* name, double period, const Torques& torques) {
-  return alone<HybridByHand<ByHand, Integrator>>(name, period, torques);
+  return alone<HybridByHand<Plant, Integrator>>(name, period, torques);
 }
 
 template <class Solver>
 struct WithSolver {
-  Drive drive = drive_of(closed_loop);
+  Drive drive;
   Solver solver;
 
-  WithSolver(Method method, double tolerance) : solver(drive, settings(method, tolerance)) {}
+  WithSolver(Drive driven, Method method, double tolerance)
+      : drive(std::move(driven)), solver(drive, settings(method, tolerance)) {}
 
   template <class Controller, class Recorder>
   Outcome run(double period, Controller control, Recorder&& record) {
@@ -139,16 +141,17 @@ struct WithSolver {
 };
 
 template <template <class> class Solver>
-Contender by_wormdrive(const char* name, Method method, double period, const Torques& torques) {
+Contender by_wormdrive(const char* name, const Drive& drive, Method method, double period, const Torques& torques) {
   return {name, [=, &torques](double tolerance) {
-            const auto program = std::make_shared<WithSolver<Solver<Drive>>>(method, tolerance);
+            const auto program = std::make_shared<WithSolver<Solver<Drive>>>(drive, method, tolerance);
             return Prepared{[=] { return program->live(period); },
                             [=, &torques] { return program->replay(period, torques); }};
           }};
 }
 
 /// The torques that the controller gives a drive without error, and where they lead.
-Outcome reference(double period, Torques& torques) {
+template <class Run>
+Outcome reference(Run& run, double period, Torques& torques) {
   struct Recording {
     decltype(controller(0.0)) control;
     Torques& torques;
@@ -156,30 +159,52 @@ Outcome reference(double period, Torques& torques) {
       return torques.emplace_back(control.sample(sensor, now));
     }
   };
-  InQuad<closed_loop, 14> run(5e-4);
   run_sampled(run, period, Recording{controller(period), torques});
   return outcome(run);
 }
 
 void contest(double period, const Options& chosen) {
+  using namespace boost::numeric::odeint;
+  const Drive drive = drive_of(closed_loop);
   Torques torques;
-  const Outcome end = reference(period, torques);
+  InQuad<closed_loop, 14> quad(5e-4);
+  const Outcome end = reference(quad, period, torques);
   const auto title = fmt::format("closed loop, {} s at {} kHz", duration, 1e-3 / period);
   hold({title,
         1e-9 * duration / period,
         "ns per sample",
         end,
-        {by_hand<CvodeByHand<ByHand, false>>("CVODE Adams by hand", period, torques),
-         by_hand<CvodeByHand<ByHand, true>>("CVODE BDF by hand", period, torques),
-         by_hand<ErkstepByHand<ByHand, 5>>("ERKStep by hand", period, torques),
-         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_dopri5>>("odeint dopri5 by hand", period,
-                                                                                   torques),
-         by_hand<OdeintByHand<ByHand, boost::numeric::odeint::runge_kutta_cash_karp54>>("odeint cash-karp by hand",
-                                                                                        period, torques),
-         by_wormdrive<CvodeSolver>("cvode Adams", Method::adams, period, torques),
-         by_wormdrive<CvodeSolver>("cvode BDF", Method::bdf, period, torques),
-         by_wormdrive<TaylorSolver>("taylor", Method::adams, period, torques),
+        {by_hand<ByHand, CvodeByHand<ByHand, false>>("CVODE Adams by hand", period, torques),
+         by_hand<ByHand, CvodeByHand<ByHand, true>>("CVODE BDF by hand", period, torques),
+         by_hand<ByHand, ErkstepByHand<ByHand, 5>>("ERKStep by hand", period, torques),
+         by_hand<ByHand, OdeintByHand<ByHand, runge_kutta_dopri5>>("odeint dopri5 by hand", period, torques),
+         by_hand<ByHand, OdeintByHand<ByHand, runge_kutta_cash_karp54>>("odeint cash-karp by hand", period, torques),
+         by_wormdrive<CvodeSolver>("cvode Adams", drive, Method::adams, period, torques),
+         by_wormdrive<CvodeSolver>("cvode BDF", drive, Method::bdf, period, torques),
+         by_wormdrive<TaylorSolver>("taylor", drive, Method::adams, period, torques),
          alone<BareLoop>("bare loop, no events", period, torques, false)}},
+       chosen);
+}
+
+/// The same with friction of the teeth that falls with their speed, and bearings.
+void contest_of_rubbing(double period, const Options& chosen) {
+  using namespace boost::numeric::odeint;
+  const Drive drive = drive_of(closed_loop, effects_of(rubbing));
+  using Plant = RubbingPlant<closed_loop>;
+  Torques torques;
+  HybridByHand<Plant, OdeintByHand<Plant, runge_kutta_fehlberg78>> tight(1e-14);
+  const Outcome end = reference(tight, period, torques);
+  const auto title =
+      fmt::format("closed loop with a Stribeck curve and bearings, {} s at {} kHz", duration, 1e-3 / period);
+  hold({title,
+        1e-9 * duration / period,
+        "ns per sample",
+        end,
+        {by_hand<Plant, CvodeByHand<Plant, false>>("CVODE Adams by hand", period, torques),
+         by_hand<Plant, ErkstepByHand<Plant, 5>>("ERKStep by hand", period, torques),
+         by_hand<Plant, OdeintByHand<Plant, runge_kutta_dopri5>>("odeint dopri5 by hand", period, torques),
+         by_wormdrive<CvodeSolver>("cvode Adams", drive, Method::adams, period, torques),
+         by_wormdrive<TaylorSolver>("taylor", drive, Method::adams, period, torques)}},
        chosen);
 }
 
@@ -189,4 +214,5 @@ void contest(double period, const Options& chosen) {
 int main(int argc, char** argv) {
   const bench::Options chosen = bench::options(argc, argv);
   for (const double period : {1e-3, 1e-4}) bench::contest(period, chosen);
+  bench::contest_of_rubbing(1e-3, chosen);
 }

@@ -147,7 +147,7 @@ class Plant {
     return 0;
   }
 
- private:
+ protected:
   // Table 1; 1 where motion and flank have one sign (forward left, backward right), 2 where they differ
   static constexpr double degree = pi / 180.0, lw = 0.011, lg = 0.045, mu = 0.25, Jg = 7.39e-4;
   const Real Jw_i = Real(2.53e-5) * 60;

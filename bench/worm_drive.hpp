@@ -1,7 +1,10 @@
 #pragma once
 #include <limits>
+#include <optional>
+#include <tuple>
 
 #include "bench/plant.hpp"
+#include "bench/rubbing_plant.hpp"
 #include "bench/sundials_by_hand.hpp"
 #include "core/load.hpp"
 #include "core/worm_drive.hpp"
@@ -27,14 +30,26 @@ inline wormdrive::GearMesh<double> table_1() {
 }
 
 /// The same drive as Plant, from wormdrive's own parts.
-inline Drive drive_of(const Case& inputs) {
+inline Drive drive_of(const Case& inputs, const wormdrive::Effects<double>& effects = {}) {
   wormdrive::GravityArm arm;
   arm.amplitude = inputs.load_cosine != 0.0 ? inputs.load_cosine : inputs.load_sine;
   arm.offset = inputs.load_cosine != 0.0 ? 0.0 : -pi / 2;
   wormdrive::Signal motor;
   if (inputs.motor != 0.0)
     motor.terms.push_back(wormdrive::Sinusoid{inputs.motor, inputs.omega / (2 * pi), inputs.phase});
-  return {table_1(), wormdrive::make_load(arm), {}, motor};
+  return {table_1(), wormdrive::make_load(arm), effects, motor};
+}
+
+/// The same as what a RubbingPlant has.
+inline wormdrive::Effects<double> effects_of(const Rubbing& r) {
+  wormdrive::Effects<double> on;
+  const auto set = [&]<class Effect>(const Effect& effect) { std::get<std::optional<Effect>>(on.list) = effect; };
+  set(wormdrive::Stribeck<double>{.drop = r.drop, .speed = r.speed});
+  set(wormdrive::WormCoulomb<double>{r.worm_coulomb});
+  set(wormdrive::GearCoulomb<double>{r.gear_coulomb});
+  set(wormdrive::WormViscous<double>{r.worm_viscous});
+  set(wormdrive::GearViscous<double>{r.gear_viscous});
+  return on;
 }
 
 inline wormdrive::SolverSettings settings(wormdrive::Method method, double tolerance) {
