@@ -149,7 +149,9 @@ int main(int argc, char** argv) {
   std::string what;
   CLI::App* const list_app =
       app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
-  list_app->add_option("what", what, "effects (effects.md: as a page), loads, torques, controllers, references or scenarios")
+  list_app
+      ->add_option("what", what,
+                   "effects (effects.md: as a page), loads, torques, controllers, references or scenarios")
       ->required()
       ->check(CLI::IsMember({"effects", "effects.md", "loads", "torques", "controllers", "references", "scenarios"}));
 

@@ -25,7 +25,7 @@ struct SlidingParameters {
   double beta1{2.0}, beta2{2.0};
   std::optional<double> D1{}, D2{};  ///< bounds of |d_k - d_k_hat| [1/(kg m^2)]; those of the variations if not stated
   std::optional<double> E1{}, E2{};  ///< bounds of |e_k - e_k_hat| [rad/s^2]; likewise
-  double epsilon{0.005};         ///< speed up to which eq. 25 acts [rad/s]
+  double epsilon{0.005};             ///< speed up to which eq. 25 acts [rad/s]
 
   static constexpr auto fields() {
     using P = SlidingParameters;

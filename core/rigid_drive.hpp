@@ -101,9 +101,8 @@ P<T> converted(const P<double>& stated, std::string_view table, Value&& value) {
   };
   const auto from = P<double>::fields();
   const auto to = P<T>::fields();
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (convert(std::get<I>(from), std::get<I>(to)), ...);
-  }(std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (convert(std::get<I>(from), std::get<I>(to)), ...); }
+  (std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
   return made;
 }
 

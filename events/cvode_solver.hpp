@@ -174,9 +174,9 @@ class CvodeSolver {
   CvodeOwned<SUNLinearSolver> linear_;
   CvodeOwned<SUNNonlinearSolver> fixed_point_;
   CvodeMemory memory_;
-  Instant ahead_{};           ///< how far CVODE has gone without a guard firing ...
-  int fired_ = no_guard;      ///< ... or the guard that fired there
-  bool finite_ = true;        ///< every acceleration since the latest restart was a number
+  Instant ahead_{};       ///< how far CVODE has gone without a guard firing ...
+  int fired_ = no_guard;  ///< ... or the guard that fired there
+  bool finite_ = true;    ///< every acceleration since the latest restart was a number
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};
 };

@@ -123,12 +123,7 @@ class StribeckCurve {
 
   double power(double x) const {
     const double square = x * x;
-    switch (exponent_) {
-      case 1: return x;
-      case 2: return square;
-      case 3: return square * x;
-      default: return square * square;
-    }
+    return exponent_ == 1 ? x : exponent_ == 2 ? square : exponent_ == 3 ? square * x : square * square;
   }
 
   /// How many coefficients of the acceleration a step of h needs; 0 if a guard might fall in it, or if it takes more
