@@ -58,9 +58,17 @@ void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values);
 
+/// Writes an attribute anew that stands there already.
+void rewrite_attribute(hid_t object, const std::string& name, std::int64_t value);
+
+/// Whole number of an attribute of an object; throws OutputFault if it is absent.
+std::int64_t read_integer_attribute(hid_t object, const std::string& name);
+bool has_attribute(hid_t object, const std::string& name);
 /// Text of a string attribute of an object; throws OutputFault if it is absent or something else.
 std::string read_text_attribute(hid_t object, const std::string& name);
 /// All values of a one-dimensional dataset, converted to double.
 std::vector<double> read_column(hid_t file, const std::string& path);
+/// So many of them from the first one on.
+std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count);
 
 }  // namespace wormdrive

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "sweep/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// Prints what a study asks for.
+void print_study(const Study& study, TrialRange range);
+
+/// Prints how many trials are not done, and why.
+void print_failures(const ReasonTable& reasons);
+/// The reason that most of them have.
+std::string most_frequent(const ReasonTable& reasons);
+
+}  // namespace wormdrive
