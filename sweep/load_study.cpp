@@ -113,7 +113,7 @@ class StudyReader {
     for (const std::string& name : wanted)
       if (std::find(names.begin(), names.end(), name) == names.end())
         root_.fault("metrics", fmt::format("there is no metric '{}'; {}", name, suggestion(name, names)));
-    if (root_.has("metrics"))
+    if (root_.has("metrics") && faults_.empty())
       std::erase_if(all,
                     [&](const Metric& m) { return std::find(wanted.begin(), wanted.end(), m.name) == wanted.end(); });
     if (all.empty() && faults_.empty()) root_.fault("metrics", "metrics must name at least one metric");
