@@ -15,11 +15,12 @@ namespace wormdrive {
 namespace {
 
 Trial stored(const SweepReader& sweep, std::uint64_t index) {
-  const TrialRange range = sweep.range();
-  if (index < range.first || index >= range.first + sweep.rows())
-    refuse({sweep.path()},
-           fmt::format("holds no trial {}, but {} to {}", index, range.first, range.first + sweep.rows() - 1));
-  return sweep.read(index - range.first, 1).front();
+  if (!sweep.has(index)) {
+    const TrialRange range = sweep.range();
+    refuse({sweep.path()}, fmt::format("holds no trial {}; {} of {} to {} are there", index, sweep.trials(),
+                                       range.first, range.end - 1));
+  }
+  return sweep.read({index, index + 1}).front();
 }
 
 /// The first metric of which a bit is another one than in the sweep.

@@ -13,6 +13,7 @@
 #include "cli/progress.hpp"
 #include "events/halt.hpp"
 #include "scenarios/faults.hpp"
+#include "sweep/ensemble.hpp"
 #include "sweep/load_study.hpp"
 #include "sweep/resume.hpp"
 
@@ -68,31 +69,36 @@ int sweep_command(const SweepOptions& options) {
   const TrialRange range = range_of(options.shard, study.trials());
   const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
   refuse_to_overwrite(output, options.study);
-  const auto file = open_sweep(output, study, range, options.command_line, options.resume);
+  const Interruptible interruptible;
+  const OpenSweep open = open_sweep(output, study, range, options.command_line, options.resume);
   if (!options.quiet) print_study(study, range);
+  if (!open.file) {
+    if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
+    return 0;
+  }
+  SweepFile& file = *open.file;
 
   const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  const std::uint64_t before = file->rows();
+  const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0;
-  const auto too_many = [&] { return options.max_failures && file->reasons().total() > *options.max_failures; };
+  const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
   const auto begin = std::chrono::steady_clock::now();
   try {
-    const Interruptible interruptible;
-    Progress progress(static_cast<double>(range.size() - before), options.quiet);
-    run_ensemble(
-        study, {range.first + before, range.end}, threads,
-        [&](const Trial& trial) {
-          file->append(trial);
-          progress.at(static_cast<double>(++made), [&](double seconds) {
-            return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / seconds,
-                               file->reasons().total());
-          });
-        },
-        [&] { return interrupted != 0 || too_many(); });
-    if (before + made == range.size() && !too_many())
-      file->finish();
+    Progress progress(static_cast<double>(wanted), options.quiet);
+    auto next = open.missing.begin();
+    const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
+    const auto take = [&](const Trial& trial) {
+      file.append(trial);
+      progress.at(static_cast<double>(++made), [&](double seconds) {
+        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / seconds, file.reasons().total());
+      });
+      return !too_many();
+    };
+    if (!too_many()) run_ensemble(study, source, threads, take, [] { return interrupted != 0; });
+    if (made == wanted && !too_many())
+      file.finish();
     else
-      file->flush();
+      file.flush();
   } catch (const OutputFault& fault) {
     throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
                                   how_to_resume(options)));
@@ -100,18 +106,18 @@ int sweep_command(const SweepOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (too_many())
     throw Halt(fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}; {} keeps them all",
-                           file->reasons().total(), before + made, *options.max_failures,
-                           most_frequent(file->reasons()), file->part_path()));
-  if (before + made < range.size()) {
+                           file.reasons().total(), before + made, *options.max_failures, most_frequent(file.reasons()),
+                           file.part_path()));
+  if (made < wanted) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
-               range.size(), file->part_path(), how_to_resume(options));
+               range.size(), file.part_path(), how_to_resume(options));
     return 128 + interrupted;
   }
   if (options.quiet) return 0;
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were there already", before) : ""));
-  print_failures(file->reasons());
+  print_failures(file.reasons());
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
   return 0;
 }

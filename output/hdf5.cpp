@@ -80,6 +80,12 @@ Hdf5Handle open_hdf5(const std::string& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
 }
 
+Hdf5Handle reopen_hdf5(const std::string& path) {
+  prepare_hdf5();
+  errno = 0;
+  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot open " + path};
+}
+
 Hdf5Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
@@ -103,12 +109,6 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   check_hdf5(H5Awrite(attribute, H5T_NATIVE_INT8, values.data()), action);
 }
 
-void rewrite_attribute(hid_t object, const std::string& name, std::int64_t value) {
-  errno = 0;
-  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, writing(object, name));
-  check_hdf5(H5Awrite(attribute, H5T_NATIVE_INT64, &value), writing(object, name));
-}
-
 std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
   const std::string action = "it has no attribute '" + name + "'";
   errno = 0;
@@ -117,8 +117,6 @@ std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
   check_hdf5(H5Aread(attribute, H5T_NATIVE_INT64, &value), action);
   return value;
 }
-
-bool has_attribute(hid_t object, const std::string& name) { return H5Aexists(object, name.c_str()) > 0; }
 
 std::string read_text_attribute(hid_t object, const std::string& name) {
   const std::string action = "it has no attribute '" + name + "'";

@@ -10,50 +10,57 @@
 namespace wormdrive {
 namespace {
 
-/// The rows of an interrupted sweep; nothing if there are none, as after a kill in its first second.
-std::unique_ptr<SweepReader> read_part(const std::string& path) {
-  if (!std::filesystem::exists(path)) return nullptr;
-  try {
-    auto part = std::make_unique<SweepReader>(path);
-    return part->rows() > 0 ? std::move(part) : nullptr;
-  } catch (const InputFault&) {
-    return nullptr;
-  }
+void refuse_another(const SweepReader& there, const Study& study, TrialRange range) {
+  if (const std::string why = there.why_not_of(study); !why.empty())
+    refuse({there.path()}, fmt::format("cannot be resumed: {}; undo the change, or delete the file to begin anew", why));
+  if (there.range().first != range.first || there.range().end != range.end)
+    refuse({there.path()},
+           fmt::format("cannot be resumed: it holds trials {} to {}, and {} to {} are wanted; give its --shard again",
+                       there.range().first, there.range().end - 1, range.first, range.end - 1));
 }
 
-void refuse_another(const SweepReader& part, const Study& study, TrialRange range) {
-  if (const std::string why = part.why_not_of(study); !why.empty())
-    refuse({part.path()}, fmt::format("cannot be resumed: {}; undo the change, or delete the file to begin anew", why));
-  if (part.range().first != range.first || part.range().end != range.end)
-    refuse({part.path()},
-           fmt::format("cannot be resumed: it holds trials {} to {}, and {} to {} are wanted; give its --shard again",
-                       part.range().first, part.range().end - 1, range.first, range.end - 1));
+/// What an interrupted sweep has left; nothing if that is no trial, as after a kill in its first moments.
+std::optional<SweepReader> trials_left(const std::string& part_path, bool resume) {
+  if (!std::filesystem::exists(part_path)) return std::nullopt;
+  refuse_to_disturb_a_writer(part_path);
+  try {
+    SweepReader part(part_path);
+    if (part.trials() == 0) return std::nullopt;
+    return part;
+  } catch (const InputFault& fault) {
+    if (!resume) return std::nullopt;  // what another command left, or nothing that could be read
+    std::vector<Fault> faults = fault.faults;
+    faults.front().what =
+        fmt::format("cannot be resumed: {}; delete the file to begin anew", faults.front().what);
+    throw InputFault(faults);
+  }
 }
 
 }  // namespace
 
-std::unique_ptr<SweepFile> open_sweep(const std::string& path, const Study& study, TrialRange range,
-                                      const std::string& command_line, bool resume) {
-  // What a killed resume had copied is not worth a look: the original stays until the copy is safe.
-  const std::string part_path = path + ".part", before = path + ".part.before";
-  const bool copying = std::filesystem::exists(before);
-  std::unique_ptr<SweepReader> part = read_part(copying ? before : part_path);
-  if (part && !resume)
-    refuse({part->path()},
-           fmt::format("holds {} of {} trials of an interrupted sweep; add --resume to go on, or delete "
-                       "it to begin anew",
-                       part->rows(), part->range().size()));
-  if (part) {
+OpenSweep open_sweep(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
+                     bool resume) {
+  const std::string part_path = path + ".part";
+  ReasonTable reasons;
+  std::vector<TrialRange> present;
+  if (const auto part = trials_left(part_path, resume)) {
+    if (!resume)
+      refuse({part_path},
+             fmt::format("holds {} of {} trials of an interrupted sweep; add --resume to go on, or delete "
+                         "it to begin anew",
+                         part->trials(), part->range().size()));
     refuse_another(*part, study, range);
-    if (!copying) std::filesystem::rename(part_path, before);
+    reasons = part->counted_reasons();
+    present = part->present();
+  } else {
+    if (resume && std::filesystem::exists(path)) {
+      const SweepReader done(path);
+      refuse_another(done, study, range);
+      return {};
+    }
+    SweepFile::create(path, study, range, command_line);
   }
-  auto file = std::make_unique<SweepFile>(path, study, range, command_line);
-  if (part) {
-    copy_rows(*part, *file);
-    part.reset();
-    std::filesystem::remove(before);
-  }
-  return file;
+  return {std::make_unique<SweepFile>(path, study, range, std::move(reasons)), outside(present, range)};
 }
 
 }  // namespace wormdrive

@@ -1,14 +1,22 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sweep/sweep_file.hpp"
 
 namespace wormdrive {
 
-/// Opens the file of a sweep for the trials that are missing. With resume it holds what NAME.part had of the same study
-/// and program; without, a NAME.part with trials is refused, for it may hold hours of work. Throws InputFault.
-std::unique_ptr<SweepFile> open_sweep(const std::string& path, const Study& study, TrialRange range,
-                                      const std::string& command_line, bool resume);
+/// A sweep that is to be made, or to be gone on with.
+struct OpenSweep {
+  std::unique_ptr<SweepFile> file;  ///< none where NAME itself holds every trial
+  std::vector<TrialRange> missing;
+};
+
+/// Opens the file of a sweep for the trials that are missing. With resume it keeps what NAME.part has of the same study
+/// and program, and leaves a NAME that is complete as it is; without, a NAME.part with trials is refused, for it may
+/// hold hours of work. Throws InputFault.
+OpenSweep open_sweep(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
+                     bool resume);
 
 }  // namespace wormdrive

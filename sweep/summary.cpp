@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "scenarios/faults.hpp"
@@ -28,7 +29,7 @@ class Summariser {
 
   SweepSummary operator()(unsigned worst) {
     SweepSummary summary;
-    summary.trials = status_.size();
+    summary.trials = sweep_.trials();
     const auto with = [&](TrialStatus status) {
       return static_cast<std::uint64_t>(std::count(status_.begin(), status_.end(), static_cast<double>(status)));
     };
@@ -38,7 +39,7 @@ class Summariser {
     summary.sample = is_sample(study_.design);
     summary.ranked_by = ranked_by_;
     for (const Metric& metric : study_.metrics) {
-      const std::vector<double> values = sweep_.column(metric.name);
+      const std::vector<double> values = of_done_trials(metric.name);
       summary.metrics.push_back(distribution(metric, values));
       for (const Threshold& threshold : study_.thresholds)
         if (threshold.metric == metric.name) summary.thresholds.push_back(missed(threshold, metric.unit, values));
@@ -52,6 +53,14 @@ class Summariser {
   /// Whether a trial stands for the distribution of the parameters: in a Saltelli design A and B alone do.
   bool counts(std::size_t row) const { return (sweep_.range().first + row) % stride_ < 2 || stride_ == 1; }
   bool done(std::size_t row) const { return status_[row] == static_cast<double>(TrialStatus::done); }
+
+  /// A column; not a number where a trial is missing or not done.
+  std::vector<double> of_done_trials(const std::string& name) const {
+    std::vector<double> values = sweep_.column(name);
+    for (std::size_t row = 0; row < values.size(); ++row)
+      if (!done(row)) values[row] = std::numeric_limits<double>::quiet_NaN();
+    return values;
+  }
 
   MetricSummary distribution(const Metric& metric, const std::vector<double>& values) const {
     std::vector<double> rising;
@@ -106,7 +115,10 @@ class Summariser {
     std::partial_sort(rows.begin(), end, rows.end(), [&](std::size_t a, std::size_t b) {
       return std::pair(-sign * values[a], a) < std::pair(-sign * values[b], b);
     });
-    for (auto row = rows.begin(); row != end; ++row) summary.worst.push_back(sweep_.read(*row, 1).front());
+    for (auto row = rows.begin(); row != end; ++row) {
+      const std::uint64_t trial = sweep_.range().first + *row;
+      summary.worst.push_back(sweep_.read({trial, trial + 1}).front());
+    }
   }
 
   void influences(const std::vector<double>& values, const std::vector<std::size_t>& rows,

@@ -12,7 +12,7 @@
 namespace wormdrive {
 namespace {
 
-constexpr std::size_t rows_at_once = 4096;  ///< one chunk of the file
+constexpr std::size_t rows_at_once = 4096;  ///< handed to the file, as far as a second does not pass before
 
 std::vector<ColumnDescription> descriptions(const Study& study) {
   const auto units = [](const Unit& unit) { return std::string(unit.symbol); };
@@ -25,15 +25,29 @@ std::vector<ColumnDescription> descriptions(const Study& study) {
     status.flag_meanings += fmt::format("{}{}", status.flag_meanings.empty() ? "" : " ", name(value));
     status.flag_values.push_back(static_cast<std::int8_t>(value));
   }
-  list.push_back(std::move(status));
-  list.push_back({"reason", "1", "why it is not done: k stands for the attribute reason_k of the table, 0 for none"});
+  list.push_back({"reason", "1", "why it is not done: k stands for the k-th text of /reasons, 0 for none"});
+  list.push_back(std::move(status));  // the last one: it says that the row is there
   return list;
+}
+
+/// Calls visit(part) for parts of a range so large that memory does not grow with it.
+template <class Visit>
+void for_each_block(TrialRange range, Visit&& visit) {
+  constexpr std::uint64_t at_once = 1 << 20;
+  for (std::uint64_t first = range.first; first < range.end; first += at_once)
+    visit(TrialRange{first, std::min(first + at_once, range.end)});
 }
 
 }  // namespace
 
+ReasonTable::ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts) {
+  for (std::size_t k = 0; k < examples.size(); ++k) {
+    codes_.emplace(kind_of_reason(examples[k]), k + 1);
+    entries_.push_back({examples[k], counts[k]});
+  }
+}
+
 std::size_t ReasonTable::code(const std::string& reason) {
-  constexpr std::size_t most = 100;
   if (reason.empty()) return 0;
   const auto [known, is_new] = codes_.try_emplace(kind_of_reason(reason), entries_.size() + 1);
   if (is_new && entries_.size() == most) {
@@ -51,48 +65,64 @@ std::uint64_t ReasonTable::total() const {
                          [](std::uint64_t sum, const Entry& entry) { return sum + entry.count; });
 }
 
-SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, const std::string& command_line)
-    : file_(path) {
-  write_provenance(file_.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
-  write_attribute(file_.file(), "study", study.text);
-  write_attribute(file_.file(), "build", build_description());
-  write_attribute(file_.file(), "first_trial", static_cast<std::int64_t>(range.first));
-  write_attribute(file_.file(), "end_trial", static_cast<std::int64_t>(range.end));
+void SweepFile::create(const std::string& path, const Study& study, TrialRange range,
+                       const std::string& command_line) {
+  PartFile file(path + ".part");  // so that NAME.part is whole from its first moment on
+  write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
+  write_attribute(file.file(), "study", study.text);
+  write_attribute(file.file(), "build", build_description());
+  write_attribute(file.file(), "first_trial", static_cast<std::int64_t>(range.first));
+  write_attribute(file.file(), "end_trial", static_cast<std::int64_t>(range.end));
+  FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
+                     ReasonTable::most);
+  FixedTable::create(file.file(), "trials", descriptions(study), range.size());
+  file.finish();
+}
+
+SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons)
+    : range_(range),
+      file_(PartFile::reopened(path)),
+      reasons_(std::move(reasons)),
+      reasons_written_(reasons_.entries().size()),
+      flushed_(Clock::now()) {
   table_.emplace(file_.file(), "trials", descriptions(study));
-  write_attribute(table_->group(), "safe_rows", std::int64_t{0});
+  reason_texts_.emplace(file_.file(), "reasons");
   columns_.resize(study.parameters.size() + study.metrics.size() + 3);
-  file_.keep();
-  flushed_ = Clock::now();
 }
 
 void SweepFile::append(const Trial& trial) {
+  const std::uint64_t row = trial.index - range_.first;
+  if (columns_.front().size() >= rows_at_once || row != row_ + columns_.front().size() ||
+      Clock::now() - flushed_ >= std::chrono::seconds(1))
+    flush();
+  if (columns_.front().empty()) row_ = row;
   auto column = columns_.begin();
   (column++)->push_back(static_cast<double>(trial.index));
   for (const double value : trial.parameters) (column++)->push_back(value);
   for (const double value : trial.metrics) (column++)->push_back(value);
-  (column++)->push_back(static_cast<double>(trial.status));
-  column->push_back(static_cast<double>(reasons_.code(trial.reason)));
-  if (column->size() >= rows_at_once || Clock::now() - flushed_ >= std::chrono::seconds(1)) flush();
+  (column++)->push_back(static_cast<double>(reasons_.code(trial.reason)));
+  column->push_back(static_cast<double>(trial.status));
 }
 
 void SweepFile::flush() {
-  for (; reasons_written_ < reasons_.entries().size(); ++reasons_written_)
-    write_attribute(table_->group(), fmt::format("reason_{}", reasons_written_ + 1),
-                    reasons_.entries()[reasons_written_].example);
-  table_->append(columns_);
-  rows_ += static_cast<std::int64_t>(columns_.front().size());
-  for (std::vector<double>& column : columns_) column.clear();
-  // Rows are counted only once they are on their way to the disk: a kill between the two flushes costs rows, but leaves
-  // none that only seem to be there.
-  file_.flush();
-  rewrite_attribute(table_->group(), "safe_rows", rows_);
-  file_.flush();
   flushed_ = Clock::now();
+  if (columns_.front().empty()) return;
+  for (; reasons_written_ < reasons_.entries().size(); ++reasons_written_)
+    reason_texts_->write(reasons_written_, reasons_.entries()[reasons_written_].example);
+  const std::size_t status = columns_.size() - 1;
+  for (std::size_t k = 0; k < status; ++k) table_->write(k, row_, columns_[k]);
+  // A row is there only once it has a status, and it has one only when all else is on its way to the disk: a kill
+  // between the two flushes costs rows, but leaves none that only seem to be there.
+  file_.flush();
+  table_->write(status, row_, columns_[status]);
+  file_.flush();
+  for (std::vector<double>& column : columns_) column.clear();
 }
 
 void SweepFile::finish() {
   flush();
   table_.reset();
+  reason_texts_.reset();
   file_.finish();
 }
 
@@ -105,13 +135,22 @@ SweepReader::SweepReader(const std::string& path) : path_(path) {
     study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
     range_ = {static_cast<std::uint64_t>(read_integer_attribute(file_, "first_trial")),
               static_cast<std::uint64_t>(read_integer_attribute(file_, "end_trial"))};
-    const Hdf5Handle table(H5Gopen2(file_, "trials", H5P_DEFAULT), H5Gclose, "it has no group 'trials'");
-    rows_ = static_cast<std::uint64_t>(read_integer_attribute(table, "safe_rows"));
-    for (std::size_t k = 1; has_attribute(table, fmt::format("reason_{}", k)); ++k)
-      reasons_.push_back(read_text_attribute(table, fmt::format("reason_{}", k)));
+    reasons_ = read_fixed_texts(file_, "reasons");
+    for_each_block(range_, [&](TrialRange block) {
+      std::uint64_t trial = block.first;
+      for (const double status : read_column(file_, "trials/status", block.first - range_.first, block.size())) {
+        if (status != 0.0) extend(present_, {trial, trial + 1});
+        ++trial;
+      }
+    });
   } catch (const OutputFault& fault) {
     refuse({path}, fault.what());
   }
+}
+
+bool SweepReader::has(std::uint64_t trial) const {
+  return std::any_of(present_.begin(), present_.end(),
+                     [&](const TrialRange& range) { return range.first <= trial && trial < range.end; });
 }
 
 std::string SweepReader::why_not(const std::string& study, const std::string& scenario,
@@ -128,13 +167,13 @@ std::string SweepReader::why_not_of(const SweepReader& other) const {
 }
 
 std::vector<double> SweepReader::column(const std::string& name) const {
-  return read_column(file_, "trials/" + name, 0, rows_);
+  return read_column(file_, "trials/" + name, 0, range_.size());
 }
 
-std::vector<Trial> SweepReader::read(std::uint64_t row, std::uint64_t count) const {
-  std::vector<Trial> trials(count);
+std::vector<Trial> SweepReader::read(TrialRange range) const {
+  std::vector<Trial> trials(range.size());
   const auto each = [&](const std::string& name, auto&& put) {
-    const std::vector<double> values = read_column(file_, "trials/" + name, row, count);
+    const std::vector<double> values = read_column(file_, "trials/" + name, range.first - range_.first, range.size());
     for (std::size_t k = 0; k < trials.size(); ++k) put(trials[k], values[k]);
   };
   each("index", [](Trial& t, double value) { t.index = static_cast<std::uint64_t>(value); });
@@ -149,11 +188,13 @@ std::vector<Trial> SweepReader::read(std::uint64_t row, std::uint64_t count) con
   return trials;
 }
 
-void copy_rows(const SweepReader& from, SweepFile& to) {
-  for (std::uint64_t row = 0; row < from.rows(); row += rows_at_once)
-    for (const Trial& trial : from.read(row, std::min<std::uint64_t>(rows_at_once, from.rows() - row)))
-      to.append(trial);
-  to.flush();
+ReasonTable SweepReader::counted_reasons() const {
+  std::vector<std::uint64_t> counts(reasons_.size());
+  for_each_block(range_, [&](TrialRange block) {
+    for (const double code : read_column(file_, "trials/reason", block.first - range_.first, block.size()))
+      if (code > 0.0) ++counts.at(static_cast<std::size_t>(code) - 1);
+  });
+  return {reasons_, counts};
 }
 
 }  // namespace wormdrive

@@ -1,22 +1,29 @@
 #pragma once
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "output/fixed_table.hpp"
 #include "output/part_file.hpp"
-#include "output/table.hpp"
-#include "sweep/ensemble.hpp"
 #include "sweep/study.hpp"
+#include "sweep/trial.hpp"
+#include "sweep/trial_range.hpp"
 
 namespace wormdrive {
 
 /// Numbers the kinds of reasons for which trials are not done, as they occur; few enough to be kept in memory.
 class ReasonTable {
  public:
-  /// Counts a reason and returns its number, 0 for a trial that is done; kinds beyond the hundredth share the last
-  /// number.
+  static constexpr std::size_t most = 100;
+
+  ReasonTable() = default;
+  /// Goes on with kinds that have their numbers already; counts: of each of them.
+  ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts);
+
+  /// Counts a reason and returns its number, 0 for a trial that is done; kinds beyond the last number share it.
   std::size_t code(const std::string& reason);
   struct Entry {
     std::string example;  ///< the first reason of its kind
@@ -36,28 +43,30 @@ class ReasonTable {
 /// that the sweep can be resumed.
 class SweepFile {
  public:
-  /// range: the trials that the file is to hold, all or those of a shard.
-  SweepFile(const std::string& path, const Study& study, TrialRange range, const std::string& command_line);
+  /// Leaves an empty NAME.part that has room for the trials of a range, all of the study or those of a shard.
+  static void create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line);
+  /// Opens NAME.part, to write the trials that it lacks. reasons: those of the trials that it has.
+  SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons = {});
 
-  /// Appends the trial that follows the latest one; what is older than a second is safe if the program dies.
+  /// Writes a trial of the range; what is older than a second is safe if the program dies.
   void append(const Trial& trial);
-  /// Makes all rows safe.
+  /// Makes all trials safe.
   void flush();
   /// Gives the file its final name.
   void finish();
 
   const std::string& part_path() const { return file_.part_path(); }
-  /// Rows that were appended.
-  std::uint64_t rows() const { return static_cast<std::uint64_t>(rows_) + columns_.front().size(); }
   const ReasonTable& reasons() const { return reasons_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  TrialRange range_;
   PartFile file_;
-  std::optional<GrowingTable> table_;
-  std::vector<std::vector<double>> columns_;  ///< rows that are not in the table yet
-  std::int64_t rows_ = 0;                     ///< in the table
+  std::optional<FixedTable> table_;
+  std::optional<FixedTexts> reason_texts_;
+  std::vector<std::vector<double>> columns_;  ///< of trials one after the other that are not in the table yet
+  std::uint64_t row_ = 0;                     ///< of the first of these
   ReasonTable reasons_;
   std::size_t reasons_written_ = 0;
   Clock::time_point flushed_;
@@ -71,19 +80,25 @@ class SweepReader {
 
   const std::string& path() const { return path_; }
   const Study& study() const { return study_; }
+  /// The trials for which it has room.
   TrialRange range() const { return range_; }
-  /// Rows that are there for certain.
-  std::uint64_t rows() const { return rows_; }
-  bool complete() const { return rows_ == range_.size(); }
+  /// The trials that it has, in rising order.
+  const std::vector<TrialRange>& present() const { return present_; }
+  std::uint64_t trials() const { return trials_in(present_); }
+  bool has(std::uint64_t trial) const;
+  bool complete() const { return trials() == range_.size(); }
 
   /// Why rows of the two cannot stand in one sweep: the study, its scenario or the program differ. Empty if they can.
   std::string why_not_of(const Study& study) const;
   std::string why_not_of(const SweepReader& other) const;
 
+  /// A column over the whole range; 0 where a trial is missing.
   std::vector<double> column(const std::string& name) const;
-  /// So many trials from a row on.
-  std::vector<Trial> read(std::uint64_t row, std::uint64_t count) const;
+  /// Trials that are all present.
+  std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }
+  /// The reasons of the trials that it has, counted.
+  ReasonTable counted_reasons() const;
 
  private:
   std::string why_not(const std::string& study, const std::string& scenario, const std::string& build) const;
@@ -93,11 +108,16 @@ class SweepReader {
   Study study_;
   std::string scenario_, build_;
   TrialRange range_;
-  std::uint64_t rows_ = 0;
+  std::vector<TrialRange> present_;
   std::vector<std::string> reasons_;
 };
 
-/// Appends all rows of a sweep to another one.
-void copy_rows(const SweepReader& from, SweepFile& to);
+/// Calls visit(trial) for trials of a sweep that are all present, without holding them all.
+template <class Visit>
+void for_each_trial(const SweepReader& sweep, TrialRange range, Visit&& visit) {
+  constexpr std::uint64_t at_once = 4096;
+  for (std::uint64_t first = range.first; first < range.end; first += at_once)
+    for (const Trial& trial : sweep.read({first, std::min(first + at_once, range.end)})) visit(trial);
+}
 
 }  // namespace wormdrive

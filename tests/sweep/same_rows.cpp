@@ -1,5 +1,6 @@
 // The rows of a sweep are the same bits however it is made.
 #include <chrono>
+#include <random>
 #include <thread>
 
 #include <fmt/format.h>
@@ -55,40 +56,50 @@ TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
   CHECK(folder.rows("merged.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a sweep that was killed again and again and resumed is the whole sweep", "[sweep]") {
+TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep]") {
   const StudyFolder folder(many);
+  const auto begin = std::chrono::steady_clock::now();
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
-  std::uint64_t kept = 0;
-  for (int k = 0; k < 8; ++k) {
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  const auto rows = folder.rows("whole.h5");
+  const auto is_whole = [&] {
+    CHECK(folder.rows("killed.h5") == rows);
+    CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "whole.h5", "killed.h5"});
+    std::filesystem::remove(folder / "killed.h5");
+  };
+  const unsigned seed = std::random_device()();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  int killed = 0, resumed = 0;
+  while (killed < 20) {
+    const bool begun = folder.present("killed.h5.part") > 0;
     Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "killed.h5", "--resume"}, folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 45 * k));
+    std::this_thread::sleep_for(0.25 * whole * std::generate_canonical<double, 32>(random));
     process.kill();
-    if (process.wait().exit == 0) break;  // it was done before
-    for (const char* part : {"killed.h5.part", "killed.h5.part.before"})
-      if (folder.names().contains(part) && is_hdf5(folder / part))
-        kept = std::max<std::uint64_t>(kept, read_column(open_hdf5(folder / part), "trials/index").size());
+    const Outcome outcome = process.wait();
+    if (outcome.exit == 128 + SIGKILL)
+      ++killed;
+    else if (outcome.exit == 0)
+      is_whole();  // it was faster: once more
+    else
+      FAIL(outcome.err);
+    if (begun) ++resumed;
   }
+  CHECK(resumed >= 5);
   const Outcome last = folder.sweep({"-o", "killed.h5", "--resume"});
   INFO(last.err);
   REQUIRE(last.exit == 0);
-  CHECK(kept > 0);  // else nothing was resumed
-  CHECK(folder.rows("killed.h5") == folder.rows("whole.h5"));
-  CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "whole.h5", "killed.h5"});
+  is_whole();
 }
 
 TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on", "[sweep]") {
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
-  Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "ended.h5"}, folder.path());
-  while (!folder.names().contains("ended.h5.part")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  process.kill(SIGTERM);
-  const Outcome ended = process.wait();
+  const Outcome ended = folder.interrupted({"-o", "ended.h5"}, SIGTERM);
   CHECK(ended.exit == 128 + SIGTERM);
-  CHECK(ended.err.starts_with("wormdrive: interrupted after "));
-  CHECK(ended.err.ends_with("go on with: wormdrive sweep study.toml -o ended.h5 --resume\n"));
-  const std::size_t kept = folder.column("ended.h5.part", "index").size();
-  CHECK(ended.err.find(fmt::format("after {} of 60000 trials", kept)) != std::string::npos);
+  CHECK(ended.err == fmt::format("wormdrive: interrupted after {} of 60000 trials, all of them in ended.h5.part; go on "
+                                 "with: wormdrive sweep study.toml -o ended.h5 --resume\n",
+                                 folder.present("ended.h5.part")));
   REQUIRE(folder.sweep({"-o", "ended.h5", "--resume"}).exit == 0);
   CHECK(folder.rows("ended.h5") == folder.rows("whole.h5"));
 }
@@ -96,15 +107,35 @@ TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on"
 TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when there is room", "[sweep]") {
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
-  const Outcome full = folder.run({"sweep", "study.toml", "-o", "full.h5"}, 2'000'000);
+  constexpr rlim_t room = 2'000'000;
+  const Outcome none = folder.run({"sweep", "study.toml", "-o", "full.h5"}, room);
+  CHECK(none.exit == 4);
+  CHECK(none.err == "wormdrive: cannot write full.h5.part.part: File too large\n");
+  CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "whole.h5"});
+
+  folder.interrupted({"-o", "full.h5"}, SIGINT);
+  const std::size_t before = folder.present("full.h5.part");
+  const Outcome full = folder.run({"sweep", "study.toml", "-o", "full.h5", "--resume"}, room);
   CHECK(full.exit == 4);
-  CHECK(full.err.find("make room, then go on with: wormdrive sweep study.toml -o full.h5 --resume\n") !=
-        std::string::npos);
+  CHECK(full.err.starts_with("wormdrive: cannot write full.h5.part"));
+  CHECK(full.err.ends_with("File too large; nothing before the last second is lost: make room, then go on with: "
+                           "wormdrive sweep study.toml -o full.h5 --resume\n"));
+  CHECK(folder.present("full.h5.part") >= before);
   const Outcome resumed = folder.sweep({"-o", "full.h5", "--resume"});
   INFO(full.err << resumed.err);
   REQUIRE(resumed.exit == 0);
   CHECK(resumed.out.find(" were there already") != std::string::npos);
   CHECK(folder.rows("full.h5") == folder.rows("whole.h5"));
+}
+
+TEST_CASE("a sweep that is whole is not made again", "[sweep]") {
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const auto made = std::filesystem::last_write_time(folder / "o.h5");
+  const Outcome again = folder.sweep({"-o", "o.h5", "--resume"});
+  CHECK(again.exit == 0);
+  CHECK(again.out.ends_with("  resume   every trial is in o.h5 already\n"));
+  CHECK(std::filesystem::last_write_time(folder / "o.h5") == made);
 }
 
 TEST_CASE("a trial runs again with its trajectory and the same metrics, with either solver", "[sweep]") {

@@ -1,5 +1,7 @@
 #pragma once
 // What the tests of sweeps share: a folder with a scenario and a study, and rows to compare.
+#include <algorithm>
+
 #include "cli/program.hpp"
 
 namespace wormdrive::test {
@@ -39,9 +41,28 @@ struct StudyFolder : Folder {
     words.insert(words.begin(), {"sweep", "study.toml"});
     return run(words);
   }
+  /// A sweep that gets a signal as soon as it has some trials.
+  Outcome interrupted(std::vector<std::string> words, int signal) const {
+    words.insert(words.begin(), {WORMDRIVE_PROGRAM, "sweep", "study.toml"});
+    Process process(words, path());
+    const auto has_part = [this] {
+      const auto all = names();
+      return std::any_of(all.begin(), all.end(), [](const std::string& name) { return name.ends_with(".h5.part"); });
+    };
+    while (!has_part()) usleep(1000);
+    usleep(50'000);
+    process.kill(signal);
+    return process.wait();
+  }
   /// The table of trials byte for byte.
   std::map<std::string, std::vector<char>> rows(const std::string& file) const {
     return bytes(open_hdf5(*this / file), "trials");
+  }
+  /// How many trials a file has; 0 if there is no such file.
+  std::size_t present(const std::string& file) const {
+    if (!names().contains(file)) return 0;
+    const std::vector<double> status = column(file, "status");
+    return status.size() - static_cast<std::size_t>(std::count(status.begin(), status.end(), 0.0));
   }
   std::vector<double> column(const std::string& file, const std::string& name) const {
     return read_column(open_hdf5(*this / file), "trials/" + name);
