@@ -54,6 +54,7 @@ struct SweepOptions {
   unsigned threads = 0;  ///< 0: as many as the machine has
   std::string shard;     ///< "i/n"; empty: all trials
   std::optional<std::uint64_t> max_failures;
+  std::optional<std::uint64_t> referee;  ///< trials that CVODE judges; else what fits into 5 % of the time
   bool resume = false;
   bool quiet = false;
   std::string command_line;
@@ -84,6 +85,18 @@ struct SummaryOptions {
   bool json = false;
 };
 int summary_command(const SummaryOptions& options);
+
+struct WorstOptions {
+  std::string sweep;
+  std::string metric;  ///< empty: the one by which trials are ranked
+  std::uint64_t evaluations = 400;
+  double tail = 1e-3;  ///< probability left out at either end of each parameter
+  unsigned threads = 0;
+  std::string output;
+  bool quiet = false;
+  std::string command_line;
+};
+int worst_command(const WorstOptions& options);
 
 int list_command(const std::string& what);
 

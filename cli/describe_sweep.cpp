@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/describe.hpp"
 
@@ -35,6 +36,27 @@ void print_failures(const ReasonTable& reasons) {
     print_item("failed", fmt::format("{}: {}", list[k].count, list[k].example));
   if (list.size() > most)
     print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
+}
+
+void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
+  if (verdicts.empty()) return;
+  double angle = 0.0, speed = 0.0;
+  std::vector<std::uint64_t> others;
+  for (const Verdict& verdict : verdicts) {
+    angle = std::max(angle, verdict.found.angle);
+    speed = std::max(speed, verdict.found.speed);
+    if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
+  }
+  std::sort(others.begin(), others.end());
+  print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
+                                    "speeds within {:.2g} rad/s",
+                                    verdicts.size(), angle, speed));
+  constexpr std::size_t most = 10;
+  const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
+  if (!others.empty())
+    print_item("referee", fmt::format("disagrees by more than {:g} rad, or cannot go on, in {} of them: trial{} {}{}",
+                                      tolerance, others.size(), others.size() == 1 ? "" : "s", fmt::join(first, ", "),
+                                      others.size() > most ? ", ..." : ""));
 }
 
 std::string most_frequent(const ReasonTable& reasons) { return by_frequency(reasons).front().example; }

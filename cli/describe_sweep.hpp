@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "sweep/sweep_file.hpp"
 
@@ -12,5 +13,8 @@ void print_study(const Study& study, TrialRange range);
 void print_failures(const ReasonTable& reasons);
 /// The reason that most of them have.
 std::string most_frequent(const ReasonTable& reasons);
+
+/// Prints how far CVODE is from the trials that it has judged, and with which it disagrees; tolerance [rad].
+void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance);
 
 }  // namespace wormdrive

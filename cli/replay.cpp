@@ -5,11 +5,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/replay_trial.hpp"
 #include "cli/run_and_write.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/faults.hpp"
-#include "sweep/sweep_file.hpp"
 
 namespace wormdrive {
 namespace {
@@ -36,22 +36,25 @@ std::string difference(const Study& study, const Trial& trial, const Outcome& ou
 
 }  // namespace
 
+void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::string& output, const RunOptions& options) {
+  const Trial trial = stored(sweep, index);
+  if (trial.status == TrialStatus::refused)
+    refuse({sweep.path()}, fmt::format("trial {} was not run: {}", index, trial.reason));
+  Trials trials(sweep.study());
+  Scenario scenario = trials.scenario(index);
+  scenario.title = fmt::format("{}, trial {}", sweep.study().title, index);
+  const Outcome outcome{run_and_write(scenario, output, options), lemma1_conditions(scenario)};
+  if (const std::string other = difference(sweep.study(), trial, outcome); !other.empty())
+    throw Halt(fmt::format("trial {} came out differently: {}; was {} made by this program on this kind of machine?",
+                           index, other, sweep.path()));
+}
+
 int replay_command(const ReplayOptions& options) {
   refuse_to_overwrite(options.output, options.sweep);
-  const SweepReader sweep(options.sweep);
-  const Trial trial = stored(sweep, options.trial);
-  if (trial.status == TrialStatus::refused)
-    refuse({options.sweep}, fmt::format("trial {} was not run: {}", options.trial, trial.reason));
-  Trials trials(sweep.study());
-  Scenario scenario = trials.scenario(options.trial);
-  scenario.title = fmt::format("{}, trial {}", sweep.study().title, options.trial);
   RunOptions run;
   run.scenario.quiet = options.quiet;
   run.scenario.command_line = options.command_line;
-  const Outcome outcome{run_and_write(scenario, options.output, run), lemma1_conditions(scenario)};
-  if (const std::string other = difference(sweep.study(), trial, outcome); !other.empty())
-    throw Halt(fmt::format("trial {} came out differently: {}; was {} made by this program on this kind of machine?",
-                           options.trial, other, options.sweep));
+  replay_trial(SweepReader(options.sweep), options.trial, options.output, run);
   if (!options.quiet) print_item("replay", "every metric is that of the sweep, to the last bit");
   return 0;
 }

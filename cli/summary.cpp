@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/describe_sweep.hpp"
 
 namespace wormdrive {
 namespace {
@@ -63,8 +64,8 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
 }
 
 void print_conditions(const SweepSummary& summary) {
-  for (const FailedCondition& c : summary.conditions)
-    print_item("Lemma 1", fmt::format("{} of {} trials: {}", c.trials, c.of, c.rule));
+  for (const ConditionSummary& c : summary.conditions)
+    if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials: {}", c.trials, c.of, c.rule));
 }
 
 nlohmann::json as_json(const Estimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
@@ -100,8 +101,8 @@ nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
     for (std::size_t k = 0; k < study.metrics.size(); ++k) worst["metrics"][study.metrics[k].name] = trial.metrics[k];
     json["worst"].push_back(std::move(worst));
   }
-  for (const FailedCondition& c : summary.conditions)
-    json["lemma1"].push_back({{"condition", c.rule}, {"trials", c.trials}, {"of", c.of}});
+  for (const ConditionSummary& c : summary.conditions)
+    if (c.trials > 0) json["lemma1"].push_back({{"condition", c.rule}, {"trials", c.trials}, {"of", c.of}});
   return json;
 }
 
@@ -121,6 +122,7 @@ int summary_command(const SummaryOptions& options) {
     print_item("failed", fmt::format("{} refused, {} halted; all else is told of the {} that are done", summary.refused,
                                      summary.halted, summary.done));
   for (const std::string& reason : sweep.reasons()) print_item("", reason);
+  print_verdicts(sweep.verdicts(), sweep.study().referee_tolerance);
   print_thresholds(summary);
   print_conditions(summary);
   print_metrics(summary);

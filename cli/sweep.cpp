@@ -1,9 +1,5 @@
-#include <algorithm>
-#include <atomic>
-#include <charconv>
 #include <chrono>
-#include <csignal>
-#include <thread>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,65 +7,21 @@
 #include "cli/describe.hpp"
 #include "cli/describe_sweep.hpp"
 #include "cli/progress.hpp"
+#include "cli/replay_trial.hpp"
+#include "cli/sweep_ranks.hpp"
+#include "cli/sweep_steps.hpp"
 #include "events/halt.hpp"
 #include "scenarios/faults.hpp"
-#include "sweep/ensemble.hpp"
 #include "sweep/load_study.hpp"
+#include "sweep/rank_files.hpp"
 #include "sweep/resume.hpp"
 
 namespace wormdrive {
+
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, SIGINT and SIGTERM ask for an end instead of being one; a second one ends at once.
-class Interruptible {
- public:
-  Interruptible() {
-    struct sigaction action {};
-    action.sa_handler = [](int signal) { interrupted = signal; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &action, &before_[k]);
-  }
-  Interruptible(const Interruptible&) = delete;
-  ~Interruptible() {
-    for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &before_[k], nullptr);
-  }
-
- private:
-  static constexpr int signals[] = {SIGINT, SIGTERM};
-  struct sigaction before_[2]{};
-};
-
-/// "3/7" as the third of seven parts of all trials, as even as whole trials allow.
-TrialRange range_of(const std::string& shard, std::uint64_t trials) {
-  if (shard.empty()) return {0, trials};
-  std::uint64_t part = 0, parts = 0;
-  const char* const end = shard.data() + shard.size();
-  const auto first = std::from_chars(shard.data(), end, part);
-  const bool slash = first.ptr != end && *first.ptr == '/';
-  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
-  if (!slash || first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || part < 1 || part > parts)
-    refuse({"--shard " + shard}, "must be i/n with 1 <= i <= n, as in 3/7");
-  if (parts > trials)
-    refuse({"--shard " + shard}, fmt::format("the study has only {} trials; take at most as many shards", trials));
-  const auto begin = [&](std::uint64_t k) { return trials / parts * k + std::min(k, trials % parts); };
-  return {begin(part - 1), begin(part)};
-}
-
-std::string how_to_resume(const SweepOptions& options) {
-  const bool has = options.command_line.find(" --resume") != std::string::npos;
-  return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
-}
-
-}  // namespace
-
-int sweep_command(const SweepOptions& options) {
-  const Study study = load_study(options.study);
+int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
   const TrialRange range = range_of(options.shard, study.trials());
-  const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
-  refuse_to_overwrite(output, options.study);
-  const Interruptible interruptible;
   const OpenSweep open = open_sweep(output, study, range, options.command_line, options.resume);
   if (!options.quiet) print_study(study, range);
   if (!open.file) {
@@ -78,32 +30,37 @@ int sweep_command(const SweepOptions& options) {
   }
   SweepFile& file = *open.file;
 
-  const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = threads_of(options);
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0;
   const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
+  std::vector<Verdict> verdicts;
+  double seconds = 0.0;
   const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = cpu_time();
   try {
     Progress progress(static_cast<double>(wanted), options.quiet);
     auto next = open.missing.begin();
     const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
     const auto take = [&](const Trial& trial) {
       file.append(trial);
-      progress.at(static_cast<double>(++made), [&](double seconds) {
-        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / seconds, file.reasons().total());
+      progress.at(static_cast<double>(++made), [&](double passed) {
+        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, file.reasons().total());
       });
       return !too_many();
     };
-    if (!too_many()) run_ensemble(study, source, threads, take, [] { return interrupted != 0; });
-    if (made == wanted && !too_many())
+    if (!too_many()) run_ensemble(study, source, threads, take, [] { return Interruptible::signal() != 0; });
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (made == wanted && !too_many()) {
+      verdicts = judge(file, study, options, cpu_time() - cpu_begin, least_judged);
       file.finish();
-    else
+    } else {
       file.flush();
+    }
   } catch (const OutputFault& fault) {
     throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
                                   how_to_resume(options)));
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (too_many())
     throw Halt(fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}; {} keeps them all",
                            file.reasons().total(), before + made, *options.max_failures, most_frequent(file.reasons()),
@@ -111,15 +68,49 @@ int sweep_command(const SweepOptions& options) {
   if (made < wanted) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
-    return 128 + interrupted;
+    return 128 + Interruptible::signal();
   }
+  keep_trajectories(output, options.command_line, options.quiet);
   if (options.quiet) return 0;
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were there already", before) : ""));
   print_failures(file.reasons());
+  print_verdicts(verdicts, study.referee_tolerance);
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
   return 0;
+}
+
+/// Bad input is told by the first rank alone: it looks at everything before the others do.
+template <class Look>
+bool looks_good(Ranks& ranks, Look&& look) {
+  if (ranks.first()) {
+    try {
+      look();
+    } catch (...) {
+      ranks.told({1});
+      throw;
+    }
+  }
+  return ranks.told({0}).front() == 0;
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options) {
+  Ranks ranks;
+  const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
+  const bool good = looks_good(ranks, [&] {
+    load_study(options.study);
+    refuse_to_overwrite(output, options.study);
+    if (ranks.count() > 1 && !options.shard.empty())
+      refuse({"--shard " + options.shard}, "the ranks share all trials; leave it out");
+  });
+  if (!good) return 2;
+  const Study study = load_study(options.study);
+  const Interruptible interruptible;
+  if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
+  return sweep_alone(options, study, output);
 }
 
 }  // namespace wormdrive

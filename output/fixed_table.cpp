@@ -78,9 +78,9 @@ void FixedTexts::create(hid_t parent, const std::string& name, const std::string
   const std::string action = "cannot create " + name + " in " + file_of(parent);
   const hsize_t size = rows;
   const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, action);
-  const Hdf5Handle dataset(H5Dcreate2(parent, name.c_str(), text_type(action), space, H5P_DEFAULT,
-                                      fixed_layout(action), H5P_DEFAULT),
-                           H5Dclose, action);
+  const Hdf5Handle dataset(
+      H5Dcreate2(parent, name.c_str(), text_type(action), space, H5P_DEFAULT, fixed_layout(action), H5P_DEFAULT),
+      H5Dclose, action);
   write_attribute(dataset, "long_name", long_name);
 }
 

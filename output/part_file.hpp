@@ -38,7 +38,8 @@ class PartFile {
   bool stays_ = false;
 };
 
-/// HDF5 locks a file that it writes, but empties it before it asks for the lock. Throws OutputFault where a program has it.
+/// HDF5 locks a file that it writes, but empties it before it asks for the lock. Throws OutputFault where a program has
+/// it.
 void refuse_to_disturb_a_writer(const std::string& part_path);
 
 /// Title, kind and provenance that every result file carries as root attributes.

@@ -104,9 +104,9 @@ class Ensemble {
   const TrialSource& source_;
   std::mutex mutex_;
   std::condition_variable room_, news_;
-  TrialRange portion_;                        ///< of the source, what nobody has claimed
-  std::uint64_t claimed_ = 0, taken_ = 0;     ///< trials claimed, handed over
-  bool no_more_ = false;                      ///< to claim
+  TrialRange portion_;                     ///< of the source, what nobody has claimed
+  std::uint64_t claimed_ = 0, taken_ = 0;  ///< trials claimed, handed over
+  bool no_more_ = false;                   ///< to claim
   std::exception_ptr fault_;
   std::vector<std::optional<Trial>> done_{window};
 };

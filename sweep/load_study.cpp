@@ -50,6 +50,7 @@ class StudyReader {
     if (faults_.empty()) {  // only then can the scenario be judged
       read_scenario(source);
       read_metrics();
+      check_kept();
       read_thresholds();
     } else {
       root_.texts("metrics");
@@ -118,6 +119,15 @@ class StudyReader {
                     [&](const Metric& m) { return std::find(wanted.begin(), wanted.end(), m.name) == wanted.end(); });
     if (all.empty() && faults_.empty()) root_.fault("metrics", "metrics must name at least one metric");
     study_.metrics = std::move(all);
+  }
+
+  void check_kept() {
+    const std::string& by = study_.kept.worst_by;
+    std::vector<std::string> names;
+    for (const Metric& metric : study_.metrics) names.push_back(metric.name);
+    if (by.empty() || std::find(names.begin(), names.end(), by) != names.end()) return;
+    faults_.add({name_}, fmt::format("sweep.keep_worst_by = \"{}\": this study has no such metric; {}", by,
+                                     suggestion(by, names)));
   }
 
   void read_thresholds() {

@@ -1,10 +1,13 @@
 #include "sweep/read_design.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "control/random.hpp"
 #include "scenarios/read_reference.hpp"
 #include "scenarios/variant_kinds.hpp"
+#include "sweep/read_parameters.hpp"
 
 namespace wormdrive {
 namespace {
@@ -63,6 +66,24 @@ class DesignReader {
   const std::vector<std::optional<double>>& levels_;
 };
 
+void read_kept(TableReader& table, Study& study) {
+  const std::vector<double> trials = read_list(table, "keep", Presence::optional);
+  for (const double trial : trials) {
+    if (trial == std::floor(trial) && trial >= 0.0 && trial < static_cast<double>(study.trials())) {
+      study.kept.trials.push_back(static_cast<std::uint64_t>(trial));
+      continue;
+    }
+    table.fault("keep",
+                fmt::format("sweep.keep names {}, which is no trial; there are 0 to {}", trial, study.trials() - 1));
+  }
+  const double worst =
+      table.number("keep_worst", unit::none, bounds::between(0, 1e4), Presence::optional, "worst trials to be kept")
+          .value_or(0.0);
+  require_whole(table, "keep_worst", worst);
+  study.kept.worst = static_cast<std::uint64_t>(worst);
+  study.kept.worst_by = table.text("keep_worst_by").value_or("");
+}
+
 }  // namespace
 
 void read_design(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels) {
@@ -73,6 +94,11 @@ void read_design(TableReader& table, Study& study, const std::vector<std::option
   if (!kind) return table.ignore_unknown();  // which keys it may have hangs on its kind
   study.design = make_kind<DesignSettings>(*kind);
   std::visit([&](auto& design) { DesignReader(table, study, levels).read(design); }, study.design);
+  if (table.faults().empty()) read_kept(table, study);
+  study.referee_tolerance = table
+                                .number("referee_tolerance", unit::radian, bounds::positive, Presence::optional,
+                                        "difference of the gear angle beyond which the referee disagrees")
+                                .value_or(study.referee_tolerance);
   const bool by_levels = !is_sample(study.design);
   for (std::size_t k = 0; k < levels.size(); ++k)
     if (levels[k] && !by_levels)

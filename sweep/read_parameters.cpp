@@ -11,23 +11,17 @@
 namespace wormdrive {
 namespace {
 
-std::vector<double> read_list(TableReader& table, const std::string& key, bool required) {
-  const auto spelling = table.stated(key, unit::none);
-  if (!spelling && required) table.lacks(fmt::format("'{}'", key));
-  return spelling ? table.numbers(*spelling).value_or(std::vector<double>{}) : std::vector<double>{};
-}
-
 template <class Parametric>
 void read_distribution(TableReader& table, Parametric& distribution) {
   table.read_fields(distribution);
 }
 void read_distribution(TableReader& table, Discrete& distribution) {
-  distribution.values = read_list(table, "values", true);
-  distribution.weights = read_list(table, "weights", false);
+  distribution.values = read_list(table, "values", Presence::required);
+  distribution.weights = read_list(table, "weights", Presence::optional);
 }
 void read_distribution(TableReader& table, QuantileTable& distribution) {
-  distribution.values = read_list(table, "values", true);
-  distribution.probabilities = read_list(table, "probabilities", true);
+  distribution.values = read_list(table, "values", Presence::required);
+  distribution.probabilities = read_list(table, "probabilities", Presence::required);
 }
 
 StatedParameter read_parameter(TableReader& table, const std::string& name) {
@@ -55,6 +49,12 @@ StatedParameter read_parameter(TableReader& table, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<double> read_list(TableReader& table, const std::string& key, Presence presence) {
+  const auto spelling = table.stated(key, unit::none);
+  if (!spelling && presence == Presence::required) table.lacks(fmt::format("'{}'", key));
+  return spelling ? table.numbers(*spelling).value_or(std::vector<double>{}) : std::vector<double>{};
+}
 
 std::vector<StatedParameter> read_parameters(TableReader& root) {
   std::vector<StatedParameter> list;

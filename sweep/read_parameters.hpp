@@ -20,4 +20,7 @@ std::vector<StatedParameter> read_parameters(TableReader& root);
 /// Reads [[correlation]] between parameters.
 Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& parameters);
 
+/// A list of numbers; empty if it is not there, which is a fault if it has to be.
+std::vector<double> read_list(TableReader& table, const std::string& key, Presence presence);
+
 }  // namespace wormdrive

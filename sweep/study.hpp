@@ -29,6 +29,13 @@ struct Threshold {
   bool missed_by(double value) const { return above ? value > limit : value < limit; }
 };
 
+/// Of which trials the trajectories are kept.
+struct Kept {
+  std::vector<std::uint64_t> trials;
+  std::uint64_t worst = 0;  ///< so many
+  std::string worst_by;     ///< by this metric; empty: the one by which trials are ranked
+};
+
 /// A sweep as it is stated: one scenario, what is uncertain in it, and what is asked of it; plain data.
 struct Study {
   std::string title;
@@ -39,6 +46,8 @@ struct Study {
   std::uint64_t seed = 0;
   std::vector<Metric> metrics;
   std::vector<Threshold> thresholds;
+  Kept kept;
+  double referee_tolerance = 1e-6;  ///< of the gear angle [rad], beyond which the referee disagrees
 
   std::string text;  ///< of the study file
   std::uint64_t trials() const { return size(design, parameters.size()); }

@@ -17,9 +17,7 @@ class Summariser {
   Summariser(const SweepReader& sweep, const std::string& ranked_by) : sweep_(sweep), study_(sweep.study()) {
     std::vector<std::string> names;
     for (const Metric& metric : study_.metrics) names.push_back(metric.name);
-    ranked_by_ = !ranked_by.empty()           ? ranked_by
-                 : !study_.thresholds.empty() ? study_.thresholds.front().metric
-                                              : names.front();
+    ranked_by_ = ranked_by.empty() ? default_ranking(study_) : ranked_by;
     if (std::find(names.begin(), names.end(), ranked_by_) == names.end())
       refuse({sweep.path()}, "has no metric '" + ranked_by_ + "'; " + suggestion(ranked_by_, names));
     status_ = sweep.column("status");
@@ -94,13 +92,13 @@ class Summariser {
   }
 
   void note_condition(const Metric& metric, const std::vector<double>& margins, SweepSummary& summary) const {
-    FailedCondition failed{metric.meaning, 0, 0};
+    ConditionSummary condition{metric.meaning, 0, 0};
     for (std::size_t row = 0; row < margins.size(); ++row)
       if (counts(row) && done(row)) {
-        ++failed.of;
-        if (margins[row] < 0.0) ++failed.trials;
+        ++condition.of;
+        if (margins[row] < 0.0) ++condition.trials;
       }
-    if (failed.trials > 0) summary.conditions.push_back(failed);
+    summary.conditions.push_back(condition);
   }
 
   void rank(const std::vector<double>& values, unsigned worst, SweepSummary& summary) const {
@@ -108,9 +106,7 @@ class Summariser {
     for (std::size_t row = 0; row < values.size(); ++row)
       if (std::isfinite(values[row])) rows.push_back(row);
     influences(values, rows, summary);
-    const auto below = std::find_if(study_.thresholds.begin(), study_.thresholds.end(),
-                                    [this](const Threshold& t) { return t.metric == ranked_by_ && !t.above; });
-    const double sign = below == study_.thresholds.end() ? 1.0 : -1.0;  // the worst are those that miss the threshold
+    const double sign = worse(study_, ranked_by_);
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(worst, rows.size()));
     std::partial_sort(rows.begin(), end, rows.end(), [&](std::size_t a, std::size_t b) {
       return std::pair(-sign * values[a], a) < std::pair(-sign * values[b], b);
@@ -150,6 +146,16 @@ class Summariser {
 };
 
 }  // namespace
+
+std::string default_ranking(const Study& study) {
+  return study.thresholds.empty() ? study.metrics.front().name : study.thresholds.front().metric;
+}
+
+double worse(const Study& study, const std::string& metric) {
+  const bool below = std::any_of(study.thresholds.begin(), study.thresholds.end(),
+                                 [&](const Threshold& t) { return t.metric == metric && !t.above; });
+  return below ? -1.0 : 1.0;
+}
 
 SweepSummary summarise(const SweepReader& sweep, const std::string& ranked_by, unsigned worst) {
   return Summariser(sweep, ranked_by)(worst);

@@ -35,8 +35,8 @@ struct Influence {
   double size() const { return sobol ? sobol->total.value : std::abs(rank_correlation); }
 };
 
-/// A condition of Lemma 1 that does not hold for the values of some trials.
-struct FailedCondition {
+/// For the values of how many trials a condition of Lemma 1 does not hold.
+struct ConditionSummary {
   std::string rule;
   std::uint64_t trials{}, of{};
 };
@@ -48,13 +48,28 @@ struct SweepSummary {
   std::vector<MetricSummary> metrics;
   std::vector<ThresholdSummary> thresholds;
   std::string ranked_by;
-  std::vector<Influence> influences;  ///< greatest first
-  std::vector<Trial> worst;           ///< greatest first
-  std::vector<FailedCondition> conditions;
+  std::vector<Influence> influences;         ///< greatest first
+  std::vector<Trial> worst;                  ///< greatest first
+  std::vector<ConditionSummary> conditions;  ///< every one, in the order of the metrics
+
+  std::uint64_t with(TrialStatus status) const {
+    switch (status) {
+      case TrialStatus::done: return done;
+      case TrialStatus::refused: return refused;
+      case TrialStatus::halted: return halted;
+    }
+    return 0;
+  }
 };
 
-/// Throws InputFault if the metric by which trials are to be ranked does not exist; empty: that of the first threshold,
-/// else the first one.
+/// The metric by which trials are ranked unless somebody asks for another one: that of the first threshold, else the
+/// first one.
+std::string default_ranking(const Study& study);
+
+/// +1 where the greatest values of a metric are the worst, -1 where the least are: where a threshold is missed below.
+double worse(const Study& study, const std::string& metric);
+
+/// Throws InputFault if the metric by which trials are to be ranked does not exist; empty: the default.
 SweepSummary summarise(const SweepReader& sweep, const std::string& ranked_by, unsigned worst);
 
 }  // namespace wormdrive

@@ -8,6 +8,7 @@
 #include "scenarios/faults.hpp"
 #include "scenarios/write_scenario.hpp"
 #include "sweep/load_study.hpp"
+#include "sweep/summary_tables.hpp"
 
 namespace wormdrive {
 namespace {
@@ -38,6 +39,15 @@ void for_each_block(TrialRange range, Visit&& visit) {
     visit(TrialRange{first, std::min(first + at_once, range.end)});
 }
 
+/// Verdicts one after the other; a row of zeros is none.
+std::vector<ColumnDescription> verdict_descriptions() {
+  return {{"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
+          {"trial", "1", "index of the trial"},
+          {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
+          {"speed_difference", "rad/s", "of the gear speed"},
+          {"time", "s", "when the angles differ most"}};
+}
+
 }  // namespace
 
 ReasonTable::ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts) {
@@ -65,8 +75,7 @@ std::uint64_t ReasonTable::total() const {
                          [](std::uint64_t sum, const Entry& entry) { return sum + entry.count; });
 }
 
-void SweepFile::create(const std::string& path, const Study& study, TrialRange range,
-                       const std::string& command_line) {
+void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line) {
   PartFile file(path + ".part");  // so that NAME.part is whole from its first moment on
   write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
   write_attribute(file.file(), "study", study.text);
@@ -76,6 +85,8 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
   FixedTable::create(file.file(), "trials", descriptions(study), range.size());
+  FixedTable::create(file.file(), "referee", verdict_descriptions(), most_verdicts);
+  create_summary_tables(file.file(), study);
   file.finish();
 }
 
@@ -119,8 +130,25 @@ void SweepFile::flush() {
   for (std::vector<double>& column : columns_) column.clear();
 }
 
+void SweepFile::write(const std::vector<Verdict>& verdicts) {
+  const std::size_t count = std::min(verdicts.size(), most_verdicts);
+  std::vector<std::vector<double>> columns(verdict_descriptions().size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [trial, found, halted] = verdicts[k];
+    auto column = columns.begin();
+    for (const double value : {halted ? 2.0 : 1.0, static_cast<double>(trial), found.angle, found.speed, found.t})
+      (column++)->push_back(value);
+  }
+  FixedTable table(file_.file(), "referee", verdict_descriptions());
+  for (std::size_t k = 0; k < columns.size(); ++k) table.write(k, 0, columns[k]);
+}
+
 void SweepFile::finish() {
   flush();
+  {
+    const SweepReader all(part_path());
+    write_summary_tables(file_.file(), summarise(all, "", worst_trials_listed), all.study());
+  }
   table_.reset();
   reason_texts_.reset();
   file_.finish();
@@ -186,6 +214,16 @@ std::vector<Trial> SweepReader::read(TrialRange range) const {
     if (code > 0) t.reason = reasons_.at(code - 1);
   });
   return trials;
+}
+
+std::vector<Verdict> SweepReader::verdicts() const {
+  const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
+  const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
+                            speed = read("speed_difference"), t = read("time");
+  std::vector<Verdict> list;
+  for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k)
+    list.push_back({static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, judged[k] == 2.0});
+  return list;
 }
 
 ReasonTable SweepReader::counted_reasons() const {

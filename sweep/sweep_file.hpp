@@ -11,6 +11,7 @@
 #include "sweep/study.hpp"
 #include "sweep/trial.hpp"
 #include "sweep/trial_range.hpp"
+#include "sweep/verdict.hpp"
 
 namespace wormdrive {
 
@@ -52,7 +53,9 @@ class SweepFile {
   void append(const Trial& trial);
   /// Makes all trials safe.
   void flush();
-  /// Gives the file its final name.
+  /// Writes what a referee found.
+  void write(const std::vector<Verdict>& verdicts);
+  /// Sums up the trials in /summary and gives the file its final name.
   void finish();
 
   const std::string& part_path() const { return file_.part_path(); }
@@ -97,6 +100,7 @@ class SweepReader {
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }
+  std::vector<Verdict> verdicts() const;
   /// The reasons of the trials that it has, counted.
   ReasonTable counted_reasons() const;
 

@@ -30,8 +30,7 @@ Trials::Trials(const Study& study)
         *std::find_if(all.begin(), all.end(), [&](const Variable& v) { return v.spelling.key == parameter.path; }));
 }
 
-std::string Trials::set_up(Trial& trial) {
-  std::vector<double> u = design_.point(trial.index);
+std::string Trials::set_up(Trial& trial, std::vector<double> u) {
   study_.copula.apply(u);
   std::string refusal;
   for (std::size_t k = 0; k < u.size(); ++k) {
@@ -52,9 +51,12 @@ void Trials::run(Trial& trial) {
   for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics[k] = study_.metrics[k].of(outcome);
 }
 
-Trial Trials::operator()(std::uint64_t index) {
+Trial Trials::operator()(std::uint64_t index) { return made(index, design_.point(index)); }
+Trial Trials::at(const std::vector<double>& point) { return made(0, point); }
+
+Trial Trials::made(std::uint64_t index, std::vector<double> point) {
   Trial trial{index, {}, std::vector<double>(study_.metrics.size(), std::numeric_limits<double>::quiet_NaN()), {}, {}};
-  trial.reason = set_up(trial);
+  trial.reason = set_up(trial, std::move(point));
   if (trial.reason.empty()) trial.reason = why_it_cannot_run(scenario_).value_or("");
   trial.status = trial.reason.empty() ? TrialStatus::done : TrialStatus::refused;
   if (trial.status == TrialStatus::done) try {
@@ -71,7 +73,7 @@ Trial Trials::operator()(std::uint64_t index) {
 
 const Scenario& Trials::scenario(std::uint64_t index) {
   Trial trial{index, {}, {}, {}, {}};
-  set_up(trial);
+  set_up(trial, design_.point(index));
   return scenario_;
 }
 

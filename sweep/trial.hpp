@@ -34,12 +34,19 @@ class Trials {
   Trials& operator=(const Trials&) = delete;
 
   Trial operator()(std::uint64_t index);
+  /// A trial at another point of the unit cube than those of the design; its index stands for nothing.
+  Trial at(const std::vector<double>& point);
+  /// The point of the unit cube at which the design puts a trial.
+  std::vector<double> point(std::uint64_t index) { return design_.point(index); }
   /// The scenario of a trial; why it cannot run is told by the trial.
   const Scenario& scenario(std::uint64_t index);
+  /// The scenario of the latest trial.
+  const Scenario& scenario() const { return scenario_; }
 
  private:
-  /// Puts the values of a trial into the scenario; returns what bounds say against them.
-  std::string set_up(Trial& trial);
+  /// Puts the values at a point into the scenario and the trial; returns what bounds say against them.
+  std::string set_up(Trial& trial, std::vector<double> point);
+  Trial made(std::uint64_t index, std::vector<double> point);
   void run(Trial& trial);
 
   const Study& study_;

@@ -1,10 +1,12 @@
 // Designs: what each promises of its points, and that any point can be asked for alone.
+#include <filesystem>
 #include <set>
 
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "sweep/design.hpp"
 #include "sweep/keyed_permutation.hpp"
+#include "sweep/load_study.hpp"
 
 using namespace wormdrive;
 
@@ -113,4 +115,15 @@ TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
     for (const auto& u : forward)
       for (const double x : u) REQUIRE((x > 0.0 && x < 1.0));
   }
+}
+
+TEST_CASE("every shipped study can be read", "[sweep]") {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WORMDRIVE_SCENARIOS "/studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    CHECK(load_study(entry.path().string()).trials() > 0);
+    ++files;
+  }
+  CHECK(files >= 1);
 }

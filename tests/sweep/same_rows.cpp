@@ -118,8 +118,9 @@ TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when th
   const Outcome full = folder.run({"sweep", "study.toml", "-o", "full.h5", "--resume"}, room);
   CHECK(full.exit == 4);
   CHECK(full.err.starts_with("wormdrive: cannot write full.h5.part"));
-  CHECK(full.err.ends_with("File too large; nothing before the last second is lost: make room, then go on with: "
-                           "wormdrive sweep study.toml -o full.h5 --resume\n"));
+  CHECK(
+      full.err.ends_with("File too large; nothing before the last second is lost: make room, then go on with: "
+                         "wormdrive sweep study.toml -o full.h5 --resume\n"));
   CHECK(folder.present("full.h5.part") >= before);
   const Outcome resumed = folder.sweep({"-o", "full.h5", "--resume"});
   INFO(full.err << resumed.err);
