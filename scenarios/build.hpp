@@ -4,6 +4,7 @@
 
 #include "core/worm_drive.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/taken_up.hpp"
 
 namespace wormdrive {
 
@@ -13,13 +14,16 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
 }
 
-/// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on.
+/// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on. Of its effects
+/// the drive has those that are not taken up by mesh and load.
 template <class Use>
 decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
-        using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> drive(stated_mesh(scenario), make_load(parameters), scenario.effects, scenario.motor);
+        auto load = make_load(parameters);
+        GearMesh<double> mesh = stated_mesh(scenario);
+        const Effects<double> effects = take_up(scenario.effects, mesh, load);
+        WormDrive<double, decltype(load)> drive(mesh, load, effects, scenario.motor);
         return use(drive);
       },
       scenario.load);
