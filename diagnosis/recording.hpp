@@ -6,7 +6,7 @@
 namespace wormdrive {
 
 /// A recording of a drive, evenly sampled, in SI; plain data.
-struct Measurement {
+struct Recording {
   std::string name;                  ///< the file's, or what the caller calls it
   double start{};                    ///< time of the first sample [s]
   double period{};                   ///< between two samples [s]
