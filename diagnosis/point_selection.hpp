@@ -1,0 +1,50 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnosis/point_candidates.hpp"
+
+namespace wormdrive {
+
+/// Thresholds of a selection over torque points.
+struct PointThresholds {
+  double delta_bic = 10.0;           ///< evidence for an effect
+  double held_out_gain = 3.0;        ///< [nats] on points that the fit did not see, both ways together
+  double tolerances = 3.5;           ///< how far outside its tolerance a stated parameter has to lie
+  double tolerated_delta_bic = 5.0;  ///< evidence for one
+  double alike = 10.0;               ///< differences of BIC below which two models are equally good ...
+  double alike_share = 0.03;         ///< ... or this share of what the effect explains
+  std::size_t causes = 5;            ///< at most
+};
+
+/// A model with its fits.
+struct FittedModel {
+  PointModel model;
+  PointFit all;
+  double bic = 0.0;
+  double held_out = 0.0;  ///< negative log likelihood of both halves, each by the fit of the other [nats]
+};
+
+/// An effect as it was judged last.
+struct PointJudgement {
+  std::size_t candidate;  ///< index
+  FittedModel with;       ///< it
+  double delta_bic = 0.0, held_out_gain = 0.0;
+  bool accepted = false;
+  std::string outcome;
+};
+
+/// What a selection comes to.
+struct PointSelection {
+  FittedModel before, after;
+  std::vector<PointJudgement> judgements;  ///< of every candidate, best first
+  std::vector<std::vector<std::size_t>>
+      classes;  ///< candidates that can stand for each other; indices, named ones first
+};
+
+/// Adds effects while one passes the thresholds, drops those that others made superfluous, and looks for the effects
+/// that could stand in the place of a named one. Throws std::invalid_argument if the scenario has no torque anywhere.
+PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
+                      const PointThresholds& thresholds);
+
+}  // namespace wormdrive
