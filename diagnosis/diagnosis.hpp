@@ -85,9 +85,9 @@ struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;  ///< for people: what is wrong, by how much, what is gained
   std::vector<EstimatedEffect> causes;
-  std::vector<std::string> equivalents;  ///< ids of the class, if ambiguous: exactly one of them is the cause
-  std::vector<Candidate> ranking;        ///< best first
-  std::vector<EstimatedEffect> calibration;        ///< stated parameters that moved within their tolerance
+  std::vector<std::string> equivalents;      ///< ids of the class, if ambiguous: exactly one of them is the cause
+  std::vector<Candidate> ranking;            ///< best first
+  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved within their tolerance
   std::vector<PredictionError> prediction;
   std::vector<Visibility> certificate;
   std::vector<Remainder> remainders;   ///< what is left, strongest first; empty: nothing above the noise

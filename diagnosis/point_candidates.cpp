@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/place.hpp"
 #include "scenarios/build.hpp"
@@ -21,20 +22,29 @@ double largest(const std::vector<double>& values) {
   return size;
 }
 
+double least(const std::vector<double>& values) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const double value : values) size = std::min(size, std::abs(value));
+  return size;
+}
+
 /// Makes candidates whose sizes fit the data.
 class Maker {
  public:
   explicit Maker(const Scenario& scenario) : effects_(scenario.effects) {}
 
-  Coordinate coordinate(std::string_view effect, std::string_view field, double scale, double tolerance = 0.0) const {
+  /// reach: beyond -reach and reach a value is not believed.
+  Coordinate coordinate(std::string_view effect, std::string_view field, double scale, double reach,
+                        double tolerance = 0.0) const {
     const FieldOfEffect found = field_of(effects_, effect, field);
+    const double centre = found.on ? found.value : 0.0;
     return {effect,
             field,
             scale,
-            found.bounds.low_exclusive ? found.bounds.low + 1e-6 * scale : found.bounds.low,
-            found.bounds.high,
+            std::max(found.bounds.low, centre - reach),
+            std::min(found.bounds.high, centre + reach),
             CoordinateForm::plain,
-            found.on ? found.value : 0.0,
+            centre,
             tolerance};
   }
   void add(std::vector<Coordinate> coordinates, std::vector<std::vector<double>> starts = {}) {
@@ -59,26 +69,32 @@ std::vector<PointCandidate> point_candidates(const Scenario& scenario, const Tor
   const GearMesh<double> mesh = stated_mesh(scenario);
   const double torque = rms(points.torque), load = rms(points.load_torque), speed = largest(points.worm_speed);
   Maker maker(scenario);
-  maker.add({maker.coordinate("torque_gain", "share", 0.1, tolerance.torque_gain)});
-  maker.add({maker.coordinate("torque_offset", "torque", torque, tolerance.torque_offset.value_or(0.01 * torque))});
-  maker.add({maker.coordinate("worm_coulomb", "torque", torque)});
-  if (load > 0.0) maker.add({maker.coordinate("load_magnitude", "share", 0.1, tolerance.load)});
-  if (mesh.has_teeth) {
-    const double mu = std::max(0.01, mesh.mu);
-    maker.add({maker.coordinate("mesh_friction", "change", mu, tolerance.friction * mu)});
-    maker.add({maker.coordinate("friction_asymmetry", "change", mu)});
-    maker.add({maker.coordinate("gear_coulomb", "torque", std::max(load, torque))});
-    if (speed > 0.0) {
-      const double v = std::abs(mesh.sliding_speed(speed));
-      maker.add({maker.coordinate("stribeck", "drop", mu), maker.coordinate("stribeck", "speed", 0.1 * v)},
-                {{0.1 * mu, 0.005 * v}, {0.1 * mu, 0.02 * v}, {0.1 * mu, 0.1 * v}, {0.1 * mu, 0.5 * v}});
-      maker.add({maker.coordinate("agma", "scale", 1.0)}, {{mu / 0.15}});
-      maker.add({maker.coordinate("gear_viscous", "coefficient", std::max(load, torque) * mesh.i / speed)});
-    } else {
-      maker.add({maker.coordinate("static_friction", "rise", mu)});
-    }
+  const auto one = [&](std::string_view effect, std::string_view field, double scale, double reach,
+                       double stated = 0.0) { maker.add({maker.coordinate(effect, field, scale, reach, stated)}); };
+  one("torque_gain", "share", 0.1, 0.5, tolerance.torque_gain);
+  one("torque_offset", "torque", torque, torque, tolerance.torque_offset.value_or(0.01 * torque));
+  one("worm_coulomb", "torque", torque, 2.0 * torque);
+  if (load > 0.0) one("load_magnitude", "share", 0.1, 0.9, tolerance.load);
+  if (speed > 0.0) one("worm_viscous", "coefficient", torque / speed, 2.0 * torque / speed);
+  if (!mesh.has_teeth) return maker.take();
+  const double mu = std::max(0.01, mesh.mu), gear = std::max(load, torque);
+  one("mesh_friction", "change", mu, 0.5, tolerance.friction * mu);
+  one("friction_asymmetry", "change", mu, mu);
+  one("gear_coulomb", "torque", gear, 2.0 * gear);
+  if (speed > 0.0) {
+    const double v = std::abs(mesh.sliding_speed(speed)),
+                 slowest = std::abs(mesh.sliding_speed(least(points.worm_speed)));
+    Coordinate at = maker.coordinate("stribeck", "speed", 0.1 * v, 2.0 * v);
+    at.low = 0.1 * slowest;  // slower, and the data have seen the fall's end only
+    at.centre = 0.1 * v;
+    std::vector<std::vector<double>> starts;
+    for (const double share : {0.005, 0.02, 0.1, 0.5}) starts.push_back({0.1 * mu, std::max(2.0 * at.low, share * v)});
+    maker.add({maker.coordinate("stribeck", "drop", mu, 0.5), at}, starts);
+    maker.add({maker.coordinate("agma", "scale", 1.0, 10.0)}, {{mu / 0.15}});
+    one("gear_viscous", "coefficient", gear * mesh.i / speed, 2.0 * gear * mesh.i / speed);
+  } else {
+    one("static_friction", "rise", mu, 0.5);
   }
-  if (speed > 0.0) maker.add({maker.coordinate("worm_viscous", "coefficient", torque / speed)});
   return maker.take();
 }
 

@@ -8,13 +8,13 @@ namespace wormdrive {
 
 /// Thresholds of a selection over torque points.
 struct PointThresholds {
-  double delta_bic = 10.0;           ///< evidence for an effect
-  double held_out_gain = 3.0;        ///< [nats] on points that the fit did not see, both ways together
-  double tolerances = 3.5;           ///< how far outside its tolerance a stated parameter has to lie
-  double tolerated_delta_bic = 5.0;  ///< evidence for one
-  double alike = 10.0;               ///< differences of BIC below which two models are equally good ...
-  double alike_share = 0.03;         ///< ... or this share of what the effect explains
-  std::size_t causes = 5;            ///< at most
+  double delta_bic = 8.0;      ///< evidence for an effect
+  double held_out_gain = 3.0;  ///< [nats] on points that the fit did not see, both ways together
+  double tolerances = 3.5;     ///< how far outside its tolerance a stated parameter has to lie
+  double alike = 10.0;         ///< differences of BIC up to which two models are equally good ...
+  double alike_share = 0.03;   ///< ... or this share of what the effect explains
+  std::size_t causes = 6;      ///< at most
+  std::size_t models = 10;     ///< that are followed at each number of causes
 };
 
 /// A model with its fits.
@@ -25,25 +25,25 @@ struct FittedModel {
   double held_out = 0.0;  ///< negative log likelihood of both halves, each by the fit of the other [nats]
 };
 
-/// An effect as it was judged last.
+/// What became of a candidate.
 struct PointJudgement {
-  std::size_t candidate;  ///< index
-  FittedModel with;       ///< it
-  double delta_bic = 0.0, held_out_gain = 0.0;
-  bool accepted = false;
-  std::string outcome;
+  std::size_t candidate;                        ///< index
+  FittedModel with;                             ///< the model that has it
+  double delta_bic = 0.0, held_out_gain = 0.0;  ///< that model against the same without it
+  bool named = false;
+  std::string outcome;  ///< "named", or why not
 };
 
 /// What a selection comes to.
 struct PointSelection {
   FittedModel before, after;
-  std::vector<PointJudgement> judgements;  ///< of every candidate, best first
-  std::vector<std::vector<std::size_t>>
-      classes;  ///< candidates that can stand for each other; indices, named ones first
+  std::vector<PointJudgement> judgements;         ///< of every candidate, named ones first, then by evidence
+  std::vector<std::vector<std::size_t>> classes;  ///< candidates that can stand for each other, named ones first
 };
 
-/// Adds effects while one passes the thresholds, drops those that others made superfluous, and looks for the effects
-/// that could stand in the place of a named one. Throws std::invalid_argument if the scenario has no torque anywhere.
+/// Follows the best models of one effect, of two, and so on, takes the largest whose every step passes the thresholds,
+/// drops what others made superfluous, and looks for the effects that could stand in the place of a named one. Throws
+/// std::invalid_argument if the scenario has no torque at the points.
 PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
                       const PointThresholds& thresholds);
 
