@@ -48,11 +48,16 @@ class Maker {
             tolerance};
   }
   void add(std::vector<Coordinate> coordinates, std::vector<std::vector<double>> starts = {}) {
-    if (starts.empty()) {  // as stated; one that is off from zero
+    if (starts.empty()) {  // as stated, but off the bound: there a step may lead nowhere
       starts.emplace_back();
-      for (const Coordinate& c : coordinates) starts.back().push_back(c.centre);
+      for (const Coordinate& c : coordinates)
+        starts.back().push_back(c.low == c.centre ? c.centre + 0.3 * c.scale : c.centre);
     }
     const bool tolerated = coordinates.front().tolerance > 0.0;
+    if (tolerated)  // the best value may lie far from what is stated, behind worse ones
+      for (const double share : {-0.3, 0.3})
+        starts.push_back({(1.0 - std::abs(share)) * coordinates.front().centre +
+                          share * (share > 0.0 ? coordinates.front().high : -coordinates.front().low)});
     list_.push_back({coordinates.front().effect, std::move(coordinates), std::move(starts), tolerated});
   }
   std::vector<PointCandidate> take() { return std::move(list_); }

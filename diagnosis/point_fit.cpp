@@ -63,10 +63,10 @@ std::vector<int> every_second(const std::vector<int>& direction, const std::vect
   return half;
 }
 
-Scenario PointFitter::with(const PointModel& model, const std::vector<double>& values) const {
-  Scenario scenario = scenario_;
-  apply(scenario.effects, model.coordinates, values);
-  return scenario;
+Effects<double> PointFitter::with(const PointModel& model, const std::vector<double>& values) const {
+  Effects<double> effects = scenario_.effects;
+  apply(effects, model.coordinates, values);
+  return effects;
 }
 
 std::vector<double> PointFitter::errors(const std::vector<double>& torques) const {
@@ -105,7 +105,8 @@ std::vector<std::vector<double>> PointFitter::slopes(const PointModel& model, co
   return columns;
 }
 
-std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vector<double> values, Part part) const {
+std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vector<double> values, Part part,
+                                              const Effort& effort) const {
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (fitted(part, points_.half[k])) rows.push_back(k);
@@ -154,15 +155,15 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 60;
-    options.function_tolerance = 1e-10;
+    options.function_tolerance = effort.tolerance;
     options.logging_type = ceres::SILENT;
-    for (int round = 0; round < 12; ++round) {  // between the parameters and the scale, until neither gains
+    for (int round = 0; round < effort.rounds; ++round) {  // between the parameters and the scale, until neither gains
       const double before = fit.nll;
       ceres::Solver::Summary summary;
       ceres::Solve(options, &problem, &summary);
       passes_ += summary.num_residual_evaluations + 2 * static_cast<long>(n) * summary.num_jacobian_evaluations;
       if (!evaluate()) return std::nullopt;
-      if (before - fit.nll < 1e-4) break;
+      if (before - fit.nll < effort.gain) break;
     }
   }
   fit.values = values;
@@ -170,10 +171,10 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
 }
 
 std::optional<PointFit> PointFitter::fit(const PointModel& model, const std::vector<std::vector<double>>& starts,
-                                         Part part) const {
+                                         Part part, const Effort& effort) const {
   std::optional<PointFit> best;
   for (const std::vector<double>& start : starts) {
-    std::optional<PointFit> found = fit_once(model, start, part);
+    std::optional<PointFit> found = fit_once(model, start, part, effort);
     if (found && (!best || found->nll < best->nll)) best = std::move(found);
   }
   return best;

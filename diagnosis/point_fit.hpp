@@ -26,6 +26,14 @@ struct PointFit {
 /// Which points a fit sees.
 enum class Part { all, first_half, second_half };
 
+/// How long a fit goes on.
+struct Effort {
+  int rounds = 8;           ///< between the parameters and the scale
+  double gain = 1e-3;       ///< stops when a round wins no more [nats]
+  double tolerance = 1e-7;  ///< of the cost in one round
+};
+inline constexpr Effort thorough{}, quick{4, 1e-2, 1e-5};
+
 /// Fits models to torque points by maximum likelihood: Student's t about the points, normal tolerances about what the
 /// scenario states.
 class PointFitter {
@@ -33,14 +41,15 @@ class PointFitter {
   PointFitter(const Scenario& scenario, const TorquePoints& points) : scenario_(scenario), points_(points) {}
 
   /// The best fit from several starts; nothing if the model has torques at none of them.
-  std::optional<PointFit> fit(const PointModel& model, const std::vector<std::vector<double>>& starts, Part part) const;
+  std::optional<PointFit> fit(const PointModel& model, const std::vector<std::vector<double>>& starts, Part part,
+                              const Effort& effort = thorough) const;
 
   /// Negative log likelihood of the points that a fit did not see [nats].
   double held_out(const PointFit& fit, Part fitted) const;
   /// Errors of all points [N m].
   std::vector<double> errors(const std::vector<double>& torques) const;
-  /// The scenario with the values of a model.
-  Scenario with(const PointModel& model, const std::vector<double>& values) const;
+  /// The scenario's effects with the values of a model.
+  Effects<double> with(const PointModel& model, const std::vector<double>& values) const;
   /// Change of all torques per scale of each coordinate, by differences [N m], points x coordinates.
   std::vector<std::vector<double>> slopes(const PointModel& model, const std::vector<double>& values) const;
 
@@ -49,7 +58,8 @@ class PointFitter {
   long passes() const { return passes_; }
 
  private:
-  std::optional<PointFit> fit_once(const PointModel& model, std::vector<double> start, Part part) const;
+  std::optional<PointFit> fit_once(const PointModel& model, std::vector<double> start, Part part,
+                                   const Effort& effort) const;
 
   const Scenario& scenario_;
   const TorquePoints& points_;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/signature.hpp"
 #include "diagnosis/student_t.hpp"
 
 namespace wormdrive {
@@ -43,13 +44,26 @@ class Selector {
     from.push_back(all->values);
     const auto first = fitter_.fit(model, from, Part::first_half), second = fitter_.fit(model, from, Part::second_half);
     if (!first || !second) return std::nullopt;
-    return FittedModel{model, *all, bic_of(model, *all),
+    return FittedModel{model, *all, bic_of(model, *all), doubt_of(model, all->values),
                        fitter_.held_out(*first, Part::first_half) + fitter_.held_out(*second, Part::second_half)};
   }
   double bic_of(const PointModel& model, const PointFit& fit) const {
     const auto free = std::count_if(model.coordinates.begin(), model.coordinates.end(),
                                     [](const Coordinate& c) { return c.tolerance == 0.0; });
     return bic(fit.nll, static_cast<double>(free), static_cast<double>(fitter_.points().size()));
+  }
+
+  /// A stated value that is known within a tolerance, yet far outside of it: 2 ln(1 + z^2) is what the tails of
+  /// Cauchy's distribution make of it.
+  double doubt_of(const PointModel& model, const std::vector<double>& values) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const Coordinate& c = model.coordinates[k];
+      if (!model.holds(c.effect) || !candidate(c.effect).tolerated) continue;
+      const double z = (values[k] - c.centre) / candidate(c.effect).coordinates.front().tolerance;
+      sum += 2.0 * std::log1p(z * z);
+    }
+    return sum;
   }
 
   /// Values for a model out of those of another; where that has none, out of the candidate's start.
@@ -60,7 +74,7 @@ class Selector {
       made.push_back(c.centre);
       for (std::size_t k = 0; k < from.coordinates.size(); ++k)
         if (from.coordinates[k].is(c)) made.back() = values[k];
-      if (!candidate || candidate->tolerated) continue;
+      if (!candidate) continue;
       for (std::size_t k = 0; k < candidate->coordinates.size(); ++k)
         if (candidate->coordinates[k].is(c)) made.back() = (*start)[k];
     }
@@ -72,6 +86,13 @@ class Selector {
     PointModel made = with_cause(model.model, candidate);
     for (const std::vector<double>& start : candidate.starts)
       starts.push_back(carried(made, model.model, model.all.values, &candidate, &start));
+    std::vector<double> afresh = starts.front();  // out of the valley in which the smaller model lies
+    for (std::size_t k = 0; k < afresh.size(); ++k)
+      for (const PointCandidate& one : candidates_)
+        for (std::size_t c = 0; c < one.coordinates.size(); ++c)
+          if (made.holds(one.effect) && one.coordinates[c].is(made.coordinates[k]) && !one.tolerated)
+            afresh[k] = one.starts.front()[c];
+    starts.push_back(std::move(afresh));
     return made;
   }
   std::optional<FittedModel> extended(const FittedModel& model, const PointCandidate& candidate) const {
@@ -106,44 +127,90 @@ class Selector {
   }
 
   /// The best models of a size out of those of one less.
-  std::vector<FittedModel> grown(const std::vector<FittedModel>& smaller) const {
+  std::vector<FittedModel> grown(const std::vector<FittedModel>& smaller, bool stated_too) const {
     std::vector<FittedModel> models;
     std::set<std::set<std::string_view>> seen;
     for (const FittedModel& model : smaller)
       for (const PointCandidate& one : candidates_) {
-        if (model.model.holds(one.effect) || excluded(one, model.model)) continue;
+        if (model.model.holds(one.effect) || excluded(one, model.model) || (one.tolerated && !stated_too)) continue;
         std::set<std::string_view> causes(model.model.causes.begin(), model.model.causes.end());
         causes.insert(one.effect);
         if (!seen.insert(causes).second) continue;
         std::vector<std::vector<double>> starts;
         const PointModel made = wider(model, one, starts);
-        const auto all = fitter_.fit(made, starts, Part::all);
-        if (all && doubt(made, all->values).empty()) models.push_back({made, *all, bic_of(made, *all), 0.0});
+        const auto all = fitter_.fit(made, starts, Part::all, quick);
+        if (all && doubt(made, all->values).empty())
+          models.push_back({made, *all, bic_of(made, *all), doubt_of(made, all->values), 0.0});
       }
-    std::sort(models.begin(), models.end(), [](const auto& a, const auto& b) { return a.bic < b.bic; });
+    std::sort(models.begin(), models.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
     if (models.size() > limits_.models) models.resize(limits_.models);
     return models;
   }
 
+  /// Level effects stand in for each other, so the way to the best model is full of traps: one search among effects
+  /// that nobody has stated, one among all.
   FittedModel search(const FittedModel& nominal) const {
+    const FittedModel unstated = improved(best_of_sizes(nominal, limits_.unstated, false));
+    const FittedModel all = improved(best_of_sizes(nominal, limits_.together, true));
+    return unstated.rank() < all.rank() ? unstated : all;
+  }
+
+  FittedModel best_of_sizes(const FittedModel& nominal, std::size_t largest, bool stated_too) const {
     FittedModel chosen = nominal;
     std::vector<FittedModel> models{nominal};
-    for (std::size_t size = 1; size <= limits_.causes; ++size) {
-      models = grown(models);
+    for (std::size_t size = 1; size <= largest; ++size) {
+      models = grown(models, stated_too);
       std::optional<FittedModel> best;  // of those that are equally likely the one that predicts best
       for (const FittedModel& model : models) {
-        if (model.bic > models.front().bic + 2.0) break;
+        if (model.rank() > models.front().rank() + 2.0) break;
         const auto judged = fitted(model.model, {model.all.values});
         if (judged && (!best || judged->held_out < best->held_out)) best = judged;
       }
       if (!best) break;
       const auto steps = static_cast<double>(size - chosen.model.causes.size());
-      if (chosen.bic - best->bic > steps * limits_.delta_bic &&
+      if (chosen.rank() - best->rank() > steps * limits_.delta_bic &&
           chosen.held_out - best->held_out > limits_.held_out_gain)
         chosen = *best;
     }
-    drop_superfluous(chosen);
     return chosen;
+  }
+
+  FittedModel improved(FittedModel chosen) const {
+    drop_superfluous(chosen);
+    while (chosen.model.causes.size() < limits_.causes && (add(chosen) || exchange(chosen))) drop_superfluous(chosen);
+    return chosen;
+  }
+
+  /// Adds the effect that helps most, if it passes the thresholds.
+  bool add(FittedModel& chosen) const {
+    const FittedModel before = chosen;
+    for (const PointCandidate& one : candidates_) {
+      if (before.model.holds(one.effect) || excluded(one, before.model)) continue;
+      const auto with = extended(before, one);
+      if (!with || !doubt(with->model, with->all.values).empty()) continue;
+      if (before.held_out - with->held_out > limits_.held_out_gain && with->rank() < chosen.rank()) chosen = *with;
+    }
+    if (before.rank() - chosen.rank() > limits_.delta_bic) return true;
+    chosen = before;
+    return false;
+  }
+
+  /// Puts another effect in the place of one, if that is clearly better.
+  bool exchange(FittedModel& chosen) const {
+    const FittedModel before = chosen;
+    for (const std::string_view effect : before.model.causes) {
+      const auto without = reduced(before, candidate(effect));
+      if (!without) continue;
+      for (const PointCandidate& one : candidates_) {
+        if (before.model.holds(one.effect) || excluded(one, without->model)) continue;
+        const auto with = extended(*without, one);
+        if (!with || !doubt(with->model, with->all.values).empty()) continue;
+        if (with->held_out < before.held_out && with->rank() < chosen.rank()) chosen = *with;
+      }
+    }
+    if (before.rank() - chosen.rank() > 0.5) return true;
+    chosen = before;
+    return false;
   }
 
   /// Both say how friction falls with the sliding speed.
@@ -166,12 +233,43 @@ class Selector {
       dropped = false;
       for (const std::string_view effect : std::vector<std::string_view>(model.model.causes)) {
         const auto without = reduced(model, candidate(effect));
-        if (!without || without->bic - model.bic > limits_.delta_bic) continue;
+        if (!without || without->rank() - model.rank() > limits_.delta_bic) continue;
         model = *without;
         dropped = true;
         break;
       }
     }
+  }
+
+  /// Named effects of which each can be imitated by the others together are one class.
+  void join_imitated(const FittedModel& model, std::vector<std::size_t>& group) const {
+    const std::vector<std::vector<double>> slopes = fitter_.slopes(model.model, model.all.values);
+    const auto columns = [&](const std::vector<std::string_view>& effects) {
+      std::vector<std::vector<double>> chosen;
+      for (std::size_t k = 0; k < slopes.size(); ++k)
+        if (std::find(effects.begin(), effects.end(), model.model.coordinates[k].effect) != effects.end())
+          chosen.push_back(slopes[k]);
+      return chosen;
+    };
+    for (const std::string_view effect : model.model.causes) {
+      std::vector<std::string_view> others = model.model.causes;
+      std::erase(others, effect);
+      const std::vector<double> own = columns({effect}).front();
+      if (imitation(own, columns(others)) < limits_.imitated) continue;
+      for (const std::string_view other : std::vector<std::string_view>(others)) {
+        std::vector<std::string_view> rest = others;
+        std::erase(rest, other);
+        if (imitation(own, columns(rest)) >= limits_.imitated) {
+          others = rest;  // not needed for it
+          continue;
+        }
+        const std::size_t from = group[index_of(other)], to = group[index_of(effect)];
+        std::replace(group.begin(), group.end(), from, to);
+      }
+    }
+  }
+  std::size_t index_of(std::string_view effect) const {
+    return static_cast<std::size_t>(&candidate(effect) - candidates_.data());
   }
 
   /// Puts every other candidate in the place of every named one; classes that share a member are one.
@@ -181,20 +279,19 @@ class Selector {
     std::iota(group.begin(), group.end(), std::size_t{0});
     for (const std::string_view effect : model.model.causes) {
       const PointCandidate& named = candidate(effect);
-      const auto place = static_cast<std::size_t>(&named - candidates_.data());
+      const std::size_t place = index_of(effect);
       const auto without = reduced(model, named);
       if (!without) continue;
-      const double margin = std::max(limits_.alike, limits_.alike_share * (without->bic - model.bic));
       for (std::size_t k = 0; k < candidates_.size(); ++k) {
         if (model.model.holds(candidates_[k].effect) || excluded(candidates_[k], without->model)) continue;
         const auto instead = extended(*without, candidates_[k]);
-        if (!instead || instead->bic - model.bic > margin) continue;
+        if (!instead || instead->bic - model.bic > limits_.alike) continue;
         if (!doubt(instead->model, instead->all.values).empty()) continue;
         const std::size_t from = group[k], to = group[place];
-        for (std::size_t& g : group)
-          if (g == from) g = to;
+        std::replace(group.begin(), group.end(), from, to);
       }
     }
+    join_imitated(model, group);
     for (std::size_t g = 0; g < group.size(); ++g) {
       std::vector<std::size_t> members;
       for (std::size_t k = 0; k < group.size(); ++k)

@@ -25,11 +25,11 @@ TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const 
     points.deviation.push_back(rms);
   }
   points.half = every_second(points.direction, points.worm_speed);
-  points.predict = [speeds = points.worm_speed](const Scenario& with) {
-    return with_drive(with, [&](auto& drive) {
+  points.predict = [&scenario, speeds = points.worm_speed](const Effects<double>& effects) {
+    return with_drive(scenario, effects, Signal{}, [&](auto& drive) {
       drive.enter(0.0);
       std::vector<double> torques;
-      for (const double speed : speeds) torques.push_back(steady_torque(drive, speed, with.initial.theta_g, 0.0));
+      for (const double speed : speeds) torques.push_back(steady_torque(drive, speed, scenario.initial.theta_g, 0.0));
       return torques;
     });
   };

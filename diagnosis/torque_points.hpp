@@ -17,8 +17,8 @@ struct TorquePoints {
   std::vector<double> torque;       ///< as measured [N m]
   std::vector<double> deviation;    ///< expected of a point, up to a common factor [N m]
   std::vector<int> half;            ///< 0 or 1: fits on one half are judged on the other, both ways
-  /// Torques of a scenario at all points [N m]; empty where it has none.
-  std::function<std::vector<double>(const Scenario&)> predict;
+  /// Torques of the drive with these effects at all points [N m]; empty where it has none.
+  std::function<std::vector<double>(const Effects<double>&)> predict;
 
   std::size_t size() const { return torque.size(); }
 };
