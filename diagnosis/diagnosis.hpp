@@ -26,14 +26,14 @@ struct Estimate {
 };
 
 /// An effect with its parameters.
-struct Cause {
+struct EstimatedEffect {
   std::string effect;  ///< id in the catalogue
   std::vector<Estimate> parameters;
 };
 
 /// One effect, or class of effects, that was tried, and what came of it.
 struct Candidate {
-  Cause cause;
+  EstimatedEffect effect;
   double delta_bic{};      ///< BIC of the model without it less that with it
   double held_out_gain{};  ///< log likelihood of data not used for the fit, with it less without it [nats]
   bool named = false;
@@ -84,10 +84,10 @@ struct PredictionExample {
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;  ///< for people: what is wrong, by how much, what is gained
-  std::vector<Cause> causes;
-  std::vector<std::string> equivalents;  ///< ids of the class, if ambiguous: exactly one of them is the cause
-  std::vector<Candidate> ranking;        ///< best first
-  std::vector<Cause> calibration;        ///< stated parameters that moved within their tolerance
+  std::vector<EstimatedEffect> causes;
+  std::vector<std::string> equivalents;      ///< ids of the class, if ambiguous: exactly one of them is the cause
+  std::vector<Candidate> ranking;            ///< best first
+  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved within their tolerance
   std::vector<PredictionError> prediction;
   std::vector<Visibility> certificate;
   std::vector<Remainder> remainders;   ///< what is left, strongest first; empty: nothing above the noise
