@@ -19,7 +19,7 @@ struct DiagnosisSettings {
   std::vector<Tolerance> tolerances{};  ///< in place of the defaults of the same field
   std::uint64_t seed = 1;               ///< of bootstraps
   int threads = 2;                      ///< results do not depend on it
-  int most_causes = 3;
+  int most_causes = 4;
   std::function<void(const std::string&)> progress{};  ///< is told what goes on, a phrase at a time; may be empty
 };
 
