@@ -56,6 +56,4 @@ inline Recording read(const Folder& folder, const Sheet& sheet, const Scenario& 
   return read_recording(folder / "r.csv", scenario);
 }
 
-inline constexpr std::size_t t = 0, u = 1, y = 2;  ///< columns
-
 }  // namespace wormdrive::test

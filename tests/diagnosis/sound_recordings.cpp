@@ -12,6 +12,10 @@
 using namespace wormdrive;
 using namespace wormdrive::test;
 
+namespace {
+constexpr std::size_t u = 1, y = 2;  ///< columns
+}
+
 TEST_CASE("a sound recording is taken as it is") {
   const Folder folder;
   const Recording r = read(folder, sound());

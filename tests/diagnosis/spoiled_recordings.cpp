@@ -13,6 +13,8 @@ using namespace wormdrive::test;
 
 namespace {
 
+constexpr std::size_t t = 0, u = 1, y = 2;  ///< columns
+
 struct Spoiled {
   std::string name;
   std::function<void(Sheet&)> spoil;
