@@ -5,6 +5,7 @@
 #include "catch.hpp"
 #include "diagnosis/sheet.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
 #include "support.hpp"
 
 // What is taken for a recording, and what is left out of it.
@@ -99,4 +100,13 @@ report_interval_s = 0.002
   CHECK(std::abs(open.motor_torque[125] - 0.08 * std::cos(0.5 * std::numbers::pi)) < 1e-12);
   folder.write("none.h5", "");
   CHECK_THROWS_AS(read_recording(folder / "none.h5", nominal_arm()), InputFault);
+}
+
+TEST_CASE("the recording that is shipped is one") {
+  const std::string folder = WORMDRIVE_SCENARIOS;
+  const Recording r =
+      read_recording(folder + "/example_bench.csv", load_scenario(folder + "/example_bench.toml", {}, Purpose::look));
+  CHECK(r.samples() == 8000);
+  CHECK(r.remarks.empty());
+  CHECK(std::abs(r.gear_resolution - 2 * std::numbers::pi / 16384) < 1e-6);
 }
