@@ -66,6 +66,16 @@ void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, st
   }
 }
 
+double coordinate_value(const Effects<double>& effects, const Coordinate& c) {
+  const double value = field_of(effects, c.effect, c.field).value;
+  switch (c.form) {
+    case CoordinateForm::plain: return value;
+    case CoordinateForm::in_phase: return value * std::cos(field_of(effects, c.effect, phase).value);
+    case CoordinateForm::in_quadrature: return value * std::sin(field_of(effects, c.effect, phase).value);
+  }
+  return value;
+}
+
 std::vector<std::string_view> fields_of(const Coordinate& c) {
   switch (c.form) {
     case CoordinateForm::plain: return {c.field};

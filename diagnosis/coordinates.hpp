@@ -56,6 +56,9 @@ void switch_off(Effects<double>& effects, std::string_view effect);
 /// Gives the fields of all coordinates their values.
 void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, std::span<const double> values);
 
+/// What a coordinate of an effect that is on amounts to.
+double coordinate_value(const Effects<double>& effects, const Coordinate& coordinate);
+
 /// The fields that a coordinate of an effect has a part in: itself, or amplitude and phase.
 std::vector<std::string_view> fields_of(const Coordinate& coordinate);
 

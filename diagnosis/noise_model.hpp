@@ -46,14 +46,14 @@ struct InnovationLayout {
 
 /// The noise as estimated from the fitted samples of innovations.
 struct NoiseModel {
-  std::vector<NoiseGroup> groups;
+  std::vector<NoiseGroup> groups{};
   bool whitens = true;  ///< false: the weights are zero
 };
 
 /// What innovations come to under a noise model, negative log likelihoods in nats.
 struct Misfit {
   double fitted = 0.0, held_out = 0.0;
-  std::vector<double> blocks;  ///< of every block, fitted or held out
+  std::vector<double> blocks{};  ///< of every block, fitted or held out
 };
 
 /// Scales and whitening weights that make the fitted samples most likely, by reweighted least squares.
