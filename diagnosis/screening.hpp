@@ -9,7 +9,7 @@ namespace wormdrive {
 struct Screened {
   std::size_t suspect, start;
   double gain = -std::numeric_limits<double>::infinity();  ///< of the BIC
-  Hypothesis model{};                                        ///< after the step
+  Hypothesis model{};                                      ///< after the step
   std::vector<std::vector<double>> signatures{};  ///< changes of the whitened innovations, per scale or by the start
 };
 
