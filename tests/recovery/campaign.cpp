@@ -89,6 +89,7 @@ std::string_view name(Score score) {
   switch (score) {
     case Score::exact: return "exact";
     case Score::in_class: return "in class";
+    case Score::partial: return "partial";
     case Score::extra: return "extra";
     case Score::silent: return "silent";
     case Score::wrong: return "wrong";
@@ -219,7 +220,7 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
            outcome.named.size() <= drawn.hidden.size())
     outcome.score = Score::in_class;
   else
-    outcome.score = all_named ? Score::extra : only_hidden ? Score::silent : Score::wrong;
+    outcome.score = all_named ? Score::extra : only_hidden ? Score::partial : Score::wrong;
   for (const Hiding& hiding : drawn.hidden)
     for (const auto& cause : found.causes) {
       if (cause.effect != hiding.secret->effect) continue;
