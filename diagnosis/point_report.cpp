@@ -64,7 +64,10 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
   std::vector<Visibility> list;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Coordinate& size = candidates[k].coordinates.front();
-    Visibility seen{std::string(size.effect), std::string(size.field), field_of({}, size.effect, size.field).unit};
+    Visibility seen;
+    seen.effect = size.effect;
+    seen.field = size.field;
+    seen.unit = field_of({}, size.effect, size.field).unit;
     std::vector<std::vector<double>> stated;
     std::vector<double> tolerances;
     for (std::size_t other = 0; other < candidates.size(); ++other) {
