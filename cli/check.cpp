@@ -68,6 +68,7 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
   });
   fields(scenario.initial, "initial");
   if (scenario.run.duration > 0.0) fields(scenario.run, "run");
+  if (scenario.tolerance) fields(*scenario.tolerance, "tolerance");
   if (!scenario.control) return list;
   const ControlScenario& control = *scenario.control;
   fields(control.sampling, "controller");

@@ -15,6 +15,8 @@ namespace unit {
 inline constexpr double degree = std::numbers::pi / 180.0;
 
 inline constexpr Unit none{"", "1"};
+inline constexpr Unit percent{"percent", "%", 0.01};
+inline constexpr Unit share{"share", "1"};
 inline constexpr Unit second{"s", "s"};
 inline constexpr Unit hertz{"Hz", "Hz"};
 inline constexpr Unit metre{"m", "m"};

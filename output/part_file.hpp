@@ -42,9 +42,12 @@ class PartFile {
 /// it.
 void refuse_to_disturb_a_writer(const std::string& part_path);
 
+/// Waits until a file is on disk: a rename may otherwise outlive its data in a power cut. Throws OutputFault.
+void synchronise(const std::string& path);
+
 /// Title, kind and provenance that every result file carries as root attributes.
 struct Provenance {
-  std::string kind;  ///< "run", "statics", "steady" or "sweep"
+  std::string kind;  ///< "run", "statics", "steady", "sweep" or "diagnosis"
   std::string title;
   std::string scenario;      ///< the resolved scenario as TOML text
   std::string command_line;  ///< as typed

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "core/worm_drive.hpp"
@@ -14,19 +15,24 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
 }
 
-/// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on. Of its effects
-/// the drive has those that are not taken up by mesh and load.
+/// Builds the concrete drive of a scenario with other effects and another motor torque, and calls use(drive): its
+/// load's type is known from here on. Of the effects the drive has those that are not taken up by mesh and load.
 template <class Use>
-decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
+decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
         auto load = make_load(parameters);
         GearMesh<double> mesh = stated_mesh(scenario);
-        const Effects<double> effects = take_up(scenario.effects, mesh, load);
-        WormDrive<double, decltype(load)> drive(mesh, load, effects, scenario.motor);
+        const Effects<double> left = take_up(effects, mesh, load);
+        WormDrive<double, decltype(load)> drive(mesh, load, left, motor);
         return use(drive);
       },
       scenario.load);
+}
+/// The same as the scenario states it.
+template <class Use>
+decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
+  return with_drive(scenario, scenario.effects, scenario.motor, std::forward<Use>(use));
 }
 
 /// The mesh of a scenario with what its effects add to the inertias and, at the start and after a long rest, to the

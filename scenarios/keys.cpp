@@ -56,6 +56,7 @@ std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis ax
   std::vector<Spelling> list{axis == Axis::linear ? linear(name, unit) : Spelling{std::string(name), unit}};
   if (list.front().unit.suffix == "deg") list.push_back({std::string(name), unit::radian});
   if (list.front().unit.suffix == "rad") list.push_back({std::string(name), unit::degrees});
+  if (list.front().unit.suffix == "percent") list.push_back({std::string(name), unit::share});
   std::transform(list.begin(), list.end(), list.begin(), with_suffix);
   return list;
 }

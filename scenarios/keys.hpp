@@ -15,7 +15,8 @@ struct Spelling {
   Unit unit;
 };
 
-/// The spellings under which a field may be written, the preferred one first: angles in deg or rad; for a linear axis
+/// The spellings under which a field may be written, the preferred one first: angles in deg or rad,
+/// shares in percent or as they are; for a linear axis
 /// torque becomes force, angle position, inertia mass.
 std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis axis);
 

@@ -33,6 +33,7 @@ class ScenarioReader {
     root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
     read_control(root_, scenario_, folder());
+    read_what_is_measured();
     root_.finish();
     if (purpose == Purpose::run) refuse_what_does_not_move();
     return std::move(scenario_);
@@ -97,6 +98,24 @@ class ScenarioReader {
                   fmt::format("run.report_interval_s = {} s would give {:.3g} rows; at most {:g} are "
                               "written",
                               every, duration / every, most_rows));
+    });
+  }
+
+  /// How well the parameters are known, and what the columns of recordings are called.
+  void read_what_is_measured() {
+    root_.section("tolerance", [&](TableReader& table) {
+      Tolerances tolerances;
+      table.read_fields(tolerances);
+      if (root_.has("tolerance")) scenario_.tolerance = tolerances;
+    });
+    root_.section("data", [&](TableReader& data) {
+      for (const RecordedColumn& column : recorded_columns) {
+        const std::string usual = spellings(column.name, column.unit, scenario_.axis).front().key;
+        if (const auto called = data.text(usual)) {
+          if (called->empty()) data.fault(usual, fmt::format("data.{} = \"\" names no column", usual));
+          scenario_.columns[usual] = *called;
+        }
+      }
     });
   }
 

@@ -13,6 +13,8 @@
 #include "events/solver_settings.hpp"
 #include "output/run_file.hpp"
 #include "scenarios/control_scenario.hpp"
+#include "scenarios/recorded_columns.hpp"
+#include "scenarios/tolerances.hpp"
 
 namespace wormdrive {
 
@@ -60,6 +62,8 @@ struct Scenario {
   InitialState<double> initial;
   RunSettings run;
   std::optional<ControlScenario> control;  ///< nothing: the motor's signal alone
+  std::optional<Tolerances> tolerance;     ///< nothing: not stated, the defaults
+  ColumnNames columns;                     ///< of recordings, where they have other names than usual
 };
 
 }  // namespace wormdrive

@@ -152,6 +152,12 @@ std::string to_toml(const Scenario& scenario) {
   out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
   out.fields(scenario.run);
   if (scenario.control) write_control(out, *scenario.control);
+  if (scenario.tolerance) {
+    out.table("[tolerance]");
+    out.fields(*scenario.tolerance);
+  }
+  if (!scenario.columns.empty()) out.table("[data]");
+  for (const auto& [usual, called] : scenario.columns) out.text(usual, called);
   return out.take();
 }
 

@@ -31,6 +31,9 @@ class Bits {
     });
     fields(s.initial);
     fields(s.run);
+    text_ += s.tolerance ? "tolerance\n" : "";
+    if (s.tolerance) fields(*s.tolerance);
+    for (const auto& [usual, called] : s.columns) text_ += usual + " is " + called + "\n";
   }
   const std::string& text() const { return text_; }
 
@@ -113,6 +116,8 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   s.run.report_interval = s.run.duration / 7.0;
   s.run.solver = SolverKind::taylor;
   s.run.method = Method::adams;
+  s.tolerance = filler.make<Tolerances>();
+  s.columns = {{"motor_torque_Nm", "u \"raw\", N m"}, {"gear_angle_rad", "q"}};
   return s;
 }
 

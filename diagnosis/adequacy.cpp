@@ -1,0 +1,273 @@
+#include "diagnosis/adequacy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/parallel.hpp"
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// What every sample of all recordings may be ordered by.
+struct Abscissae {
+  std::vector<double> angle, speed, time, load, direction, side, moving;
+};
+
+Abscissae abscissae(const Evaluation& by, const Magnitudes& sizes) {
+  Abscissae a;
+  for (const PreparedRecording& r : by.layout().recordings) {
+    Scenario loaded = by.scenario();
+    if (r.data.load) loaded.load = *r.data.load;
+    with_drive(loaded, [&](auto& drive) {
+      for (std::size_t k = 0; k < r.samples(); ++k) {
+        const double t = static_cast<double>(k) * r.data.period;
+        auto load = drive.load();
+        load.enter(t);
+        const double tau =
+            sizes.load_torque > 0.0 ? load.torque(drive.moment(t, r.data.gear_angle[k], 0.0)) / sizes.load_torque : 0.0;
+        const double direction = r.speed[k] > 0.0 ? 1.0 : -1.0;
+        a.angle.push_back(r.data.gear_angle[k]);
+        a.speed.push_back(r.speed[k]);
+        a.time.push_back(t);
+        a.load.push_back(tau);
+        a.direction.push_back(direction);
+        a.side.push_back(tau * direction > 0.0 ? 1.0 : -1.0);
+        a.moving.push_back(r.moving[k]);
+      }
+    });
+  }
+  return a;
+}
+
+/// A torque that is a free function of one axis, times one of several factors.
+struct Axis1D {
+  std::string name;
+  const std::vector<double>* over;
+  int nodes;
+  std::vector<std::function<double(std::size_t)>> factors;
+};
+
+/// Tents over the quantiles of an axis.
+class Tents {
+ public:
+  Tents(const std::vector<double>& x, int nodes) : x_(x) {
+    std::vector<double> sorted = x;
+    std::sort(sorted.begin(), sorted.end());
+    const auto n = static_cast<double>(x.size());
+    for (int b = 0; b < nodes; ++b)
+      centre_.push_back(sorted[std::min(x.size() - 1, static_cast<std::size_t>(n * (b + 0.5) / nodes))]);
+  }
+  double operator()(std::size_t tent, std::size_t sample) const {
+    const double x = x_[sample], c = centre_[tent];
+    if (x < c && tent > 0) return std::max(0.0, 1.0 - (c - x) / std::max(1e-12, c - centre_[tent - 1]));
+    if (x > c && tent + 1 < centre_.size())
+      return std::max(0.0, 1.0 - (x - c) / std::max(1e-12, centre_[tent + 1] - c));
+    return 1.0;
+  }
+
+ private:
+  const std::vector<double>& x_;
+  std::vector<double> centre_;
+};
+
+class Scores {
+ public:
+  Scores(const Evaluation& by, const Hypothesis& h, double torque)
+      : by_(by), h_(h), torque_(torque), free_(static_cast<Eigen::Index>(h.free.size())) {
+    const InnovationLayout& layout = by.layout();
+    weight_ = fit_weights(layout, h.residuals, h.noise_model);
+    for (double& w : weight_) w = std::sqrt(w);
+    J_.resize(static_cast<Eigen::Index>(layout.size), free_);
+    parallel_for(h.free.size(), by.threads(), [&](std::size_t k) {
+      J_.col(static_cast<Eigen::Index>(k)) = weighted(sensitivity(by, h, k, derivative_step), 30.0);
+    });
+    residual_ = weighted(h.residuals, 1e9);
+  }
+
+  ScoreTest operator()(const Axis1D& axis, const std::vector<double>& moving) const {
+    const Tents tent(*axis.over, axis.nodes);
+    const auto tents = static_cast<std::size_t>(axis.nodes);
+    const std::size_t m = tents * axis.factors.size();
+    std::vector<std::vector<double>> torques(m);
+    Eigen::MatrixXd V(J_.rows(), free_ + static_cast<Eigen::Index>(m));
+    V.leftCols(free_) = J_;
+    parallel_for(m, by_.threads(), [&](std::size_t q) {
+      std::vector<double>& torque = torques[q];
+      torque.resize(h_.residuals.size());
+      for (std::size_t k = 0; k < torque.size(); ++k)
+        torque[k] = torque_ * tent(q % tents, k) * axis.factors[q / tents](k) * moving[k];
+      const auto e = by_.innovations(extended(h_), h_.noise, torque);
+      V.col(free_ + static_cast<Eigen::Index>(q)) =
+          e ? weighted(difference(by_, h_, *e), 10.0) : Eigen::VectorXd::Zero(J_.rows());
+    });
+    ScoreTest test;
+    test.what.axis = axis.name;
+    const auto degrees = static_cast<double>(m);
+    const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
+    test.what.evidence = (all.score - less.score - degrees) / std::sqrt(2.0 * degrees);
+    test.gain = held_out_gain(V);
+    std::vector<double> sum(h_.residuals.size(), 0.0);
+    double squares = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      for (std::size_t q = 0; q < m; ++q) sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
+      squares += sum[k] * sum[k];
+      count += moving[k];
+    }
+    test.what.torque = std::sqrt(squares / std::max(1.0, count));
+    return test;
+  }
+
+ private:
+  struct Solved {
+    Eigen::VectorXd x;
+    double score;
+  };
+
+  Eigen::VectorXd weighted(const std::vector<double>& column, double most_scales) const {
+    Eigen::VectorXd w(static_cast<Eigen::Index>(column.size()));
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      const double limit = most_scales * h_.noise_model.groups[by_.layout().group[k]].scale;
+      w[static_cast<Eigen::Index>(k)] = weight_[k] * std::clamp(column[k], -limit, limit);
+    }
+    return w;
+  }
+  static bool is_held_out(std::size_t block) { return block % 3 == 2; }
+
+  Solved solve(const Eigen::MatrixXd& V, Eigen::Index columns, bool less_held_out) const {
+    Eigen::MatrixXd A;
+    Eigen::VectorXd b;
+    const auto part = V.leftCols(columns);
+    if (!less_held_out) {
+      A = part.transpose() * part;
+      b = -part.transpose() * residual_;
+    } else {
+      std::vector<Eigen::Index> rows;
+      for (Eigen::Index r = 0; r < V.rows(); ++r)
+        if (!is_held_out(by_.layout().block[static_cast<std::size_t>(r)])) rows.push_back(r);
+      const Eigen::MatrixXd some = part(rows, Eigen::all);
+      A = some.transpose() * some;
+      b = -some.transpose() * residual_(rows);
+    }
+    add_tolerances(h_, A, b);
+    constexpr double shrink = 0.3;  // a tent without data is nothing
+    for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += shrink;
+    const Eigen::VectorXd x = columns > 0 ? solve_normal(A, b, 1e-6) : Eigen::VectorXd(0);
+    return {x, columns > 0 ? x.dot(b) : 0.0};
+  }
+
+  /// Gain of every third block by a torque that was fitted to the others.
+  double held_out_gain(const Eigen::MatrixXd& V) const {
+    const Eigen::VectorXd with = residual_ + V * solve(V, V.cols(), true).x;
+    const Eigen::VectorXd without = residual_ + V.leftCols(free_) * solve(V, free_, true).x;
+    double gain = 0.0;
+    for (Eigen::Index r = 0; r < V.rows(); ++r)
+      if (is_held_out(by_.layout().block[static_cast<std::size_t>(r)]))
+        gain += 0.5 * (without[r] * without[r] - with[r] * with[r]);
+    return gain;
+  }
+
+  const Evaluation& by_;
+  const Hypothesis& h_;
+  double torque_;
+  Eigen::Index free_;
+  std::vector<double> weight_;
+  Eigen::MatrixXd J_;
+  Eigen::VectorXd residual_;
+};
+
+/// The strongest line in the spectrum of the residuals against its neighbours; factor: what they are demodulated by.
+ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t recording,
+                        const std::vector<double>* factor, std::string name) {
+  const InnovationLayout& layout = by.layout();
+  const PreparedRecording& r = layout.recordings[recording];
+  const std::size_t begin = layout.begins[recording];
+  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.01 / r.data.period)));
+  const std::size_t n = r.samples() / bin;
+  std::vector<double> w(n, 0.0);
+  for (std::size_t k = 0; k < n * bin; ++k) {
+    if (!r.used[k] || !r.moving[k]) continue;
+    const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
+    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[begin + k] : 1.0);
+  }
+  constexpr double highest = 25.0;  // [Hz]
+  const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
+  std::vector<double> power(lines, 0.0);
+  for (std::size_t f = 1; f < lines; ++f) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(f) / static_cast<double>(n);
+    double c = 1.0, s = 0.0, a = 0.0, b = 0.0;
+    const double cr = std::cos(turn), sr = std::sin(turn);
+    for (const double x : w) {
+      a += x * c;
+      b += x * s;
+      const double next = c * cr - s * sr;
+      s = s * cr + c * sr;
+      c = next;
+    }
+    power[f] = a * a + b * b;
+  }
+  ScoreTest test;
+  double strongest = 0.0, frequency = 0.0;
+  for (std::size_t f = 3; f < lines; ++f) {
+    constexpr std::size_t around = 25;
+    std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
+                             power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+    std::nth_element(near.begin(), middle, near.end());
+    const double ratio = power[f] / (*middle / std::numbers::ln2 + 1e-300);
+    if (ratio > strongest) {
+      strongest = ratio;
+      frequency = static_cast<double>(f) / (static_cast<double>(n * bin) * r.data.period);
+    }
+  }
+  test.what.axis = name + " at " + std::to_string(frequency).substr(0, 5) + " Hz";
+  test.what.evidence = strongest - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
+  return test;
+}
+
+}  // namespace
+
+std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
+                                   const AdequacyRules& rules) {
+  const Abscissae a = abscissae(by, sizes);
+  const auto factor = [](const std::vector<double>& values) { return [&values](std::size_t k) { return values[k]; }; };
+  const auto one = [](std::size_t) { return 1.0; };
+  const auto loaded_side = [&a](std::size_t k) { return std::abs(a.load[k]) * a.direction[k]; };
+  std::vector<Axis1D> axes{{"angle and direction", &a.angle, 8, {one, factor(a.direction)}},
+                           {"speed", &a.speed, 10, {one}}};
+  if (sizes.load_torque > 0.0) {
+    axes.push_back({"time", &a.time, 6, {one, factor(a.load), loaded_side}});
+    axes.push_back({"speed and load", &a.speed, 6, {factor(a.load), loaded_side}});
+  } else {
+    axes.push_back({"time", &a.time, 6, {one, factor(a.direction)}});
+  }
+  const Scores scores(by, h, 0.005 * sizes.torque);
+  std::vector<ScoreTest> all;
+  for (const Axis1D& axis : axes) {
+    all.push_back(scores(axis, a.moving));
+    all.back().found = all.back().what.evidence > rules.most_deviations && all.back().gain > rules.most_gain;
+  }
+  for (std::size_t r = 0; r < by.layout().recordings.size(); ++r)
+    for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {
+      all.push_back(spectral_line(by, h, r, demodulated, demodulated ? "a line by flank" : "a line"));
+      all.back().found = all.back().what.evidence > rules.most_line;
+    }
+  return all;
+}
+
+std::vector<Remainder> remainders(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
+                                  const AdequacyRules& rules) {
+  std::vector<Remainder> found;
+  for (const ScoreTest& test : score_tests(by, h, sizes, rules))
+    if (test.found) found.push_back(test.what);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Remainder& x, const Remainder& y) { return x.evidence > y.evidence; });
+  return found;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/hypothesis.hpp"
+#include "diagnosis/magnitudes.hpp"
+
+namespace wormdrive {
+
+/// From when on something is left.
+struct AdequacyRules {
+  double most_deviations = 1.5;  ///< of a score above what noise gives
+  double most_gain = 4.0;        ///< of data that the torque was not fitted to [nats]
+  double most_line = 8.0;        ///< log of a spectral line above its neighbours, less that of the number of lines
+};
+
+/// Looks for structure that a hypothesis leaves in the residuals: a torque that is a free function of speed, of angle
+/// and direction, of time, of load, each by a score test with the free coordinates projected out; and single lines in
+/// the spectrum. What is found, strongest first; empty if the hypothesis is adequate. by: nothing is held out.
+std::vector<Remainder> remainders(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
+                                  const AdequacyRules& rules = {});
+
+/// All that was tested, whether anything was found or not.
+struct ScoreTest {
+  Remainder what;
+  double gain{};  ///< of data that the torque was not fitted to [nats]
+  bool found = false;
+};
+std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
+                                   const AdequacyRules& rules = {});
+
+}  // namespace wormdrive

@@ -1,0 +1,184 @@
+#include "diagnosis/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "diagnosis/comparison.hpp"
+#include "diagnosis/fit.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+/// Squared length of a signature in standard deviations that a search can find: least BIC and ln N together.
+constexpr double least_length = 30.0;
+
+/// A suspect's signatures from one start, weighted by the noise.
+struct Signature {
+  std::size_t suspect, start;
+  Eigen::MatrixXd columns;
+  double size;  ///< that leaves it, of the first field [SI]
+};
+
+class Signatures {
+ public:
+  Signatures(const Evaluation& by, const Hypothesis& base, const Screening& screening, const std::vector<Suspect>& all)
+      : base_(base), all_(all) {
+    const WeightedColumns weigh(fit_weights(by.layout(), base.residuals, base.noise_model));
+    for (const auto& c : screening.free_columns) free_.push_back(weigh(c));
+    for (const Screened& s : screening.found) {
+      const Suspect& suspect = all[s.suspect];
+      Signature made{s.suspect, s.start, {}, suspect.coordinates[0].scale};
+      if (suspect.finite) made.size = std::abs(suspect.starts[s.start].values[0]);
+      std::vector<Eigen::VectorXd> columns;
+      for (const auto& c : s.signatures) columns.push_back(weigh(c));
+      if (suspect.toleranced)
+        columns.push_back(free_[static_cast<std::size_t>(index_of(base, suspect.coordinates[0]))]);
+      if (!is_periodic(suspect) && columns.size() > 1) columns.resize(1);
+      made.columns.resize(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
+      for (std::size_t k = 0; k < columns.size(); ++k) made.columns.col(static_cast<Eigen::Index>(k)) = columns[k];
+      list_.push_back(std::move(made));
+    }
+  }
+
+  const std::vector<Signature>& list() const { return list_; }
+  static bool is_periodic(const Suspect& s) { return s.coordinates[0].form != CoordinateForm::plain; }
+
+  /// Squared length of the worst direction of a signature beside the tolerances and, if given, another suspect.
+  double length(const Signature& of, const Signature* beside) const {
+    const Eigen::MatrixXd& V = of.columns;
+    Eigen::MatrixXd gram = V.transpose() * V;
+    std::vector<Eigen::VectorXd> others;
+    std::vector<double> precision;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const Coordinate& c = base_.free[k];
+      if (belongs(all_[of.suspect], c)) continue;
+      others.push_back(free_[k]);
+      const bool freed = beside && belongs(all_[beside->suspect], c);
+      precision.push_back(freed ? 0.0 : std::pow(c.scale / c.tolerance, 2));
+    }
+    if (beside && !all_[beside->suspect].toleranced)
+      for (Eigen::Index k = 0; k < beside->columns.cols(); ++k) {
+        others.push_back(beside->columns.col(k));
+        precision.push_back(0.0);
+      }
+    if (!others.empty()) {
+      Eigen::MatrixXd W(V.rows(), static_cast<Eigen::Index>(others.size()));
+      for (std::size_t k = 0; k < others.size(); ++k) W.col(static_cast<Eigen::Index>(k)) = others[k];
+      Eigen::MatrixXd A = W.transpose() * W;
+      for (std::size_t k = 0; k < others.size(); ++k)
+        A(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += precision[k];
+      const Eigen::MatrixXd cross = W.transpose() * V;
+      for (Eigen::Index k = 0; k < cross.cols(); ++k) gram.col(k) -= cross.transpose() * solve_normal(A, cross.col(k));
+    }
+    return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvalues()[0]);
+  }
+
+ private:
+  /// Whether a stated number is free of its tolerance beside a suspect.
+  static bool belongs(const Suspect& s, const Coordinate& c) {
+    return s.frees == c.effect ||
+           std::any_of(s.coordinates.begin(), s.coordinates.end(), [&](const Coordinate& own) { return own.is(c); });
+  }
+
+  const Hypothesis& base_;
+  const std::vector<Suspect>& all_;
+  std::vector<Eigen::VectorXd> free_;
+  std::vector<Signature> list_;
+};
+
+/// What one start of a suspect shows.
+Visibility of_signature(const Signatures& signatures, const Signature& mine, const std::vector<Suspect>& all) {
+  const Suspect& suspect = all[mine.suspect];
+  const Coordinate& c = suspect.coordinates[0];
+  Visibility v;
+  v.effect = suspect.effect;
+  v.field = c.field;
+  v.unit = field_of({}, c.effect, c.field).unit;
+  const double alone = signatures.length(mine, nullptr);
+  const auto size = [&](double length) { return length > 1e-9 ? mine.size * std::sqrt(least_length / length) : never; };
+  v.detectable = size(alone);
+  double least = alone;
+  for (const Signature& other : signatures.list()) {
+    if (other.suspect == mine.suspect || all[other.suspect].frees == suspect.effect) continue;
+    const double beside = signatures.length(mine, &other);
+    if (beside >= least && !v.nearest.empty()) continue;
+    least = beside;
+    v.nearest = all[other.suspect].effect;
+  }
+  v.likeness = alone > 0.0 ? 1.0 - std::min(1.0, least / alone) : 0.0;
+  v.nameable = size(least);
+  if (suspect.toleranced) {
+    const double least_size = AcceptanceRules{}.least_tolerances * c.tolerance;
+    v.detectable = std::max(v.detectable, least_size);
+    v.nameable = std::max(v.nameable, least_size);
+  }
+  v.observable = v.detectable < std::max(std::abs(c.high - c.centre), std::abs(c.low - c.centre));
+  return v;
+}
+
+/// A limit shows if it cuts: the largest of those tried out that does.
+Visibility of_limit(const Signatures& signatures, std::size_t suspect, const std::vector<Suspect>& all) {
+  Visibility v;
+  const Coordinate& c = all[suspect].coordinates[0];
+  v.effect = c.effect;
+  v.field = c.field;
+  v.unit = field_of({}, c.effect, c.field).unit;
+  v.detectable = v.nameable = never;
+  v.observable = false;
+  for (const Signature& s : signatures.list())
+    if (s.suspect == suspect && signatures.length(s, nullptr) > least_length) {
+      v.detectable = v.nameable = v.observable ? std::max(v.detectable, s.size) : s.size;
+      v.observable = true;
+    }
+  return v;
+}
+
+}  // namespace
+
+std::vector<Visibility> certificate(const Evaluation& by, const Hypothesis& base, const Screening& screening,
+                                    const std::vector<Suspect>& all, const Magnitudes& sizes) {
+  const Signatures signatures(by, base, screening, all);
+  std::vector<Visibility> list;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (all[c].finite && !all[c].resizable && all[c].effect == "torque_saturation") {
+      list.push_back(of_limit(signatures, c, all));
+      continue;
+    }
+    std::vector<Visibility> starts;
+    for (const Signature& s : signatures.list())
+      if (s.suspect == c) starts.push_back(of_signature(signatures, s, all));
+    if (starts.empty()) continue;
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Visibility& a, const Visibility& b) { return a.detectable < b.detectable; });
+    list.push_back(starts[(starts.size() - 1) / 2]);
+    for (const std::string_view twin : all[c].twins) {
+      Visibility v = list.back();
+      v.effect = twin;
+      v.nearest = all[c].effect;
+      v.likeness = 1.0;
+      v.nameable = never;
+      v.field = twin == "encoder_delay" ? "delay" : "angle";
+      v.unit = field_of({}, twin, v.field).unit;
+      list.back().nearest = twin;
+      list.back().likeness = 1.0;
+      list.back().nameable = never;
+      list.push_back(v);
+    }
+  }
+  for (const NotExamined& n : not_examined(sizes)) {
+    if (n.effect != "backlash" && n.effect != "tooth_compliance") continue;
+    Visibility v;
+    v.effect = n.effect;
+    v.detectable = v.nameable = never;
+    v.observable = false;
+    list.push_back(v);
+  }
+  return list;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,35 @@
+#pragma once
+#include "diagnosis/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// From when on a suspect is believed.
+struct AcceptanceRules {
+  double least_bic = 20.0;            ///< gain of the BIC by a suspect of which nothing is stated
+  double least_held_out = 3.0;        ///< gain of held-out data [nats]
+  double clip = 4.0;                  ///< medians at which a block's gain is cut
+  double positive_share = 0.7;        ///< of the blocks, if the gain counts clipped only
+  double least_bic_toleranced = 5.0;  ///< gain of the BIC by a stated number that is off
+  double least_tolerances = 3.5;      ///< from the stated value, for such a number
+};
+
+/// How a model with a suspect compares with one without it.
+struct Evidence {
+  double delta_bic{};
+  double held_out{};        ///< gain of held-out data [nats]
+  double without_best{};    ///< the same without the block that gains most
+  double clipped{};         ///< the same with every block's gain clipped
+  double positive_share{};  ///< of the held-out blocks that gain
+  double tolerances{};      ///< largest distance of a stated number from its value, in tolerances
+  bool at_bound = false;    ///< a coordinate of the suspect came to rest at its bound
+};
+
+Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspect& suspect,
+                 const InnovationLayout& layout);
+
+bool accepted(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules = {});
+
+/// Why a suspect is not believed; "named" if it is.
+std::string outcome(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules = {});
+
+}  // namespace wormdrive

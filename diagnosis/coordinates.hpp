@@ -1,0 +1,65 @@
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/effects.hpp"
+#include "core/unit.hpp"
+
+namespace wormdrive {
+
+/// How a number that a fit moves enters the fields of an effect.
+enum class CoordinateForm {
+  plain,         ///< it is the field
+  in_phase,      ///< amplitude cos(phase); its neighbour is in quadrature
+  in_quadrature  ///< amplitude sin(phase); at amplitude zero a phase would have no gradient, these two have
+};
+
+/// A number that a fit moves.
+struct Coordinate {
+  std::string_view effect;  ///< id in the catalogue
+  std::string_view field;   ///< of in_phase and in_quadrature the amplitude
+  double scale = 1.0;       ///< a size that shows
+  double low, high;         ///< a fit stays within
+  CoordinateForm form = CoordinateForm::plain;
+  double centre = 0.0;     ///< what the scenario states
+  double tolerance = 0.0;  ///< standard deviation of the truth about it; 0: nothing is known
+
+  bool is(const Coordinate& other) const {
+    return effect == other.effect && field == other.field && form == other.form;
+  }
+};
+
+/// A field of an effect with a value in SI.
+struct FieldValue {
+  std::string_view effect, field;
+  double value;
+};
+
+/// A field as the catalogue has it.
+struct FieldOfEffect {
+  bool on = false;  ///< the effect is
+  double value{};   ///< of the field, if on
+  Unit unit{};
+  Bounds bounds{};
+};
+
+/// Looks a field up by its names. Throws std::invalid_argument where the catalogue has none of that name.
+FieldOfEffect field_of(const Effects<double>& effects, std::string_view effect, std::string_view field);
+
+/// Gives a field a value; an effect that is off is switched on, with zeros in its other fields.
+void set_field(Effects<double>& effects, const FieldValue& to);
+
+/// Switches an effect off.
+void switch_off(Effects<double>& effects, std::string_view effect);
+
+/// Gives the fields of all coordinates their values.
+void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, std::span<const double> values);
+
+/// What a coordinate of an effect that is on amounts to.
+double coordinate_value(const Effects<double>& effects, const Coordinate& coordinate);
+
+/// The fields that a coordinate of an effect has a part in: itself, or amplitude and phase.
+std::vector<std::string_view> fields_of(const Coordinate& coordinate);
+
+}  // namespace wormdrive

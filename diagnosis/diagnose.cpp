@@ -1,0 +1,154 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "diagnosis/adequacy.hpp"
+#include "diagnosis/certificate.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/intervals.hpp"
+#include "diagnosis/prediction_error.hpp"
+#include "diagnosis/residual_torque.hpp"
+#include "diagnosis/selection.hpp"
+#include "diagnosis/tolerances.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings) {
+  constexpr double shortest = 2.0;  // [s], four blocks
+  constexpr std::size_t fewest = 400;
+  if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
+  std::vector<PreparedRecording> all;
+  std::size_t blocks = 0;
+  for (const Recording& r : recordings) {
+    if (r.samples() < fewest || static_cast<double>(r.samples()) * r.period < shortest)
+      throw std::invalid_argument(
+          fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
+    all.push_back(prepared(r, {}, blocks));
+    blocks += all.back().blocks();
+    if (all.back().rms_speed == 0.0) throw std::invalid_argument("nothing moves in the recording");
+  }
+  return all;
+}
+
+InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
+  std::vector<PreparedRecording> all;
+  for (const PreparedRecording& r : layout.recordings) all.push_back(with_all_data(r));
+  return InnovationLayout(std::move(all));
+}
+
+/// What the scenario states, with the noise that suits it.
+Hypothesis as_stated(const Evaluation& by, Hypothesis base) {
+  for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
+  evaluate(by, base);
+  return base;
+}
+
+std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection, const std::vector<Suspect>& all) {
+  std::vector<Candidate> list;
+  const auto is_cause = [&](std::size_t suspect) {
+    return std::any_of(selection.causes.begin(), selection.causes.end(),
+                       [&](const Found& f) { return f.suspect == suspect; });
+  };
+  for (const Tried& t : selection.tried) {
+    Candidate c;
+    const Suspect& suspect = all[t.suspect];
+    c.effect = estimated(t.model, covariance(by, t.model), suspect.effect, suspect.coordinates);
+    c.delta_bic = t.evidence.delta_bic;
+    c.held_out_gain = t.evidence.held_out;
+    c.named = is_cause(t.suspect);
+    c.outcome = c.named ? "named" : outcome(t.evidence, suspect);
+    if (!c.named && c.outcome == "named") c.outcome = "another one explains it better";
+    list.push_back(std::move(c));
+  }
+  for (const Screened& s : selection.screening.found) {
+    if (std::any_of(list.begin(), list.end(),
+                    [&](const Candidate& c) { return c.effect.effect == all[s.suspect].effect; }))
+      continue;
+    Candidate c;
+    c.effect.effect = all[s.suspect].effect;
+    for (const Coordinate& x : all[s.suspect].coordinates) {
+      const int k = index_of(s.model, x);
+      if (k < 0 || x.form != CoordinateForm::plain) continue;
+      const double value = s.model.values[static_cast<std::size_t>(k)];
+      c.effect.parameters.push_back(
+          {std::string(x.field), field_of({}, x.effect, x.field).unit, value, 0.0, value, value});
+    }
+    c.delta_bic = s.gain;
+    c.named = is_cause(s.suspect);
+    c.outcome = c.named ? "named" : "promises too little to be fitted";
+    list.push_back(std::move(c));
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.delta_bic > b.delta_bic; });
+  return list;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recordings,
+                   const DiagnosisSettings& settings) {
+  const auto tell = [&](const std::string& what) {
+    if (settings.progress) settings.progress(what);
+  };
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings);
+  const Magnitudes sizes = magnitudes(scenario, all_prepared);
+  const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
+  const std::vector<Suspect> all = suspects(scenario.effects, sizes, stated);
+  const Evaluation by(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
+
+  Hypothesis base;
+  base.effects = scenario.effects;
+  base.free = stated;
+  for (const Coordinate& c : stated) base.values.push_back(c.centre);
+  const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
+
+  Diagnosis d;
+  d.seed = settings.seed;
+  tell("working out what the data can show");
+  d.certificate = certificate(by, found.base, found.screening, all, sizes);
+  d.ranking = ranking(by, found, all);
+
+  tell("predicting ahead");
+  const Hypothesis before = as_stated(by, found.base);
+  d.prediction = prediction_errors(by, before, found.model, settings.seed);
+  d.examples = prediction_examples(by, before, found.model);
+  d.residual = residual_torque(by, before, found.model);
+  const NoiseSizes noise = noise_sizes(by, found.model);
+  d.noise_angle = noise.angle;
+  d.noise_torque = noise.torque;
+
+  tell("fitting all data");
+  const Evaluation by_all(scenario, with_nothing_held_out(by.layout()), settings.threads);
+  Hypothesis last = found.model;
+  evaluate(by_all, last);
+  restart_noise(by_all, last);
+  adjust_noise(by_all, last, 3);
+  fit(by_all, last, 12, 0.01);
+  adjust_noise(by_all, last, 2);
+  fit(by_all, last, 6, 0.01);
+  const Eigen::MatrixXd spread = covariance(by_all, last);
+  for (const Found& f : found.causes)
+    d.causes.push_back(estimated(last, spread, all[f.suspect].effect, all[f.suspect].coordinates));
+  for (const Coordinate& c : last.free)
+    if (c.tolerance > 0.0) d.calibration.push_back(estimated(last, spread, c.effect, {c}));
+
+  tell("looking for what is left");
+  d.remainders = remainders(by_all, last, sizes);
+  judge(d, found, all);
+
+  d.extended = scenario;
+  d.extended.effects = extended(last);
+  for (const NotExamined& n : not_examined(sizes))
+    d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
+  d.passes = by.passes() + by_all.passes();
+  return d;
+}
+
+}  // namespace wormdrive

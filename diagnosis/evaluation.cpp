@@ -1,0 +1,74 @@
+#include "diagnosis/evaluation.hpp"
+
+#include <utility>
+
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+
+Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
+    : scenario_(std::move(scenario)), layout_(std::move(layout)), threads_(threads) {
+  scenario_.motor = {};  // the recorded command is all there is
+  scenario_.control.reset();
+}
+
+template <class Use>
+void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+                                std::span<const double> extra, Use&& use) const {
+  Effects<double> followed = effects;
+  const CommandPath path = take_out_command_path(followed);
+  const PreparedRecording& prepared = layout_.recordings[recording];
+  std::visit(
+      [&](const auto& parameters) {
+        using Load = decltype(make_load(parameters));
+        WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
+        Predictor<Load> predictor(std::move(drive), path, prepared, gains, extra);
+        use(predictor);
+      },
+      prepared.data.load ? *prepared.data.load : scenario_.load);
+}
+
+std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>& effects, const ProcessNoise& noise,
+                                                           std::span<const double> extra,
+                                                           std::vector<FilteredStates>* states) const {
+  std::vector<double> e(layout_.size, 0.0);
+  if (states) states->resize(layout_.recordings.size());
+  try {
+    for (std::size_t r = 0; r < layout_.recordings.size(); ++r) {
+      ++passes_;
+      const PreparedRecording& recording = layout_.recordings[r];
+      FilteredStates* kept = states ? &(*states)[r] : nullptr;
+      if (kept) kept->angle = kept->speed = kept->torque = std::vector<double>(recording.samples());
+      with_predictor(effects, r, observer_gains(noise, recording.data.period),
+                     extra.empty() ? extra : layout_.of(r, extra),
+                     [&](auto& predictor) { predictor(layout_.of(r, std::span<double>(e)), kept); });
+    }
+  } catch (const SolverFault&) {
+    return std::nullopt;
+  }
+  for (const double x : e)
+    if (!(std::abs(x) < 1e6)) return std::nullopt;
+  return e;
+}
+
+std::vector<std::vector<double>> Evaluation::ahead(const Effects<double>& effects, std::size_t recording,
+                                                   const FilteredStates& states, std::span<const std::size_t> begins,
+                                                   std::size_t steps) const {
+  std::vector<std::vector<double>> errors;
+  with_predictor(effects, recording, {}, {}, [&](auto& predictor) {
+    const std::vector<double>& measured = layout_.recordings[recording].data.gear_angle;
+    for (const std::size_t begin : begins) {
+      std::vector<double> angles(std::min(steps, measured.size() - 1 - begin));
+      try {
+        predictor.run_free(begin, states.angle[begin], states.speed[begin], states.torque[begin], angles);
+      } catch (const SolverFault&) {
+        // what was predicted up to there counts
+      }
+      for (std::size_t k = 0; k < angles.size(); ++k) angles[k] -= measured[begin + 1 + k];
+      errors.push_back(std::move(angles));
+    }
+  });
+  return errors;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,49 @@
+#pragma once
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "diagnosis/coordinates.hpp"
+#include "diagnosis/noise_model.hpp"
+#include "diagnosis/observer_gains.hpp"
+#include "diagnosis/predictor.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace wormdrive {
+
+/// Predicts all recordings by a scenario whose effects are changed.
+class Evaluation {
+ public:
+  Evaluation(Scenario scenario, InnovationLayout layout, int threads);
+
+  const Scenario& scenario() const { return scenario_; }
+  const InnovationLayout& layout() const { return layout_; }
+  int threads() const { return threads_; }
+  /// Recordings predicted so far.
+  long passes() const { return passes_; }
+
+  /// Innovations of all recordings [rad]; nothing where the model cannot move so. extra: torque added to the command at
+  /// every sample [N m], empty for none. states: of every recording, if wanted.
+  std::optional<std::vector<double>> innovations(const Effects<double>& effects, const ProcessNoise& noise,
+                                                 std::span<const double> extra = {},
+                                                 std::vector<FilteredStates>* states = nullptr) const;
+
+  /// Errors of predicting the gear angle `steps` samples ahead from samples of one recording, without correction [rad]:
+  /// row by row the prediction less the measurement.
+  std::vector<std::vector<double>> ahead(const Effects<double>& effects, std::size_t recording,
+                                         const FilteredStates& states, std::span<const std::size_t> begins,
+                                         std::size_t steps) const;
+
+ private:
+  template <class Use>
+  void with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+                      std::span<const double> extra, Use&& use) const;
+
+  Scenario scenario_;
+  InnovationLayout layout_;
+  int threads_;
+  mutable std::atomic<long> passes_{0};
+};
+
+}  // namespace wormdrive

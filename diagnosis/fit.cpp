@@ -1,0 +1,79 @@
+#include "diagnosis/fit.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnosis/parallel.hpp"
+
+namespace wormdrive {
+
+void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b) {
+  for (std::size_t k = 0; k < h.free.size(); ++k) {
+    const Coordinate& c = h.free[k];
+    if (c.tolerance <= 0.0) continue;
+    const double share = c.scale / c.tolerance;
+    const auto i = static_cast<Eigen::Index>(k);
+    A(i, i) += share * share;
+    b[i] -= share * (h.values[k] - c.centre) / c.tolerance;
+  }
+}
+
+void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
+  if (!evaluate(by, h) || h.free.empty()) return;
+  const std::size_t n = h.free.size();
+  double damping = 1e-3;
+  for (int round = 0; round < rounds; ++round) {
+    const WeightedColumns weigh(fit_weights(by.layout(), h.residuals, h.noise_model));
+    const Eigen::VectorXd residual = weigh(h.residuals);
+    Eigen::MatrixXd J(residual.size(), static_cast<Eigen::Index>(n));
+    parallel_for(n, by.threads(), [&](std::size_t k) {
+      J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(by, h, k, derivative_step));
+    });
+    Eigen::MatrixXd A = J.transpose() * J;
+    Eigen::VectorXd b = -J.transpose() * residual;
+    add_tolerances(h, A, b);
+
+    const double before = h.objective;
+    bool better = false;
+    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
+      const Eigen::VectorXd step = solve_normal(A, b, damping);
+      Hypothesis trial = h;
+      for (std::size_t k = 0; k < n; ++k) {
+        constexpr double longest = 20.0;  // scales
+        const double by_scale = std::clamp(step[static_cast<Eigen::Index>(k)], -longest, longest);
+        trial.values[k] = std::clamp(h.values[k] + by_scale * h.free[k].scale, h.free[k].low, h.free[k].high);
+      }
+      better = evaluate(by, trial) && trial.objective < h.objective;
+      if (better) h = std::move(trial);
+      damping = better ? std::max(0.1 * damping, 1e-6) : std::max(10.0 * damping, 1e-2);
+    }
+    if (!better || before - h.objective < least_gain) return;
+  }
+}
+
+void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {
+  constexpr double least = 1e-5, most = 3.0, least_gain = 0.05;
+  for (double ProcessNoise::*kind : {&ProcessNoise::white, &ProcessNoise::coloured})
+    for (const double factor : {2.0, 0.5}) {
+      bool any = false;
+      for (int k = 0; k < depth; ++k) {
+        Hypothesis trial = h;
+        trial.noise.*kind *= factor;
+        if (trial.noise.white < least || trial.noise.white > most || trial.noise.coloured > most) break;
+        if (!evaluate(by, trial) || trial.objective >= h.objective - least_gain) break;
+        h = std::move(trial);
+        any = true;
+      }
+      if (any) break;
+    }
+}
+
+void restart_noise(const Evaluation& by, Hypothesis& h) {
+  for (const ProcessNoise& noise : std::array<ProcessNoise, 3>{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}) {
+    Hypothesis trial = h;
+    trial.noise = noise;
+    if (evaluate(by, trial) && trial.objective < h.objective) h = std::move(trial);
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,18 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// Covariance of the free coordinates in SI by a sandwich: the curvature of the likelihood, and the scatter of its
+/// slopes over blocks of time, which need not be as independent as the likelihood takes them [Huber 1967]. Of an
+/// evaluated hypothesis.
+Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h);
+
+/// The parameters of a suspect in a hypothesis with standard errors and 95 % intervals.
+EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
+                          const std::vector<Coordinate>& coordinates);
+
+}  // namespace wormdrive

@@ -1,0 +1,44 @@
+#include "diagnosis/magnitudes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+
+Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecording>& recordings) {
+  Magnitudes m;
+  for (const PreparedRecording& r : recordings) {
+    m.torque = std::max(m.torque, r.rms_torque);
+    m.largest_torque = std::max(m.largest_torque, r.largest_torque);
+    m.gear_speed = std::max(m.gear_speed, r.rms_speed);
+    m.duration = std::max(m.duration, r.duration());
+    m.period = std::max(m.period, r.data.period);
+  }
+  const GearMesh<double> mesh = stated_mesh(scenario);
+  m.has_teeth = mesh.has_teeth;
+  m.worm_speed = mesh.i * m.gear_speed;
+  m.worm_inertia = mesh.has_teeth ? mesh.Jw : mesh.Jg;
+  if (mesh.has_teeth) {
+    m.friction = mesh.mu;
+    m.sliding_speed = mesh.sliding_speed(m.worm_speed);
+    m.gear_inertia = total_gear_inertia(scenario);
+  }
+  for (const PreparedRecording& r : recordings) {
+    Scenario loaded = scenario;
+    if (r.data.load) loaded.load = *r.data.load;
+    m.load_turns = m.load_turns || !std::holds_alternative<Signal>(loaded.load);
+    with_drive(loaded, [&](auto& drive) {
+      drive.enter(0.0);
+      for (std::size_t k = 0; k < r.samples(); k += 50) {
+        const double tau =
+            drive.load().torque(drive.moment(static_cast<double>(k) * r.data.period, r.data.gear_angle[k], 0.0));
+        m.load_torque = std::max(m.load_torque, std::abs(tau));
+      }
+    });
+  }
+  return m;
+}
+
+}  // namespace wormdrive

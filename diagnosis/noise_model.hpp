@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "diagnosis/prepared_recording.hpp"
+
+namespace wormdrive {
+
+/// Degrees of freedom of Student's t, whose heavy tails keep single samples from deciding.
+inline constexpr double tail_freedom = 4.0;
+
+/// Time constants of the exponential means that whiten innovations [s]; the first is one sample.
+inline constexpr std::array<double, 6> whitening_times{0.0, 0.003, 0.008, 0.02, 0.05, 0.12};
+using WhiteningWeights = std::array<double, whitening_times.size()>;
+
+/// Noise of samples of one kind: of one recording, standing or moving.
+struct NoiseGroup {
+  double scale = 1.0;  ///< of Student's t [rad]
+  WhiteningWeights weights{};
+};
+
+/// Innovations of all recordings one after another, as a fit looks at them.
+struct InnovationLayout {
+  std::vector<PreparedRecording> recordings;
+  std::vector<std::size_t> begins;        ///< of each recording
+  std::vector<std::size_t> first_blocks;  ///< number of each recording's first block
+  std::size_t size = 0;                   ///< samples of all
+  std::size_t blocks = 0;                 ///< of all
+  std::vector<std::uint8_t> group;        ///< of every sample: 2 recording + moving
+  std::vector<std::uint8_t> part;         ///< of every sample: 0 not used, 1 fitted, 2 held out
+  std::vector<std::uint32_t> block;       ///< of every sample
+
+  explicit InnovationLayout(std::vector<PreparedRecording> all);
+
+  std::size_t groups() const { return 2 * recordings.size(); }
+  std::span<double> of(std::size_t recording, std::span<double> e) const {
+    return e.subspan(begins[recording], recordings[recording].samples());
+  }
+  std::span<const double> of(std::size_t recording, std::span<const double> e) const {
+    return e.subspan(begins[recording], recordings[recording].samples());
+  }
+  std::size_t fitted() const;  ///< number of samples
+};
+
+/// The noise as estimated from the fitted samples of innovations.
+struct NoiseModel {
+  std::vector<NoiseGroup> groups{};
+  bool whitens = true;  ///< false: the weights are zero
+};
+
+/// What innovations come to under a noise model, negative log likelihoods in nats.
+struct Misfit {
+  double fitted = 0.0, held_out = 0.0;
+  std::vector<double> blocks{};  ///< of every block, fitted or held out
+};
+
+/// Scales and whitening weights that make the fitted samples most likely, by reweighted least squares.
+NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double> innovations, bool whitens);
+
+/// Innovations less what the ones before predict of them.
+std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,
+                             const NoiseModel& noise);
+
+/// Of whitened innovations.
+Misfit misfit(const InnovationLayout& layout, std::span<const double> whitened, const NoiseModel& noise);
+
+/// Curvature with which a whitened innovation enters reweighted least squares, 0 where it is not fitted.
+std::vector<double> fit_weights(const InnovationLayout& layout, std::span<const double> whitened,
+                                const NoiseModel& noise);
+
+}  // namespace wormdrive

@@ -1,0 +1,175 @@
+#include "diagnosis/prediction_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <Eigen/Core>
+
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// One prediction of one model.
+struct Stretch {
+  std::size_t recording, begin, block;
+  double mean_square;          ///< of its errors [rad^2]
+  std::vector<double> errors;  ///< prediction less measurement [rad]
+};
+
+std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double horizon) {
+  std::vector<Stretch> all;
+  std::vector<FilteredStates> states;
+  if (!by.innovations(extended(h), h.noise, {}, &states)) return all;
+  const InnovationLayout& layout = by.layout();
+  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
+    const PreparedRecording& recording = layout.recordings[r];
+    const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
+    std::vector<std::size_t> begins;
+    const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
+    for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
+      if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
+    auto errors = by.ahead(extended(h), r, states[r], begins, steps);
+    for (std::size_t q = 0; q < begins.size(); ++q) {
+      double sum = 0.0;
+      for (const double e : errors[q]) sum += e * e;
+      constexpr double most = 1.0;  // [rad^2]: a motion that was missed altogether counts no more than that
+      all.push_back({r, begins[q], layout.block[layout.begins[r] + begins[q]],
+                     std::min(most, sum / static_cast<double>(steps)), std::move(errors[q])});
+    }
+  }
+  return all;
+}
+
+double rms(const std::vector<Stretch>& all) {
+  double sum = 0.0;
+  for (const Stretch& s : all) sum += s.mean_square;
+  return all.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(all.size()));
+}
+
+/// 95 % interval of the rms by drawing blocks with replacement.
+void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionError& e) {
+  std::vector<std::size_t> blocks;
+  for (const Stretch& s : all)
+    if (blocks.empty() || blocks.back() != s.block) blocks.push_back(s.block);
+  if (blocks.empty()) return;
+  std::vector<double> sums(blocks.size(), 0.0), counts(blocks.size(), 0.0);
+  for (const Stretch& s : all) {
+    const auto b = static_cast<std::size_t>(std::find(blocks.begin(), blocks.end(), s.block) - blocks.begin());
+    sums[b] += s.mean_square;
+    counts[b] += 1.0;
+  }
+  std::mt19937_64 random(seed);
+  constexpr int draws = 1000;
+  std::vector<double> drawn;
+  for (int k = 0; k < draws; ++k) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const std::size_t which = random() % blocks.size();
+      sum += sums[which];
+      count += counts[which];
+    }
+    drawn.push_back(std::sqrt(sum / count));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  e.after_low = drawn[draws / 40];
+  e.after_high = drawn[draws - 1 - draws / 40];
+}
+
+/// What a double integrator with this noise would be off ahead, as the noise was estimated [rad].
+double floor_of_noise(const Hypothesis& h, double angle_noise, double period, double horizon) {
+  const ObserverGains K = observer_gains(h.noise, period);
+  const double a = K.keep, white = h.noise.white, coloured = h.noise.coloured;
+  Eigen::Matrix3d F, Q = Eigen::Matrix3d::Zero();
+  F << 1.0, 1.0, 0.5, 0.0, 1.0, 1.0, 0.0, 0.0, a;
+  Q.topLeftCorner<2, 2>() << 0.25, 0.5, 0.5, 1.0;
+  Q *= white * white;
+  Q(2, 2) += coloured * coloured * (1.0 - a * a);
+  Eigen::Matrix3d P = Eigen::Vector3d(1.0, 0.1, coloured * coloured).asDiagonal();
+  const Eigen::Vector3d gain(K.angle, K.speed, K.torque);
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Matrix3d ahead = F * P * F.transpose() + Q;
+    P = ahead - gain * ahead.row(0);
+  }
+  const auto steps = static_cast<int>(std::max(1L, std::lround(horizon / period)));
+  double sum = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    P = F * P * F.transpose() + Q;
+    sum += P(0, 0) + 1.0;
+  }
+  return angle_noise * std::sqrt(sum / steps);
+}
+
+}  // namespace
+
+NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
+  const PreparedRecording& r = by.layout().recordings.front();
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < r.samples(); ++k)
+    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(h.innovations[k]));
+  if (sizes.empty()) return {};
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  constexpr double normal_median = 0.6745;
+  const double innovation = sizes[sizes.size() / 2] / normal_median;
+  const double K = observer_gains(h.noise, r.data.period).angle;  // = P/(P + 1)
+  NoiseSizes noise;
+  noise.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
+  Scenario extended_scenario = by.scenario();
+  extended_scenario.effects = extended(h);
+  const double per_torque = with_drive(extended_scenario, [](const auto& drive) {
+    return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
+  });
+  noise.torque =
+      std::hypot(h.noise.white, h.noise.coloured) * noise.angle * per_torque / (r.data.period * r.data.period);
+  return noise;
+}
+
+std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypothesis& before, const Hypothesis& after,
+                                               std::uint64_t seed) {
+  std::vector<PredictionError> all;
+  const double angle_noise = noise_sizes(by, after).angle;
+  for (const double horizon : horizons) {
+    PredictionError e;
+    e.horizon = horizon;
+    const std::vector<Stretch> then = stretches(by, before, horizon), now = stretches(by, after, horizon);
+    if (now.empty()) continue;
+    e.before = rms(then);
+    e.after = rms(now);
+    bootstrap(now, seed, e);
+    e.floor = floor_of_noise(after, angle_noise, by.layout().recordings.front().data.period, horizon);
+    all.push_back(e);
+  }
+  return all;
+}
+
+std::vector<PredictionExample> prediction_examples(const Evaluation& by, const Hypothesis& before,
+                                                   const Hypothesis& after) {
+  std::vector<PredictionExample> examples;
+  for (const double horizon : horizons) {
+    const std::vector<Stretch> then = stretches(by, before, horizon), now = stretches(by, after, horizon);
+    if (then.empty() || then.size() != now.size()) continue;
+    std::vector<std::size_t> order(then.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return then[a].mean_square > then[b].mean_square; });
+    for (const std::size_t place : {std::size_t{0}, order.size() / 2, order.size() - 1}) {
+      const Stretch &a = then[order[place]], &b = now[order[place]];
+      const Recording& data = by.layout().recordings[a.recording].data;
+      PredictionExample example;
+      example.horizon = horizon;
+      for (std::size_t k = 0; k < std::min(a.errors.size(), b.errors.size()); ++k) {
+        const double measured = data.gear_angle[a.begin + 1 + k];
+        example.time.push_back(data.start + static_cast<double>(a.begin + 1 + k) * data.period);
+        example.measured.push_back(measured);
+        example.before.push_back(measured + a.errors[k]);
+        example.after.push_back(measured + b.errors[k]);
+      }
+      examples.push_back(std::move(example));
+    }
+  }
+  return examples;
+}
+
+}  // namespace wormdrive

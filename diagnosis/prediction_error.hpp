@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// How far ahead predictions are judged [s].
+inline constexpr double horizons[] = {0.1, 0.25, 1.0};
+
+/// Errors of predicting the gear angle ahead from samples that were held out, by the model before and after, at every
+/// horizon. The seed is that of the bootstrap over blocks.
+std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypothesis& before, const Hypothesis& after,
+                                               std::uint64_t seed);
+
+/// A few held-out stretches with both predictions, of every horizon the ones with the largest, the median and the
+/// smallest error before.
+std::vector<PredictionExample> prediction_examples(const Evaluation& by, const Hypothesis& before,
+                                                   const Hypothesis& after);
+
+/// Standard deviations that a fit found: of the sensor [rad] and of the torque of the process [N m].
+struct NoiseSizes {
+  double angle{}, torque{};
+};
+NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h);
+
+}  // namespace wormdrive

@@ -1,0 +1,76 @@
+#include "diagnosis/residual_torque.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/build.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// Residual torque of every sample of one recording [N m].
+std::vector<double> torques(const Evaluation& by, const Hypothesis& h, std::size_t recording) {
+  Scenario scenario = by.scenario();
+  scenario.effects = extended(h);
+  const PreparedRecording& r = by.layout().recordings[recording];
+  const double Ts = r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
+  const double per_acceleration = with_drive(
+      scenario, [](const auto& drive) { return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg(); });
+  std::vector<FilteredStates> states;
+  std::vector<double> all(r.samples(), 0.0);
+  if (!by.innovations(extended(h), h.noise, {}, &states)) return all;
+  constexpr double most_scales = 6.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::size_t q = by.layout().begins[recording] + k;
+    const double limit = most_scales * h.noise_model.groups[by.layout().group[q]].scale;
+    const double e = std::clamp(h.innovations[q], -limit, limit);
+    all[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
+  }
+  return all;
+}
+
+}  // namespace
+
+ResidualTorque residual_torque(const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
+  constexpr double mean_over = 0.025;  // [s]
+  ResidualTorque map;
+  for (std::size_t r = 0; r < by.layout().recordings.size(); ++r) {
+    const PreparedRecording& recording = by.layout().recordings[r];
+    const std::vector<double> then = torques(by, before, r), now = torques(by, after, r);
+    Scenario loaded = by.scenario();
+    if (recording.data.load) loaded.load = *recording.data.load;
+    const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(mean_over / recording.data.period)));
+    with_drive(loaded, [&](auto& drive) {
+      for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
+        double sum_then = 0.0, sum_now = 0.0;
+        bool whole = true;
+        for (std::size_t k = begin; k < begin + bin; ++k) {
+          whole = whole && recording.moving[k] && recording.used[k];
+          sum_then += then[k] / static_cast<double>(bin);
+          sum_now += now[k] / static_cast<double>(bin);
+        }
+        if (!whole) continue;
+        const std::size_t middle = begin + bin / 2;
+        const double t = static_cast<double>(middle) * recording.data.period;
+        const double angle = recording.data.gear_angle[middle];
+        auto load = drive.load();
+        load.enter(t);
+        const Moment<double> at = drive.moment(t, angle, recording.speed[middle]);
+        const double turn = 2.0 * std::numbers::pi;
+        map.time.push_back(recording.data.start + t);
+        map.gear_angle.push_back(angle);
+        map.gear_speed.push_back(recording.speed[middle]);
+        map.load_torque.push_back(load.torque(at));
+        map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
+        map.before.push_back(sum_then);
+        map.after.push_back(sum_now);
+        map.held_out.push_back(recording.held_out[middle]);
+      }
+    });
+  }
+  return map;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,123 @@
+#include "diagnosis/screening.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/parallel.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// One suspect from one start.
+class Trial {
+ public:
+  Trial(const Evaluation& by, const Hypothesis& h, const std::vector<Suspect>& all, Screened& result)
+      : by_(by), h_(h), suspect_(all[result.suspect]), result_(result), with_(h) {
+    add_suspect(with_, all, result.suspect, result.start);
+    with_.objective = with_.bic = std::numeric_limits<double>::infinity();  // not known yet
+  }
+
+  void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
+    collect_signatures();
+    const auto old = J.cols(), fresh = static_cast<Eigen::Index>(result_.signatures.size());
+    Eigen::MatrixXd all(J.rows(), old + fresh);
+    all.leftCols(old) = J;
+    for (Eigen::Index k = 0; k < fresh; ++k) all.col(old + k) = weigh(result_.signatures[static_cast<std::size_t>(k)]);
+    Eigen::MatrixXd A = all.transpose() * all;
+    Eigen::VectorXd b = -all.transpose() * residual;
+    Hypothesis tolerances = with_;  // signatures stand for the new coordinates, which have none
+    tolerances.free.resize(h_.free.size());
+    add_tolerances(tolerances, A, b);
+    const Eigen::VectorXd step = solve_normal(A, b, 1e-6);
+    result_.model = with_;
+    for (const double share : {1.0, 0.4}) {
+      try_step(step, share);
+      if (result_.model.objective < h_.objective - 1.0) break;
+    }
+    if (suspect_.finite && !suspect_.either_sign) keep_better(with_);
+    result_.gain = h_.bic - result_.model.bic;
+  }
+
+ private:
+  void collect_signatures() {
+    const std::size_t old = h_.free.size();
+    size_ = old;
+    if (suspect_.finite) {
+      const auto e = by_.innovations(extended(with_), h_.noise);
+      result_.signatures.push_back(e ? difference(by_, h_, *e) : std::vector<double>(h_.innovations.size(), 0.0));
+      return;
+    }
+    Hypothesis moved = with_;
+    moved.innovations = h_.innovations;
+    moved.noise_model = h_.noise_model;
+    for (std::size_t k = old; k < with_.free.size(); ++k)
+      result_.signatures.push_back(sensitivity(by_, moved, k, 5.0 * derivative_step));
+  }
+
+  void try_step(const Eigen::VectorXd& step, double share) {
+    Hypothesis trial = with_;
+    const auto moved = [&](std::size_t k, double by_scales) {
+      const Coordinate& c = trial.free[k];
+      trial.values[k] = std::clamp(trial.values[k] + by_scales * c.scale, c.low, c.high);
+    };
+    for (std::size_t k = 0; k < h_.free.size(); ++k)
+      moved(k, share * std::clamp(step[static_cast<Eigen::Index>(k)], -20.0, 20.0));
+    for (std::size_t q = 0; q < result_.signatures.size(); ++q) {
+      const double length = share * std::clamp(step[static_cast<Eigen::Index>(h_.free.size() + q)], -30.0, 30.0);
+      if (!suspect_.finite) {
+        moved(size_ + q, length);
+      } else if (suspect_.resizable) {
+        const Coordinate& c = trial.free[size_];
+        trial.values[size_] =
+            std::clamp(trial.values[size_] * std::max(suspect_.either_sign ? -30.0 : 0.05, length), c.low, c.high);
+      }
+    }
+    evaluate(by_, trial);
+    keep_better(std::move(trial));
+  }
+
+  void keep_better(Hypothesis trial) {
+    if (std::isinf(trial.objective)) evaluate(by_, trial);
+    if (trial.objective < result_.model.objective || std::isinf(result_.model.objective))
+      result_.model = std::move(trial);
+  }
+
+  const Evaluation& by_;
+  const Hypothesis& h_;
+  const Suspect& suspect_;
+  Screened& result_;
+  Hypothesis with_;
+  std::size_t size_ = 0;  ///< the suspect's first coordinate among the free ones
+};
+
+}  // namespace
+
+bool is_in(const Hypothesis& h, const std::vector<Suspect>& all, std::size_t suspect) {
+  if (std::find(h.causes.begin(), h.causes.end(), suspect) != h.causes.end()) return true;
+  return std::all_of(all[suspect].coordinates.begin(), all[suspect].coordinates.end(), [&](const Coordinate& c) {
+    const int k = index_of(h, c);
+    return k >= 0 && h.free[static_cast<std::size_t>(k)].tolerance <= 0.0;
+  });
+}
+
+Screening screen(const Evaluation& by, const Hypothesis& h, const std::vector<Suspect>& all) {
+  Screening s;
+  s.free_columns.resize(h.free.size());
+  parallel_for(h.free.size(), by.threads(),
+               [&](std::size_t k) { s.free_columns[k] = sensitivity(by, h, k, derivative_step); });
+  const WeightedColumns weigh(fit_weights(by.layout(), h.residuals, h.noise_model));
+  const Eigen::VectorXd residual = weigh(h.residuals);
+  Eigen::MatrixXd J(residual.size(), static_cast<Eigen::Index>(h.free.size()));
+  for (std::size_t k = 0; k < h.free.size(); ++k) J.col(static_cast<Eigen::Index>(k)) = weigh(s.free_columns[k]);
+
+  for (std::size_t c = 0; c < all.size(); ++c)
+    if (!is_in(h, all, c))
+      for (std::size_t start = 0; start < all[c].starts.size(); ++start) s.found.push_back({c, start});
+  parallel_for(s.found.size(), by.threads(), [&](std::size_t k) { Trial(by, h, all, s.found[k])(weigh, J, residual); });
+  std::stable_sort(s.found.begin(), s.found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  return s;
+}
+
+}  // namespace wormdrive

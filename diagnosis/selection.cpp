@@ -1,0 +1,279 @@
+#include "diagnosis/selection.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/masked_pairs.hpp"
+#include "diagnosis/parallel.hpp"
+
+namespace wormdrive {
+
+Selection CauseSearch::operator()(Hypothesis base) {
+  tell("fitting what is stated");
+  fit_base(base);
+  s_.base = base;
+  s_.model = std::move(base);
+  for (int round = 0; round < most_causes_; ++round) {
+    tell("trying suspects, round " + std::to_string(round + 1));
+    std::vector<Tried> tried = try_suspects(s_.model, round == 0);
+    if (round == 0) s_.tried = tried;
+    if (tried.empty() || !take_best(tried, round == 0)) break;
+    eliminate();
+  }
+  simplify();
+  tell("trying pairs");
+  try_pairs();
+  return std::move(s_);
+}
+
+void CauseSearch::fit_base(Hypothesis& base) const {
+  evaluate(by_, base);
+  adjust_noise(by_, base, 6);
+  fit(by_, base, 6);
+  adjust_noise(by_, base, 6);
+  fit(by_, base, 2);
+  Hypothesis second = without_noise_model(base);
+  fit(by_, second, 5);
+  finish_with_noise_model(second, base.noise);
+  if (second.objective < base.objective) base = std::move(second);
+}
+
+/// The same without a noise model, which may hide slow effects from the linear step.
+Hypothesis CauseSearch::without_noise_model(Hypothesis h) const {
+  h.whitens = false;
+  h.noise = {0.02, 0.0};
+  return h;
+}
+
+void CauseSearch::finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const {
+  h.whitens = true;
+  h.noise = noise;
+  evaluate(by_, h);
+  restart_noise(by_, h);
+  fit(by_, h, 5);
+}
+
+/// The best starts of the suspects that promise most.
+std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& found) const {
+  constexpr std::size_t most_suspects = 6, most = 12;
+  std::vector<Screened> worth;
+  std::vector<std::size_t> seen;
+  const double best = found.empty() ? 0.0 : found.front().gain;
+  for (const Screened& s : found) {
+    if (worth.size() >= most || std::isinf(s.gain)) break;
+    const auto starts = std::count(seen.begin(), seen.end(), s.suspect);
+    const auto suspects = std::count_if(seen.begin(), seen.end(), [&](std::size_t c) { return c != s.suspect; });
+    if (starts >= 2) continue;
+    if (starts == 1) {
+      const auto known =
+          std::find_if(worth.begin(), worth.end(), [&](const auto& w) { return w.suspect == s.suspect; });
+      if (s.gain < 0.5 * known->gain || s.gain < 0.3 * best) continue;
+    } else if (static_cast<std::size_t>(suspects) >= most_suspects && s.gain < 0.4 * best) {
+      continue;
+    }
+    seen.push_back(s.suspect);
+    worth.push_back(s);
+  }
+  return worth;
+}
+
+std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool first_round) {
+  Screening screening = screen(by_, current, all_);
+  const std::vector<Screened> worth = worth_fitting(screening.found);
+  std::vector<Hypothesis> fitted(worth.size());
+  parallel_for(worth.size(), by_.threads(), [&](std::size_t k) {
+    fitted[k] = worth[k].model;
+    fit(by_, fitted[k], 6, 0.5);
+  });
+  std::vector<Tried> tried;
+  const auto keep = [&](std::size_t suspect, Hypothesis model) {
+    const auto known = std::find_if(tried.begin(), tried.end(), [&](const Tried& t) { return t.suspect == suspect; });
+    if (known == tried.end())
+      tried.push_back({suspect, std::move(model), {}});
+    else if (model.bic < known->model.bic)
+      known->model = std::move(model);
+  };
+  for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].suspect, std::move(fitted[k]));
+  if (first_round) {
+    for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
+    s_.screening = std::move(screening);
+  }
+  const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
+  std::stable_sort(tried.begin(), tried.end(), by_bic);
+  constexpr std::size_t polished = 3;
+  parallel_for(std::min(polished, tried.size()), by_.threads(), [&](std::size_t k) {
+    Hypothesis& h = tried[k].model;
+    if (h.bic >= current.bic) return;
+    restart_noise(by_, h);
+    adjust_noise(by_, h, 3);
+    fit(by_, h, 4);
+  });
+  std::stable_sort(tried.begin(), tried.end(), by_bic);
+  for (Tried& t : tried) t.evidence = compare(current, t.model, all_[t.suspect], by_.layout());
+  return tried;
+}
+
+/// A second start without a noise model.
+std::vector<Tried> CauseSearch::try_plainly(const Hypothesis& current) const {
+  Hypothesis plain = without_noise_model(current);
+  fit(by_, plain, 5);
+  const Screening screening = screen(by_, plain, all_);
+  constexpr std::size_t most = 3;
+  constexpr double least_gain = 10.0;
+  std::vector<Tried> tried;
+  for (const Screened& s : screening.found) {
+    if (tried.size() >= most || s.gain < least_gain) break;
+    if (std::none_of(tried.begin(), tried.end(), [&](const Tried& t) { return t.suspect == s.suspect; }))
+      tried.push_back({s.suspect, s.model, {}});
+  }
+  parallel_for(tried.size(), by_.threads(), [&](std::size_t k) {
+    fit(by_, tried[k].model, 4);
+    finish_with_noise_model(tried[k].model, current.noise);
+  });
+  return tried;
+}
+
+/// A better optimum of what both share, or a better mixture of noise, is no merit of the suspect: the simpler model is
+/// fitted again from there.
+void CauseSearch::compare_fairly(Tried& with, bool base_too) {
+  Hypothesis simpler = s_.model;
+  simpler.noise = with.model.noise;
+  for (std::size_t k = 0; k < simpler.free.size(); ++k) {
+    const auto& own = all_[with.suspect].coordinates;
+    if (std::any_of(own.begin(), own.end(), [&](const Coordinate& c) { return c.is(simpler.free[k]); })) continue;
+    const int there = index_of(with.model, simpler.free[k]);
+    if (there >= 0) simpler.values[k] = with.model.values[static_cast<std::size_t>(there)];
+  }
+  fit(by_, simpler, 5);
+  if (simpler.objective < s_.model.objective) {
+    s_.model = std::move(simpler);
+    if (base_too) s_.base = s_.model;
+  }
+  with.evidence = compare(s_.model, with.model, all_[with.suspect], by_.layout());
+}
+
+bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
+  const double best = tried.front().evidence.delta_bic;
+  // Among equals the one with the fewest parameters comes first.
+  constexpr double as_good = 6.0;
+  auto first = tried.begin();
+  for (auto t = tried.begin(); t != tried.end(); ++t)
+    if (best - t->evidence.delta_bic < as_good && t->model.free.size() < first->model.free.size()) first = t;
+  std::rotate(tried.begin(), first, first + 1);
+
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    Tried& t = tried[k];
+    if (best - t.evidence.delta_bic > reach(best)) break;
+    const Suspect& suspect = all_[t.suspect];
+    if (t.evidence.delta_bic > (suspect.toleranced ? 0.0 : AcceptanceRules{}.least_bic)) compare_fairly(t, first_round);
+    if (first_round)
+      for (Tried& kept : s_.tried)
+        if (kept.suspect == t.suspect) kept.evidence = t.evidence;
+    if (!accepted(t.evidence, suspect)) continue;
+    Found found{t.suspect, {}};
+    for (const Tried& other : tried)
+      if (other.suspect != t.suspect && t.evidence.delta_bic - other.evidence.delta_bic < reach(best) &&
+          all_[other.suspect].frees != suspect.effect)
+        found.equals.push_back(other.suspect);
+    s_.causes.push_back(found);
+    s_.model = t.model;
+    return true;
+  }
+  return false;
+}
+
+/// The base with some causes, from the values of a warm hypothesis where it has them.
+Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const {
+  Hypothesis h = s_.base;
+  for (const std::size_t c : causes) add_suspect(h, all_, c, all_[c].starts.size() > 1 ? 1 : 0);
+  if (warm) {
+    for (std::size_t k = 0; k < h.free.size(); ++k) {
+      const int there = index_of(*warm, h.free[k]);
+      if (there >= 0) h.values[k] = warm->values[static_cast<std::size_t>(there)];
+    }
+    h.noise = warm->noise;
+    for (const std::size_t c : causes)
+      for (const FieldValue& f : all_[c].starts.front().chosen)
+        if (field_of(warm->effects, f.effect, f.field).on)
+          set_field(h.effects, {f.effect, f.field, field_of(warm->effects, f.effect, f.field).value});
+  }
+  fit(by_, h, rounds);
+  return h;
+}
+
+void CauseSearch::eliminate() {
+  for (bool again = s_.causes.size() >= 2; again;) {
+    again = false;
+    for (std::size_t k = 0; k + 1 < s_.causes.size(); ++k) {
+      std::vector<std::size_t> rest;
+      for (std::size_t j = 0; j < s_.causes.size(); ++j)
+        if (j != k) rest.push_back(s_.causes[j].suspect);
+      Hypothesis without = fit_causes(rest, &s_.model, 6);
+      adjust_noise(by_, without, 3);
+      const Suspect& suspect = all_[s_.causes[k].suspect];
+      if (accepted(compare(without, s_.model, suspect, by_.layout()), suspect)) continue;
+      s_.model = std::move(without);
+      s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(k));
+      again = true;
+      break;
+    }
+  }
+}
+
+/// A suspect that frees a stated number gives way to that number alone where this does nearly as well.
+void CauseSearch::simplify() {
+  for (Found& found : s_.causes) {
+    const Suspect& suspect = all_[found.suspect];
+    const auto simple = std::find_if(all_.begin(), all_.end(), [&](const Suspect& x) {
+      return !suspect.frees.empty() && x.effect == suspect.frees;
+    });
+    if (simple == all_.end()) continue;
+    const auto index = static_cast<std::size_t>(simple - all_.begin());
+    std::vector<std::size_t> causes;
+    for (const Found& f : s_.causes) causes.push_back(f.suspect == found.suspect ? index : f.suspect);
+    if (std::count(causes.begin(), causes.end(), index) > 1) continue;
+    Hypothesis simpler = fit_causes(causes, &s_.model, 6);
+    constexpr double nearly = 6.0;
+    if (simpler.bic >= s_.model.bic + nearly) continue;
+    s_.model = std::move(simpler);
+    found = {index, {}};
+  }
+}
+
+void CauseSearch::try_pairs() {
+  const double have = s_.base.bic - s_.model.bic;
+  const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
+  constexpr std::size_t most = 6;
+  const std::vector<MaskedPair> pairs = masked_pairs(by_, s_.base, s_.screening, all_, have + margin, most);
+  std::vector<Hypothesis> fitted(pairs.size());
+  parallel_for(pairs.size(), by_.threads(), [&](std::size_t k) {
+    Hypothesis& h = fitted[k];
+    h = s_.base;
+    add_suspect(h, all_, pairs[k].first, pairs[k].first_start);
+    add_suspect(h, all_, pairs[k].second, pairs[k].second_start);
+    fit(by_, h, 10);
+    adjust_noise(by_, h, 3);
+    fit(by_, h, 3);
+  });
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Hypothesis& h = fitted[k];
+    if (h.bic >= s_.model.bic - margin) continue;
+    const Suspect &a = all_[pairs[k].first], &b = all_[pairs[k].second];
+    std::vector<std::size_t> now;
+    for (const Found& f : s_.causes) now.push_back(f.suspect);
+    std::sort(now.begin(), now.end());
+    if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
+      continue;
+    Suspect unstated;  // the pair as a whole is judged by the data that were held out
+    if (!accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
+    const Hypothesis only_b = fit_causes({pairs[k].second}, &h, 6), only_a = fit_causes({pairs[k].first}, &h, 6);
+    if (!accepted(compare(only_b, h, a, by_.layout()), a) || !accepted(compare(only_a, h, b, by_.layout()), b))
+      continue;
+    s_.model = h;
+    s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};
+  }
+  simplify();
+}
+
+}  // namespace wormdrive

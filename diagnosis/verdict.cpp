@@ -1,0 +1,117 @@
+#include "diagnosis/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace wormdrive {
+
+namespace {
+
+std::string in_words(std::string id) {
+  std::replace(id.begin(), id.end(), '_', ' ');
+  return id;
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view last) {
+  std::string all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) all += k + 1 == parts.size() ? fmt::format(" {} ", last) : ", ";
+    all += parts[k];
+  }
+  return all;
+}
+
+/// The error ahead that the sentence tells of.
+constexpr double told_horizon = 0.25;
+
+const PredictionError* told(const Diagnosis& d) {
+  for (const PredictionError& e : d.prediction)
+    if (e.horizon == told_horizon) return &e;
+  return nullptr;
+}
+
+std::string gain_sentence(const Diagnosis& d) {
+  const PredictionError* e = told(d);
+  if (!e) return "";
+  constexpr double milli = 1e3;
+  return fmt::format(
+      " On data not used for the fit the {} s prediction error falls from {:.3g} to {:.3g} mrad (noise floor {:.2g}).",
+      e->horizon, milli * e->before, milli * e->after, milli * e->floor);
+}
+
+std::string remainder_sentence(const Diagnosis& d) {
+  const Remainder& r = d.remainders.front();
+  if (r.torque > 0.0) return fmt::format(" A torque of {:.2g} N m rms over {} remains unexplained.", r.torque, r.axis);
+  return fmt::format(" {} remains unexplained.", r.axis);
+}
+
+}  // namespace
+
+std::string phrase(const EstimatedEffect& effect) {
+  std::string text = in_words(effect.effect) + ":";
+  for (const Estimate& p : effect.parameters) {
+    if (&p != &effect.parameters.front()) text += ",";
+    text += fmt::format(" {} {:.4g}", in_words(p.field), p.value / p.unit.si);
+    if (p.standard_error > 0.0) text += fmt::format(" +- {:.2g}", p.standard_error / p.unit.si);
+    if (!p.unit.suffix.empty()) text += fmt::format(" {}", p.unit.symbol);
+  }
+  return text;
+}
+
+void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all) {
+  for (const Found& found : selection.causes) {
+    std::vector<std::string> equals;
+    for (const std::size_t other : found.equals) {
+      equals.emplace_back(all[other].effect);
+      for (const std::string_view twin : all[other].twins) equals.emplace_back(twin);
+    }
+    for (const std::string_view twin : all[found.suspect].twins) equals.emplace_back(twin);
+    if (equals.empty() || !d.equivalents.empty()) continue;
+    d.equivalents.emplace_back(all[found.suspect].effect);
+    d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
+  }
+
+  if (d.causes.empty()) {
+    d.verdict = d.remainders.empty() ? Verdict::adequate : Verdict::unexplained;
+    d.sentence = d.remainders.empty() ? "The simulation has all that these data show."
+                                      : "The simulation lacks something that no effect of the catalogue accounts for." +
+                                            remainder_sentence(d);
+    return;
+  }
+
+  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work.
+  constexpr double most_of_the_work = 3.0;
+  const PredictionError* e = told(d);
+  if (!d.remainders.empty() && (!e || e->before < most_of_the_work * e->after)) {
+    std::vector<std::string> tried;
+    for (const EstimatedEffect& cause : d.causes) tried.push_back(in_words(cause.effect));
+    d.verdict = Verdict::unexplained;
+    d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
+    d.causes.clear();
+    d.equivalents.clear();
+    for (Candidate& c : d.ranking)
+      if (c.named) {
+        c.named = false;
+        c.outcome = "leaves structure behind";
+      }
+    d.sentence = "The simulation lacks something that no effect of the catalogue accounts for." + remainder_sentence(d);
+    return;
+  }
+
+  std::vector<std::string> phrases;
+  for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause));
+  d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
+  d.sentence = (d.remainders.empty() ? "What the simulation lacks is " : "What the simulation lacks is in part ") +
+               joined(phrases, "and") + ".";
+  if (!d.equivalents.empty()) {
+    std::vector<std::string> others;
+    for (std::size_t k = 1; k < d.equivalents.size(); ++k) others.push_back(in_words(d.equivalents[k]));
+    d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
+  }
+  d.sentence += gain_sentence(d);
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d);
+}
+
+}  // namespace wormdrive
