@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "core/worm_drive.hpp"
@@ -13,16 +14,22 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
 }
 
-/// Builds the concrete drive of a scenario and calls use(drive): its load's type is known from here on.
+/// Builds the concrete drive of a scenario with other effects and another motor torque, and calls use(drive): its
+/// load's type is known from here on.
 template <class Use>
-decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
+decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> drive(stated_mesh(scenario), make_load(parameters), scenario.effects, scenario.motor);
+        WormDrive<double, Load> drive(stated_mesh(scenario), make_load(parameters), effects, motor);
         return use(drive);
       },
       scenario.load);
+}
+/// The same as the scenario states it.
+template <class Use>
+decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
+  return with_drive(scenario, scenario.effects, scenario.motor, std::forward<Use>(use));
 }
 
 /// The mesh of a scenario with what its effects add to the inertias and, at the start and after a long rest, to the

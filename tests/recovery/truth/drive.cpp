@@ -166,7 +166,7 @@ class Machine {
 double rounded(double angle, double counts) {
   if (counts == 0.0) return angle;
   const double quantum = 2.0 * std::numbers::pi / counts;
-  return quantum * std::round(angle / quantum);
+  return quantum * std::round(angle / quantum) + 0.0;  // no negative zero
 }
 
 }  // namespace

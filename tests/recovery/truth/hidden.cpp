@@ -50,7 +50,7 @@ const std::vector<Secret> known{
      [](Drive& d, double s, Generator&) { d.bearings.worm_viscous = s; },
      {{"coefficient", [](const Drive& d) { return d.bearings.worm_viscous; }}}},
     {"bearing_asymmetry", 1e-5, 3e-5, 9e-5, true, false,
-     [](Drive& d, double s, Generator&) { d.bearings.asymmetry_viscous = s; d.bearings.asymmetry_torque = 30.0 * s; },
+     [](Drive& d, double s, Generator&) { d.bearings.asymmetry_viscous = s; },
      {{"coefficient", [](const Drive& d) { return d.bearings.asymmetry_viscous; }}}},
     {"gear_coulomb", 0.015, 0.045, 0.15, false, false,
      [](Drive& d, double s, Generator&) { d.bearings.gear_coulomb = s; },

@@ -1,0 +1,123 @@
+#include "diagnosis/recorded_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "output/hdf5.hpp"
+#include "scenarios/csv.hpp"
+#include "scenarios/keys.hpp"
+
+namespace wormdrive {
+namespace {
+
+std::vector<Spelling> column_spellings(std::string_view name, const Scenario& scenario) {
+  const auto* const column = std::find_if(recorded_columns.begin(), recorded_columns.end(),
+                                          [&](const RecordedColumn& c) { return c.name == name; });
+  return spellings(column->name, column->unit, scenario.axis);
+}
+
+/// Why a column is not there: a name of a file that resembles the one sought, or a way to say what it is called.
+std::string missing(const std::string& sought, const std::string& usual, const Csv& csv) {
+  std::string text = fmt::format("no column '{}'; the header line names {}", sought, fmt::join(csv.names, ", "));
+  std::vector<std::string> similar;
+  for (const std::string& name : csv.names)
+    if (probably_meant(sought, {name}) || probably_meant(name, {sought})) similar.push_back(name);
+  const std::string meant = similar.empty() ? "..." : similar.front();
+  if (sought != usual) return text;
+  return text + fmt::format("; [data] {} = \"{}\" in the scenario would say which it is", usual, meant);
+}
+
+RecordedValues csv_column(const Csv& csv, std::string_view name, const Scenario& scenario, bool required) {
+  const std::vector<Spelling> known = column_spellings(name, scenario);
+  const std::string usual = known.front().key;
+  const std::string sought = column_name(scenario.columns, usual);
+  const auto has = [&](const std::string& column) {
+    return std::find(csv.names.begin(), csv.names.end(), column) != csv.names.end();
+  };
+  RecordedValues column{sought, known.front().unit.si, {}};
+  if (sought == usual)
+    for (const Spelling& spelling : known)
+      if (!has(column.name) && has(spelling.key)) column = {spelling.key, spelling.unit.si, {}};
+  if (!has(column.name)) {
+    if (required || sought != usual) refuse({csv.path, 1}, missing(sought, usual, csv));
+    return column;
+  }
+  column.values = csv.numbers(column.name);
+  for (double& value : column.values) value *= column.unit;
+  return column;
+}
+
+RecordedTable from_csv(const std::string& path, const Scenario& scenario) {
+  const Csv csv = read_csv(path);
+  const auto column = [&](std::string_view name, bool required) { return csv_column(csv, name, scenario, required); };
+  return {path,
+          true,
+          column("time", true),
+          column("motor_torque", true),
+          column("gear_angle", true),
+          column("worm_angle", false),
+          column("gear_speed", false)};
+}
+
+/// The rows of a run without a controller that lie on the even grid of its report interval.
+void keep_even_rows(RecordedTable& table) {
+  std::vector<double>& time = table.time.values;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
+  if (steps.empty()) return;
+  const double interval = *std::max_element(steps.begin(), steps.end());
+  std::vector<std::size_t> even;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double rows = (time[k] - time.front()) / interval;
+    if (std::abs(rows - std::round(rows)) < 1e-6) even.push_back(k);
+  }
+  for (RecordedValues* column : {&table.time, &table.torque, &table.angle, &table.worm_angle}) {
+    if (column->values.empty()) continue;
+    std::vector<double> kept;
+    for (const std::size_t k : even) kept.push_back(column->values[k]);
+    column->values = std::move(kept);
+  }
+}
+
+RecordedTable from_run(const std::string& path) {
+  const Hdf5Handle file = open_hdf5(path);
+  const auto has = [&](const char* name) { return H5Lexists(file, name, H5P_DEFAULT) > 0; };
+  const auto column = [&](const std::string& name) { return RecordedValues{name, 1.0, read_column(file, name)}; };
+  if (!has("/trajectory")) refuse({path}, "there is no run in this file: a recording has a group /trajectory");
+  RecordedTable table;
+  table.path = path;
+  table.has_lines = false;
+  if (has("/controller")) {
+    table.time = column("/controller/time");
+    table.torque = column("/controller/torque");
+    table.angle = column("/controller/measured_angle");
+    return table;
+  }
+  table.time = column("/trajectory/time");
+  table.torque = column("/trajectory/motor_torque");
+  table.angle = column("/trajectory/gear_angle");
+  if (has("/trajectory/worm_angle")) table.worm_angle = column("/trajectory/worm_angle");
+  keep_even_rows(table);
+  return table;
+}
+
+}  // namespace
+
+Location RecordedTable::where(std::size_t sample) const {
+  return {path, has_lines ? static_cast<std::uint32_t>(sample + 2) : 0};
+}
+
+RecordedTable read_recorded_table(const std::string& path, const Scenario& scenario) {
+  if (!is_hdf5(path)) return from_csv(path, scenario);
+  try {
+    return from_run(path);
+  } catch (const OutputFault& fault) {
+    refuse({path}, fault.what());
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,11 @@
+#pragma once
+#include "diagnosis/speed_torque_records.hpp"
+#include "diagnosis/torque_points.hpp"
+
+namespace wormdrive {
+
+/// Records at constant speed as torque points of a scenario's drive, all of equal weight; every second of the speeds,
+/// sorted by sign and size, is in one half.
+TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const Scenario& scenario);
+
+}  // namespace wormdrive

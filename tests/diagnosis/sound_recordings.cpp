@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "catch.hpp"
+#include "diagnosis/sheet.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "support.hpp"
+
+// What is taken for a recording, and what is left out of it.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+constexpr std::size_t u = 1, y = 2;  ///< columns
+}
+
+TEST_CASE("a sound recording is taken as it is") {
+  const Folder folder;
+  const Recording r = read(folder, sound());
+  CHECK(r.name == "r.csv");
+  CHECK(r.remarks.empty());
+  CHECK(r.samples() == 8000);
+  CHECK(std::abs(r.period - 1e-3) < 1e-12);
+  CHECK(std::abs(r.start) < 1e-9);
+  CHECK(std::abs(r.gear_resolution - 2 * std::numbers::pi / 16384) < 1e-8);
+  CHECK(r.gear_angle[4321] == sound().number(4321, y));
+  CHECK(r.motor_torque[4321] == sound().number(4321, u));
+  CHECK(std::count(r.valid.begin(), r.valid.end(), 1) == 8000);
+  CHECK_FALSE(r.has_worm_encoder());
+}
+
+TEST_CASE("single samples that no measurement can have given are left out, the rest is taken") {
+  const Folder folder;
+  Sheet sheet = sound();
+  sheet.put(0, u, 12.0);
+  sheet.put(3, y, -7.0);
+  sheet.put(1234, y, 2.0);
+  for (const std::size_t k : {5000u, 5001u, 5002u}) sheet.put(k, y, 0.0);
+  sheet.put(6000, u, -3.0);
+  sheet.put(7999, y, 40.0);
+  const Recording r = read(folder, sheet);
+  CHECK(r.remarks ==
+        std::vector<std::string>{
+            "left out: motor_torque_Nm = 12 at 0 s (line 2), which no measurement can have given",
+            "left out: motor_torque_Nm = -3 at 6 s (line 6002), which no measurement can have given",
+            "left out: gear_angle_rad = -7 at 0.003 s (line 5), which no measurement can have given",
+            "left out: gear_angle_rad = 2 at 1.234 s (line 1236), which no measurement can have given",
+            "left out: gear_angle_rad from 5 s to 5.002 s (line 5002), 3 samples that no measurement can have given",
+            "left out: gear_angle_rad = 40 at 7.999 s (line 8001), which no measurement can have given"});
+  for (const std::size_t k : {0u, 3u, 1234u, 5000u, 5001u, 5002u, 6000u, 7999u}) CHECK(r.valid[k] == 0);
+  CHECK(std::count(r.valid.begin(), r.valid.end(), 0) == 8);
+  Deviation off;
+  for (std::size_t k = 0; k < r.samples(); ++k) off.add(r.gear_angle[k] - sound().number(k, y));
+  CHECK(off <= 0.01);  // what stands in their place continues the path
+}
+
+TEST_CASE("columns may be called otherwise, angles may be in degrees") {
+  const Folder folder;
+  Sheet sheet = sound();
+  sheet.names = {"t", "u", "q"};
+  Scenario scenario = nominal_arm();
+  scenario.columns = {{"time_s", "t"}, {"motor_torque_Nm", "u"}, {"gear_angle_rad", "q"}};
+  CHECK(read(folder, sheet, scenario).gear_angle[4321] == sound().number(4321, y));
+  sheet = sound();
+  sheet.names[y] = "gear_angle_deg";
+  sheet.each(y, [](double v, std::size_t) { return v / unit::degree; });
+  CHECK(std::abs(read(folder, sheet).gear_angle[4321] - sound().number(4321, y)) < 1e-8);
+}
+
+TEST_CASE("a run of the program is a recording: the samples of its controller, or its rows at even intervals") {
+  const Folder folder;
+  folder.write("s.toml", R"([mesh]
+ratio = 60
+lead_angle_deg = 4
+pressure_angle_deg = 20
+worm_pitch_radius_m = 0.011
+gear_pitch_radius_m = 0.045
+friction = 0.25
+worm_inertia_kgm2 = 2.53e-5
+gear_inertia_kgm2 = 7.39e-4
+[load]
+kind = "gravity_arm"
+mass_kg = 1
+arm_m = 0.07
+[motor.torque]
+kind = "sinusoid"
+amplitude_Nm = 0.08
+frequency_Hz = 1
+[run]
+duration_s = 4
+report_interval_s = 0.002
+)");
+  REQUIRE(folder.run({"run", "s.toml"}).exit == 0);
+  const Recording open = read_recording(folder / "s.h5", nominal_arm());
+  CHECK(open.samples() == 2001);
+  CHECK(std::abs(open.period - 0.002) < 1e-12);
+  CHECK(std::abs(open.motor_torque[125] - 0.08 * std::cos(0.5 * std::numbers::pi)) < 1e-12);
+  folder.write("none.h5", "");
+  CHECK_THROWS_AS(read_recording(folder / "none.h5", nominal_arm()), InputFault);
+}
+
+TEST_CASE("the recording that is shipped is one") {
+  const std::string folder = WORMDRIVE_SCENARIOS;
+  const Recording r =
+      read_recording(folder + "/example_bench.csv", load_scenario(folder + "/example_bench.toml", {}, Purpose::look));
+  CHECK(r.samples() == 8000);
+  CHECK(r.remarks.empty());
+  CHECK(std::abs(r.gear_resolution - 2 * std::numbers::pi / 16384) < 1e-6);
+}

@@ -1,0 +1,114 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/recording.hpp"
+#include "recovery/truth/hidden.hpp"
+
+namespace recovery {
+
+/// How far a bench is from its data sheet, and how well it measures.
+struct Conditions {
+  std::string_view name;
+  truth::NominalErrors errors;
+  double coloured_torque = 0.0;  ///< [N m]
+  double counts = 65536;         ///< of the gear's encoder
+  double worm_counts = 0.0;      ///< of the worm's; 0: none
+};
+
+/// What the data sheet promises: 1 %, half a degree, 0.3 mN m.
+inline constexpr truth::NominalErrors stated_errors{
+    .share = 0.01, .angle = 0.5 * std::numbers::pi / 180, .offset = 3e-4};
+
+/// "ideal", "realistic", "coloured" (torque noise alone), "double" (twice the stated errors); throws
+/// std::invalid_argument for another name.
+Conditions conditions(std::string_view name);
+
+/// What a campaign hides.
+enum class Kind { single, nothing, pair, cancelling, outside };
+Kind kind(std::string_view name);
+std::string_view name(Kind kind);
+
+/// One effect as it is hidden.
+struct Hiding {
+  const truth::Secret* secret;
+  truth::Size size;
+  double amount;  ///< with its sign
+};
+
+/// A bench with something hidden, drawn.
+struct Case {
+  Kind kind;
+  Conditions conditions;
+  std::uint64_t seed;
+  std::vector<Hiding> hidden;
+  double duration = 24.0;
+};
+
+/// What a campaign draws from.
+struct Plan {
+  Kind kind = Kind::single;
+  Conditions conditions{};
+  std::vector<truth::Size> sizes{truth::Size::small, truth::Size::medium, truth::Size::large};
+  std::vector<std::string> effects{};  ///< of singles and outside; empty: all that these sensors show
+  long cases = 100;
+  std::uint64_t seed = 1;
+  double duration = 24.0;
+};
+
+/// The cases of a plan: effects in turn, sizes in turn, everything else drawn from the seed.
+std::vector<Case> draw(const Plan& plan);
+
+/// What the data sheet says of the bench: all that the diagnosis is told.
+wormdrive::Scenario data_sheet();
+
+/// Records a case, writes it to a CSV file, and reads it as a user's.
+struct Bench {
+  truth::Drive drive;  ///< sealed: for the score alone
+  wormdrive::Recording recording;
+};
+Bench record(const Case& drawn);
+
+using Diagnose =
+    std::function<wormdrive::Diagnosis(const wormdrive::Scenario&, const std::vector<wormdrive::Recording>&)>;
+
+/// How a diagnosis compares with what was hidden.
+enum class Score {
+  exact,     ///< the effects, no more and no less; of effects with the same data one of them, or the class of them
+  in_class,  ///< ambiguous, and the truth is of the class
+  partial,   ///< some of the effects, and nothing else
+  extra,     ///< the truth and something beside
+  silent,    ///< no name, though something was hidden
+  wrong,     ///< a name that is not the truth
+  crash      ///< an exception
+};
+inline constexpr Score scores[] = {Score::exact,  Score::in_class, Score::partial, Score::extra,
+                                   Score::silent, Score::wrong,    Score::crash};
+std::string_view name(Score score);
+
+struct Outcome {
+  Case drawn;
+  Score score = Score::crash;
+  bool flagged = false;            ///< unexplained, or something remains
+  std::vector<std::string> named;  ///< causes
+  std::size_t class_size = 1;
+  std::vector<double> errors;      ///< of the named causes' parameters, as shares of the truth
+  std::vector<double> deviations;  ///< of all their parameters, in standard errors
+  double held_out = 0.0;           ///< 0.25 s prediction error after over the noise floor; 0: not told
+  double seconds = 0.0;
+  std::string told;  ///< the sentence, or the exception's words
+};
+
+/// Compares names and parameters; the drive is the truth.
+Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found);
+
+/// Records and diagnoses every case, on several threads; the outcomes stand in the order of the cases. `listen` is
+/// called after every case, by one thread at a time.
+std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnose, int threads,
+                         const std::function<void(const Outcome&)>& listen = {});
+
+}  // namespace recovery
