@@ -8,6 +8,7 @@
 
 #include "diagnosis/adequacy.hpp"
 #include "diagnosis/certificate.hpp"
+#include "diagnosis/experiment.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/intervals.hpp"
 #include "diagnosis/prediction_error.hpp"
@@ -90,6 +91,31 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
   return list;
 }
 
+/// Looks for a motion that splits the class of a diagnosis.
+void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Suspect>& all,
+                        const std::vector<Coordinate>& stated, const Magnitudes& sizes,
+                        const std::vector<Recording>& recordings, const DiagnosisSettings& settings) {
+  std::vector<Suspect> members;
+  for (const std::string& effect : d.equivalents)
+    for (const Suspect& s : all)
+      if (s.effect == effect) members.push_back(s);
+  double size = 0.0, excursion = 0.0;
+  for (const EstimatedEffect& cause : d.causes)
+    if (cause.effect == d.equivalents.front()) size = std::abs(cause.parameters.front().value);
+  for (const Recording& r : recordings)
+    for (const double y : r.gear_angle) excursion = std::max(excursion, std::abs(y));
+  if (members.size() < d.equivalents.size()) {
+    d.experiment_reason =
+        "twins: no motion tells them apart; it takes an index mark for a zero, a time stamp for a delay";
+    return;
+  }
+  if (settings.progress) settings.progress("looking for an experiment");
+  Experiment found =
+      splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
+  d.experiment = std::move(found.scenario);
+  d.experiment_reason = std::move(found.reason);
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recordings,
@@ -145,6 +171,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   d.extended = scenario;
   d.extended.effects = extended(last);
+  if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
   d.passes = by.passes() + by_all.passes();
