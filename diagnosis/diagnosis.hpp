@@ -40,12 +40,13 @@ struct Candidate {
   std::string outcome;  ///< "named", or why not, a phrase
 };
 
-/// Error of predicting the gear angle ahead on data not used for the fit, rms [rad].
+/// Error of predicting the gear angle ahead, or torques, on data not used for the fit, rms.
 struct PredictionError {
   double horizon{};  ///< [s]
   double before{}, after{};
   double after_low{}, after_high{};  ///< 95 % interval by a bootstrap of blocks
   double floor{};                    ///< what the noise of the data alone comes to
+  Unit unit = unit::radian;          ///< N m where the data are torques, which have no horizon: it is NaN
 };
 
 /// What these data can show of an effect.
@@ -80,12 +81,19 @@ struct PredictionExample {
   std::vector<double> time, measured, before, after;  ///< [s, rad]
 };
 
+/// Torques at constant speed or at break-in, as measured and as predicted; columns.
+struct PredictedTorques {
+  std::vector<std::string> names;
+  std::vector<double> worm_speed, load_torque;  ///< [rad/s, N m]; the speed is 0 at break-in
+  std::vector<double> measured, before, after;  ///< [N m]; each point by the fit that did not see it
+};
+
 /// What a diagnosis found; plain data, all in SI.
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;  ///< for people: what is wrong, by how much, what is gained
   std::vector<EstimatedEffect> causes;
-  std::vector<std::string> equivalents;      ///< ids of the class, if ambiguous: exactly one of them is the cause
+  std::vector<std::string> equivalents;      ///< ids of the class, if ambiguous, those in `causes` first: the causes are as many of them
   std::vector<Candidate> ranking;            ///< best first
   std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved within their tolerance
   std::vector<PredictionError> prediction;
@@ -96,6 +104,8 @@ struct Diagnosis {
   std::string experiment_reason;       ///< a sentence
   ResidualTorque residual;
   std::vector<PredictionExample> examples;
+  PredictedTorques torques;           ///< of records at constant speed and of break-in tables
+  std::vector<Estimate> identified;   ///< constants that the data state directly: C1, C2, mu_s of a break-in table
   std::vector<std::string> remarks;  ///< on the data and on the diagnosis
   double noise_torque{};             ///< of the process, rms [N m]
   double noise_angle{};              ///< of the sensor, rms [rad]

@@ -141,8 +141,11 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
   if (!evaluate()) return std::nullopt;
 
   if (n > 0) {
-    auto* const cost = new ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL>(
-        new Residuals{*this, model, rows, fit.scale});
+    const auto cost_by = [&]<ceres::NumericDiffMethodType way>() -> ceres::DynamicCostFunction* {
+      return new ceres::DynamicNumericDiffCostFunction<Residuals, way>(new Residuals{*this, model, rows, fit.scale});
+    };
+    ceres::DynamicCostFunction* const cost =
+        effort.central ? cost_by.operator()<ceres::CENTRAL>() : cost_by.operator()<ceres::FORWARD>();
     cost->AddParameterBlock(static_cast<int>(n));
     cost->SetNumResiduals(static_cast<int>(n + rows.size()));
     ceres::Problem problem;
@@ -161,7 +164,8 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
       const double before = fit.nll;
       ceres::Solver::Summary summary;
       ceres::Solve(options, &problem, &summary);
-      passes_ += summary.num_residual_evaluations + 2 * static_cast<long>(n) * summary.num_jacobian_evaluations;
+      passes_ += summary.num_residual_evaluations +
+                 (effort.central ? 2 : 1) * static_cast<long>(n) * summary.num_jacobian_evaluations;
       if (!evaluate()) return std::nullopt;
       if (before - fit.nll < effort.gain) break;
     }

@@ -30,9 +30,10 @@ enum class Part { all, first_half, second_half };
 struct Effort {
   int rounds = 8;           ///< between the parameters and the scale
   double gain = 1e-3;       ///< stops when a round wins no more [nats]
-  double tolerance = 1e-7;  ///< of the cost in one round
+  double tolerance = 1e-8;  ///< of the cost in one round
+  bool central = true;      ///< differences, else forward ones
 };
-inline constexpr Effort thorough{}, quick{4, 1e-2, 1e-5};
+inline constexpr Effort thorough{}, quick{4, 1e-2, 1e-5, false};
 
 /// Fits models to torque points by maximum likelihood: Student's t about the points, normal tolerances about what the
 /// scenario states.

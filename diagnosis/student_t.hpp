@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace wormdrive {
 
 /// Student's t distribution of residuals, whose tails forgive single outliers; constants that no model changes are
@@ -45,5 +47,10 @@ struct StudentT {
 
 /// Bayesian information criterion of a model with that many free parameters over so many data, in twice nats.
 inline double bic(double nll, double parameters, double data) { return 2.0 * nll + parameters * std::log(data); }
+
+/// Standard deviations that hold 95 % of an estimate whose variance is known from so many free data.
+inline double t_quantile(std::size_t degrees) {
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(std::max<std::size_t>(1, degrees))), 0.975);
+}
 
 }  // namespace wormdrive

@@ -6,7 +6,7 @@ namespace wormdrive {
 
 std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const Magnitudes& m,
                                                const std::vector<Tolerance>& stated) {
-  const double percent = 0.01;
+  const Tolerances by_scenario = scenario.tolerance.value_or(Tolerances{});
   std::vector<Coordinate> all;
   const auto add = [&](std::string_view effect, std::string_view field, double tolerance, double scale, double low,
                        double high) {
@@ -22,18 +22,20 @@ std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const M
                    .centre = centre,
                    .tolerance = tolerance});
   };
-  if (m.has_teeth) add("mesh_friction", "change", percent * m.friction, 0.04 * m.friction, -0.7 * m.friction, 0.6);
-  if (m.load_torque > 0.0) {
-    add("load_magnitude", "share", percent, 0.03, -0.8, 2.0);
-    if (m.load_turns) add("load_angle", "angle", 0.01, 0.03, -0.7, 0.7);
-  }
-  add("torque_gain", "share", percent, 0.02, -0.5, 0.5);
-  add("torque_offset", "torque", percent * m.torque, 0.03 * m.torque, -m.largest_torque, m.largest_torque);
   if (m.has_teeth)
-    add("gear_inertia", "inertia", percent * m.gear_inertia, 0.1 * m.gear_inertia, -0.8 * m.gear_inertia,
-        3.0 * m.gear_inertia);
-  add("worm_inertia", "inertia", percent * m.worm_inertia, 0.02 * m.worm_inertia, -0.5 * m.worm_inertia,
-      1.0 * m.worm_inertia);
+    add("mesh_friction", "change", by_scenario.friction * m.friction, 0.04 * m.friction, -0.7 * m.friction, 0.6);
+  if (m.load_torque > 0.0) {
+    add("load_magnitude", "share", by_scenario.load, 0.03, -0.8, 2.0);
+    if (m.load_turns) add("load_angle", "angle", by_scenario.load_angle, 0.03, -0.7, 0.7);
+  }
+  add("torque_gain", "share", by_scenario.torque_gain, 0.02, -0.5, 0.5);
+  add("torque_offset", "torque", by_scenario.torque_offset.value_or(0.01 * m.torque), 0.03 * m.torque,
+      -m.largest_torque, m.largest_torque);
+  if (m.has_teeth)
+    add("gear_inertia", "inertia", by_scenario.gear_inertia * m.gear_inertia, 0.1 * m.gear_inertia,
+        -0.8 * m.gear_inertia, 3.0 * m.gear_inertia);
+  add("worm_inertia", "inertia", by_scenario.worm_inertia * m.worm_inertia, 0.02 * m.worm_inertia,
+      -0.5 * m.worm_inertia, 1.0 * m.worm_inertia);
   for (const Tolerance& t : stated) (void)field_of(scenario.effects, t.effect, t.field);
   return all;
 }

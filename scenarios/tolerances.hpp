@@ -11,7 +11,7 @@ namespace wormdrive {
 struct Tolerances {
   double friction{0.01};                  ///< share of the mesh's
   double load{0.01};                      ///< share of the load torque
-  double load_angle{0.5 * unit::degree};  ///< [rad]
+  double load_angle{0.01};                ///< [rad]
   double worm_inertia{0.01};              ///< share
   double gear_inertia{0.01};              ///< share, the load's own included
   double torque_gain{0.01};               ///< share of the motor's torque
