@@ -40,12 +40,25 @@ struct SteadyOptions {
 };
 int steady_command(const SteadyOptions& options);
 
+struct DiagnoseOptions {
+  ScenarioOptions scenario;
+  std::vector<std::string> data;  ///< CSV, or results of run
+  std::string output;             ///< folder
+  double seed = 1;                ///< of bootstraps
+  int threads = 0;                ///< 0: as many as there are
+  bool pictures = true;
+};
+int diagnose_command(const DiagnoseOptions& options);
+
 struct PlotOptions {
   std::vector<std::string> files;  ///< one, or several that share a picture
   std::string output;              ///< empty: named after the first file
   std::string over;                ///< what runs are drawn over instead of time
+  std::string part = {};           ///< which picture of a diagnosis
 };
 int plot_command(const PlotOptions& options);
+/// Draws files into a picture; the exit code of the program that draws.
+int draw(const PlotOptions& options);
 
 int list_command(const std::string& what);
 

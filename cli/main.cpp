@@ -134,6 +134,20 @@ int main(int argc, char** argv) {
   steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(positive);
   steady_app->add_option("--points", steady.points, "speeds in each direction")->check(CLI::Range(1, 100000));
 
+  DiagnoseOptions diagnose;
+  CLI::App* const diagnose_app =
+      app.add_subcommand("diagnose", "find out what a scenario lacks to predict measured data, and extend it");
+  add_scenario_options(*diagnose_app, diagnose.scenario);
+  diagnose_app
+      ->add_option("data", diagnose.data,
+                   "recordings over time (.csv, .h5), records at constant speed or a break-in table (.csv), told apart "
+                   "by their columns; several of one kind are diagnosed together")
+      ->required();
+  diagnose_app->add_option("-o,--output", diagnose.output, "folder for what is found")->required();
+  diagnose_app->add_option("--seed", diagnose.seed, "of the bootstraps")->check(CLI::Range(0.0, 9007199254740992.0));
+  diagnose_app->add_option("--threads", diagnose.threads, "default: as many as there are")->check(CLI::Range(1, 1024));
+  diagnose_app->add_flag("!--no-pictures", diagnose.pictures, "write no pictures");
+
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
   plot_app
@@ -144,6 +158,8 @@ int main(int argc, char** argv) {
       ->add_option("--over", plot.over,
                    "draw runs over the motor torque instead of time, one or several in one picture")
       ->check(CLI::IsMember({"motor_torque"}));
+  plot_app->add_option("--part", plot.part, "which picture of a diagnosis; default: prediction")
+      ->check(CLI::IsMember({"prediction", "residual", "ranking", "certificate"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
 
   std::string what;
@@ -164,13 +180,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
-  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario})
+  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario, &diagnose.scenario})
     options->command_line = typed;
   return if_printed(guarded([&] {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);
     if (statics_app->parsed()) return statics_command(statics);
     if (steady_app->parsed()) return steady_command(steady);
+    if (diagnose_app->parsed()) return diagnose_command(diagnose);
     if (plot_app->parsed()) return plot_command(plot);
     return list_command(what);
   }));

@@ -30,12 +30,17 @@ int plot_command(const PlotOptions& options) {
     else if (!is_hdf5(file))
       faults.add({file}, "not an HDF5 file; wormdrive run writes one");
   faults.raise();
+  return draw(options);
+}
+
+int draw(const PlotOptions& options) {
   const std::filesystem::path first(options.files.front());
   std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
   words.insert(words.end(), options.files.begin(), options.files.end());
   words.insert(words.end(),
                {"-o", options.output.empty() ? std::filesystem::path(first).replace_extension(".png").string()
                                              : options.output});
+  if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -82,9 +83,10 @@ TorquePoints break_in_points(const std::vector<BreakIn>& table, const Scenario& 
   for (const double deviation : points.deviation) largest = std::max(largest, deviation);
   for (double& deviation : points.deviation) deviation = std::max(deviation, 0.01 * largest);
   points.half = every_second(points.direction, points.load_torque);
-  points.predict = [&scenario, load = points.load_torque, direction = points.direction](const Effects<double>& with) {
+  points.predict = [scenario = std::make_shared<const Scenario>(scenario), load = points.load_torque,
+                    direction = points.direction](const Effects<double>& with) {
     std::vector<double> torques;
-    for (std::size_t k = 0; k < load.size(); ++k) torques.push_back(torque_at(scenario, with, load[k], direction[k]));
+    for (std::size_t k = 0; k < load.size(); ++k) torques.push_back(torque_at(*scenario, with, load[k], direction[k]));
     return torques;
   };
   return points;

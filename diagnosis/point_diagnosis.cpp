@@ -72,7 +72,7 @@ std::vector<double> held_out_torques(const PointFitter& fitter, const FittedMode
   return torques;
 }
 
-PredictionError prediction_error(const PointFitter& fitter, const PredictedTorques& torques, std::uint64_t seed) {
+PredictionError prediction_error(const PredictedTorques& torques, std::uint64_t seed) {
   const auto squares = [&](const std::vector<double>& predicted) {
     std::vector<double> list;
     for (std::size_t k = 0; k < predicted.size(); ++k) list.push_back(std::pow(torques.measured[k] - predicted[k], 2));
@@ -98,7 +98,6 @@ PredictionError prediction_error(const PointFitter& fitter, const PredictedTorqu
   std::sort(drawn.begin(), drawn.end());
   error.after_low = drawn[drawn.size() / 40];
   error.after_high = drawn[drawn.size() - 1 - drawn.size() / 40];
-  (void)fitter;
   return error;
 }
 
@@ -133,7 +132,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
                points.torque,
                held_out_torques(fitter, found.before),
                held_out_torques(fitter, found.after)};
-  d.prediction = {prediction_error(fitter, d.torques, settings.seed)};
+  d.prediction = {prediction_error(d.torques, settings.seed)};
   for (std::size_t k = 0; k < points.size(); ++k) {
     d.residual.before.push_back(points.torque[k] - d.torques.before[k]);
     d.residual.after.push_back(points.torque[k] - d.torques.after[k]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -185,7 +186,7 @@ void propose_other_load(Diagnosis& d, const Scenario& scenario, const TorquePoin
     if (std::find(d.equivalents.begin(), d.equivalents.end(), v.effect) != d.equivalents.end() && v.observable)
       after = std::max(after, v.likeness);
   d.experiment = d.extended;
-  for (auto& load : {&d.experiment->load}) *load = Signal{{Constant{more.load_torque.back()}}};
+  d.experiment->load = Signal{{Constant{more.load_torque.back()}}};
   d.experiment->title = scenario.title + ", another load to tell effects apart";
   d.experiment_reason = fmt::format(
       "Record the same points under a load of {:.3g} N m as well, and diagnose both together: friction of the teeth "

@@ -8,4 +8,8 @@ namespace wormdrive {
 /// sorted by sign and size, is in one half.
 TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const Scenario& scenario);
 
+/// The same under the scenario's load and another one [N m]; for what could be seen then, not for what was.
+TorquePoints steady_points_at_two_loads(const std::vector<SpeedTorqueRecord>& records, const Scenario& scenario,
+                                        double load);
+
 }  // namespace wormdrive

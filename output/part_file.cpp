@@ -18,16 +18,6 @@
 namespace wormdrive {
 namespace {
 
-/// On disk before it gets its name: a rename may otherwise outlive the data in a power cut.
-void synchronise(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY);
-  if (descriptor < 0) return;
-  const bool lost = ::fsync(descriptor) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
-  const int reason = errno;
-  ::close(descriptor);
-  if (lost) throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(reason)));
-}
-
 /// A slip of the hand must not cost a scenario or a measurement.
 void refuse_to_replace_other_things(const std::string& path) {
   std::error_code error;
@@ -54,6 +44,15 @@ void remove_quietly(const std::string& path) {
 }
 
 }  // namespace
+
+void synchronise(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY);
+  if (descriptor < 0) return;
+  const bool lost = ::fsync(descriptor) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
+  const int reason = errno;
+  ::close(descriptor);
+  if (lost) throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(reason)));
+}
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(path_ + ".part") {
   refuse_to_replace_other_things(path_);

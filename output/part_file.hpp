@@ -33,9 +33,12 @@ class PartFile {
   bool stays_ = false;
 };
 
+/// Waits until a file is on disk: a rename may otherwise outlive its data in a power cut. Throws OutputFault.
+void synchronise(const std::string& path);
+
 /// Title, kind and provenance that every result file carries as root attributes.
 struct Provenance {
-  std::string kind;  ///< "run", "statics" or "steady"
+  std::string kind;  ///< "run", "statics", "steady" or "diagnosis"
   std::string title;
   std::string scenario;      ///< the resolved scenario as TOML text
   std::string command_line;  ///< as typed

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws wormdrive result files as a PNG picture: plot.py FILE.h5 [MORE.h5 ...] -o OUT.png [--over motor_torque]"""
+"""Draws wormdrive result files as a PNG picture: plot.py FILE.h5 [MORE.h5 ...] -o OUT.png [--over X] [--part PART]"""
 
 import argparse
 import os
@@ -7,13 +7,14 @@ import sys
 
 import h5py
 
+import diagnosis
 import over
 import run
 import statics
 import steady
 from result import NotAResult, attribute, text
 
-PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw}
+PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "diagnosis": diagnosis.draw}
 NOT_A_RESULT, NOT_WRITTEN = 2, 4  # exit codes
 
 
@@ -61,10 +62,14 @@ def read_runs(paths, reader):
     return runs
 
 
-def picture(paths, over_torque):
+def picture(paths, over_torque, part):
     """Returns the figure that shows the result files."""
     first, *others = paths
     name = read(first, kind)
+    if part:
+        if name != "diagnosis" or others:
+            fail(NOT_A_RESULT, "--part needs one result of a diagnosis")
+        return read(first, lambda result: diagnosis.draw(result, part))
     if over_torque:
         names = [os.path.splitext(os.path.basename(path))[0] for path in paths]
         return over.draw(read_runs(paths, over.read), names)
@@ -96,16 +101,17 @@ def main():
     """Reads the command line and draws."""
     parser = argparse.ArgumentParser(prog="plot", description="Draws wormdrive result files as a PNG picture.")
     parser.add_argument("files", metavar="FILE.h5", nargs="+",
-                        help="result of wormdrive run, statics or steady; a statics file and runs; "
+                        help="result of wormdrive run, statics, steady or diagnose; a statics file and runs; "
                              "or, with --over, several runs")
     parser.add_argument("-o", "--output", metavar="OUT.png", required=True, help="picture to write")
     parser.add_argument("--over", choices=["motor_torque"], help="draw the gear angle of runs over the motor torque")
+    parser.add_argument("--part", choices=list(diagnosis.PARTS), help="which picture of a diagnosis")
     arguments = parser.parse_args()
     for target in (arguments.output, arguments.output + ".part"):
         for file in arguments.files:
             if os.path.exists(target) and os.path.exists(file) and os.path.samefile(target, file):
                 fail(NOT_WRITTEN, f"cannot write {arguments.output}: it would overwrite {file}")
-    save(picture(arguments.files, arguments.over), arguments.output)
+    save(picture(arguments.files, arguments.over, arguments.part), arguments.output)
 
 
 if __name__ == "__main__":

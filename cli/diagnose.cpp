@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "cli/diagnose_data.hpp"
+#include "cli/diagnosis_json.hpp"
+#include "diagnosis/diagnosis_file.hpp"
+#include "output/text_file.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr std::size_t rows_told = 5;
+
+/// What goes on, on one line of a terminal that the next phrase overwrites.
+class Phases {
+ public:
+  explicit Phases(bool quiet) : wanted_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~Phases() { tell(""); }
+  void tell(const std::string& phase) const {
+    if (!wanted_) return;
+    fmt::print(stderr, phase.empty() ? "\r{:<76}\r" : "\r  {:<74.74}", phase);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool wanted_;
+};
+
+/// "+0.0150 +- 0.0010", in the unit of the edge.
+std::string estimate(const EstimatedEffect& effect) {
+  if (effect.parameters.empty()) return "";
+  const Estimate& e = effect.parameters.front();
+  std::string text = fmt::format("{:+.3g}", e.value / e.unit.si);
+  if (e.standard_error > 0.0) text += fmt::format(" +- {:.2g}", e.standard_error / e.unit.si);
+  return e.unit.suffix.empty() ? text : fmt::format("{} {}", text, e.unit.symbol);
+}
+
+void print_ranking(const Diagnosis& d) {
+  fmt::print("  {:<20} {:>8} {:>14}   {:<30} {}\n", "effect", "dBIC", "held-out gain", "estimate", "verdict");
+  for (std::size_t k = 0; k < std::min(rows_told, d.ranking.size()); ++k) {
+    const Candidate& c = d.ranking[k];
+    fmt::print("  {:<20} {:>8.0f} {:>14.0f}   {:<30} {}\n", c.effect.effect, c.delta_bic, c.held_out_gain,
+               estimate(c.effect), c.named ? c.outcome : "rejected: " + c.outcome);
+  }
+}
+
+void print_gain(const Diagnosis& d) {
+  for (const PredictionError& e : d.prediction) {
+    const bool torque = e.unit.symbol == unit::newton_metre.symbol;
+    print_item(
+        "gain",
+        fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} {} (95 %: {:.3g} to {:.3g}){}",
+                    torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
+                    1e3 * e.before, 1e3 * e.after, torque ? "mN m" : "mrad", 1e3 * e.after_low, 1e3 * e.after_high,
+                    std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
+  }
+}
+
+/// What these data can never show; what they show only above a size is in the file.
+void print_blind_spots(const Diagnosis& d) {
+  std::vector<std::string> unobservable;
+  for (const Visibility& v : d.certificate)
+    if (!v.observable) unobservable.push_back(v.effect);
+  if (!unobservable.empty()) print_item("unseen", fmt::format("{}", fmt::join(unobservable, ", ")));
+}
+
+void print(const Diagnosis& d, const std::vector<std::string>& written) {
+  fmt::print("{}\n", d.sentence);
+  for (const std::string& remark : d.remarks) print_item("data", remark);
+  print_ranking(d);
+  print_gain(d);
+  for (const Estimate& e : d.identified)
+    print_item("found", fmt::format("{} = {:.4g} +- {:.2g} (95 %: {:.4g} to {:.4g})", e.field, e.value,
+                                    e.standard_error, e.low, e.high));
+  print_blind_spots(d);
+  if (d.experiment) print_item("next", d.experiment_reason);
+  print_item("wrote", fmt::format("{}", fmt::join(written, ", ")));
+}
+
+/// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
+std::vector<std::string> draw_pictures(const std::string& file, const std::string& folder) {
+  std::vector<std::string> pictures;
+  for (const std::string name : {"prediction", "residual", "ranking", "certificate"}) {
+    const std::string picture = folder + "/" + name + ".png";
+    if (draw({{file}, picture, "", name}) == 0) pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+}  // namespace
+
+int diagnose_command(const DiagnoseOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
+  const std::string folder = (std::filesystem::path(options.output) / "").parent_path().string();
+  const auto inside = [&](const std::string& name) { return folder + "/" + name; };
+  std::vector<std::string> inputs = options.data;
+  inputs.push_back(options.scenario.file);
+  for (const std::string& input : inputs)
+    for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
+      refuse_to_overwrite(inside(name), input);
+  const DataKind kind = kind_of_data(options.data, scenario);
+  const bool talk = !options.scenario.quiet && !options.scenario.json;
+  const Diagnosis diagnosis = [&] {
+    const Phases phases(!talk);
+    DiagnosisSettings settings;
+    settings.seed = static_cast<std::uint64_t>(options.seed);
+    settings.threads =
+        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.progress = [&](const std::string& phase) { phases.tell(phase); };
+    return diagnose_files(scenario, kind, options.data, settings);
+  }();
+
+  make_folder(folder);
+  std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
+  const std::string extended = to_toml(diagnosis.extended);
+  write_text_file(inside("extended.toml"), extended);
+  if (diagnosis.experiment) {
+    write_text_file(inside("experiment.toml"), to_toml(*diagnosis.experiment));
+    written.push_back(inside("experiment.toml"));
+  }
+  write_diagnosis(inside("diagnosis.h5"), diagnosis,
+                  {"diagnosis", scenario.title, extended, options.scenario.command_line});
+  if (options.pictures)
+    for (const std::string& picture : draw_pictures(inside("diagnosis.h5"), folder)) written.push_back(picture);
+  const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
+  write_text_file(inside("diagnosis.json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  written.push_back(inside("diagnosis.json"));  // the last: where it is, the rest is too
+  if (options.scenario.json) print_json(json);
+  if (talk) print(diagnosis, written);
+  return 0;
+}
+
+}  // namespace wormdrive

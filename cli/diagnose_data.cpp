@@ -1,0 +1,123 @@
+#include "cli/diagnose_data.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/break_in_points.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/point_diagnosis.hpp"
+#include "diagnosis/read_recording.hpp"
+#include "diagnosis/steady_points.hpp"
+#include "output/hdf5.hpp"
+#include "scenarios/csv.hpp"
+#include "scenarios/faults.hpp"
+
+namespace wormdrive {
+namespace {
+
+DataKind kind_of(const std::string& file, const Scenario& scenario) {
+  if (is_hdf5(file)) return DataKind::recording;
+  const std::vector<std::string> names = read_csv(file).names;
+  const auto has = [&](std::string_view usual) {
+    return std::find(names.begin(), names.end(), column_name(scenario.columns, usual)) != names.end();
+  };
+  if (has("record") && has("worm_speed_rad_per_s")) return DataKind::speed_torque_records;
+  if (has("time_s")) return DataKind::recording;
+  if (has("load_torque_Nm") && has("motor_torque_Nm")) return DataKind::break_in_table;
+  refuse({file, 1},
+         fmt::format("the columns {} make neither a recording (time_s, motor_torque_Nm, gear_angle_rad) nor records at "
+                     "constant speed (record, worm_speed_rad_per_s, motor_torque_Nm) nor a break-in table "
+                     "(load_torque_Nm, motor_torque_Nm); [data] in the scenario tells other names",
+                     fmt::join(names, ", ")));
+}
+
+std::string left_out(const std::string& file, const SpeedTorqueRecord& record, const ImplausibleSample& sample) {
+  return fmt::format(
+      "{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations from its record's median; left "
+      "out",
+      file, sample.line, record.name, sample.torque, sample.deviations);
+}
+
+Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& files,
+                     const DiagnosisSettings& settings) {
+  std::vector<SpeedTorqueRecord> records;
+  std::vector<std::string> remarks;
+  for (const std::string& file : files)
+    for (const SpeedTorqueRecord& record : read_speed_torque_records(file)) {
+      for (const ImplausibleSample& sample : record.left_out) remarks.push_back(left_out(file, record, sample));
+      if (record.worm_speed == 0.0)
+        refuse({file}, fmt::format("record {} stands still; its torque is that of no motion", record.name));
+      records.push_back(record);
+    }
+  constexpr std::size_t fewest = 8;
+  if (records.size() < fewest)
+    refuse({files.front()}, fmt::format("{} records at constant speed; a diagnosis needs at least {}, in both "
+                                        "directions",
+                                        records.size(), fewest));
+  const TorquePoints points = steady_points(records, scenario);
+  Diagnosis diagnosis = diagnose(
+      scenario, points, steady_points_at_two_loads(records, scenario, 2.0 * points.load_torque.front()), settings);
+  diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks.begin(), remarks.end());
+  return diagnosis;
+}
+
+Diagnosis of_break_ins(const Scenario& scenario, const std::vector<std::string>& files,
+                       const DiagnosisSettings& settings) {
+  std::vector<BreakIn> table;
+  for (const std::string& file : files)
+    for (const BreakIn& row : read_break_in_table(file, scenario)) table.push_back(row);
+  const TorquePoints points = break_in_points(table, scenario);
+  Diagnosis diagnosis = diagnose(scenario, points, std::nullopt, settings);
+  diagnosis.identified = identified_constants(points, scenario);
+  diagnosis.remarks.push_back(
+      "mu_s and the pressure angle enter as mu_s/cos(pressure angle) alone: no break-in torque tells one from the "
+      "other");
+  return diagnosis;
+}
+
+}  // namespace
+
+std::string name(DataKind kind) {
+  switch (kind) {
+    case DataKind::recording: return "a recording over time";
+    case DataKind::speed_torque_records: return "records at constant speed";
+    case DataKind::break_in_table: return "a break-in table";
+  }
+  return "";
+}
+
+DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& scenario) {
+  const DataKind first = kind_of(files.front(), scenario);
+  for (const std::string& file : files)
+    if (const DataKind kind = kind_of(file, scenario); kind != first)
+      refuse({file}, fmt::format("holds {}, but {} holds {}; diagnose them one by one", name(kind), files.front(),
+                                 name(first)));
+  return first;
+}
+
+Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
+                         const DiagnosisSettings& settings) {
+  switch (kind) {
+    case DataKind::speed_torque_records: return of_records(scenario, files, settings);
+    case DataKind::break_in_table: return of_break_ins(scenario, files, settings);
+    case DataKind::recording: break;
+  }
+  std::vector<Recording> recordings;
+  std::vector<std::string> remarks;
+  for (const std::string& file : files) {
+    recordings.push_back(read_recording(file, scenario));
+    for (const std::string& remark : recordings.back().remarks) remarks.push_back(file + ": " + remark);
+  }
+  try {
+    Diagnosis diagnosis = diagnose(scenario, recordings, settings);
+    diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks.begin(), remarks.end());
+    return diagnosis;
+  } catch (const std::invalid_argument& fault) {
+    refuse({files.front()}, fault.what());
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnosis_settings.hpp"
+
+namespace wormdrive {
+
+/// What files of measured data hold.
+enum class DataKind {
+  recording,             ///< torque and angle over time
+  speed_torque_records,  ///< torque at constant speeds
+  break_in_table         ///< torque at which the gear starts to turn
+};
+
+/// "a recording over time"
+std::string name(DataKind kind);
+
+/// The kind of all files, by their columns. Throws InputFault for a file of no kind, and for files of different kinds.
+DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& scenario);
+
+/// Reads the files and diagnoses them together. Throws InputFault.
+Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
+                         const DiagnosisSettings& settings);
+
+}  // namespace wormdrive

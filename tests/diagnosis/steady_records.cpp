@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <random>
+#include <set>
+
+#include "catch.hpp"
+#include "cli/program.hpp"
+#include "core/steady.hpp"
+#include "diagnosis/point_diagnosis.hpp"
+#include "diagnosis/steady_points.hpp"
+#include "scenarios/build.hpp"
+#include "scenarios/load_scenario.hpp"
+
+// Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+/// The measured drive with friction of the mesh alone.
+Scenario mesh_friction_only() {
+  return load_scenario(shipped("measured_worm_drive.toml"),
+                       {"effect.worm_coulomb.on=false", "effect.worm_viscous.on=false", "effect.gear_coulomb.on=false"},
+                       Purpose::look);
+}
+
+std::set<std::string> ids(const std::vector<EstimatedEffect>& effects) {
+  std::set<std::string> all;
+  for (const EstimatedEffect& e : effects) all.insert(e.effect);
+  return all;
+}
+
+/// Torques of a drive whose effects are hidden, with noise; both from a seed.
+std::vector<SpeedTorqueRecord> hidden(const Scenario& truth, double noise, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> error(0.0, noise);
+  std::vector<SpeedTorqueRecord> records;
+  for (const double speed : {0.1, 0.2, 0.4, 0.8, 1.3, 2.1, 3.1, 4.2, 5.2, 6.3, 8.4, 10.5, 12.6, 14.7, 16.8, 18.8, 20.9})
+    for (const double w : {-speed, speed}) {
+      const double torque = with_drive(truth, [&](auto& drive) {
+        drive.enter(0.0);
+        return steady_torque(drive, w, 0.0, 0.0);
+      });
+      records.push_back({fmt::format("{}", w), w, torque + error(random), 500, {}});
+    }
+  return records;
+}
+
+Diagnosis diagnosed(const std::vector<SpeedTorqueRecord>& records, const Scenario& scenario) {
+  const TorquePoints points = steady_points(records, scenario);
+  return diagnose(scenario, points, steady_points_at_two_loads(records, scenario, 2.0 * points.load_torque.front()));
+}
+
+}  // namespace
+
+TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, the levels are one class",
+          "[reference]") {
+  const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
+  if (!std::filesystem::exists(path)) {
+    std::cout << "skipped: reference data not found\n";
+    return;
+  }
+  const Diagnosis d = diagnosed(read_speed_torque_records(path), mesh_friction_only());
+  INFO(d.sentence);
+  CHECK(d.verdict == Verdict::ambiguous);
+  const std::set<std::string> causes = ids(d.causes);
+  std::set<std::string> level(d.equivalents.begin(), d.equivalents.end());
+  for (const char* const sure : {"worm_viscous", "stribeck"}) {
+    CHECK(causes.count(sure) == 1);
+    CHECK(level.count(sure) == 0);
+  }
+  for (const char* const member : {"mesh_friction", "worm_coulomb", "gear_coulomb", "load_magnitude"})
+    CHECK(level.count(member) == 1);
+  for (const std::string& cause : causes)  // nothing else is claimed
+    CHECK((cause == "worm_viscous" || cause == "stribeck" || level.count(cause) == 1));
+  REQUIRE(d.experiment);
+  CHECK(d.experiment_reason.find("under a load of 0.0377 N m as well") != std::string::npos);
+
+  // again from the torques: both halves, each judged by the fit of the other
+  double squares[2] = {0.0, 0.0};
+  const std::vector<int> half = steady_points(read_speed_torque_records(path), mesh_friction_only()).half;
+  for (std::size_t k = 0; k < half.size(); ++k)
+    squares[half[k]] += std::pow(d.torques.measured[k] - d.torques.after[k], 2);
+  REQUIRE(half.size() == 46);
+  CHECK(std::sqrt(squares[0] / 23) <= 0.045e-3);
+  CHECK(std::sqrt(squares[1] / 23) <= 0.045e-3);
+  CHECK(d.prediction.at(0).after_low < d.prediction[0].after);
+  CHECK(d.prediction[0].after < d.prediction[0].after_high);
+}
+
+TEST_CASE("records of the scenario's own drive are adequate, whatever the noise") {
+  const Scenario scenario = mesh_friction_only();
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const Diagnosis d = diagnosed(hidden(scenario, 2e-5, seed), scenario);
+    INFO("seed " << seed << ": " << d.sentence);
+    CHECK(d.verdict == Verdict::adequate);
+    CHECK(d.causes.empty());
+    CHECK(d.sentence == "The simulation has all that these data show.");
+  }
+}
+
+TEST_CASE("a single hidden friction is named, or in the class that is reported, with its size in the interval") {
+  const Scenario scenario = mesh_friction_only();
+  int covered = 0, told = 0;
+  for (const auto& [effect, field, size] : {std::tuple{"worm_viscous", "coefficient", 1.2e-5},
+                                            {"worm_coulomb", "torque", 4e-4},
+                                            {"mesh_friction", "change", 0.05},
+                                            {"load_magnitude", "share", 0.3}})
+    for (const unsigned seed : {11U, 12U}) {
+      Scenario truth = scenario;
+      set_field(truth.effects, {effect, field, size});
+      const Diagnosis d = diagnosed(hidden(truth, 2e-5, seed), scenario);
+      INFO(effect << ", seed " << seed << ": " << d.sentence);
+      REQUIRE(d.causes.size() == 1);
+      const bool exact = d.causes[0].effect == effect;
+      CHECK((exact || std::count(d.equivalents.begin(), d.equivalents.end(), effect) == 1));
+      if (!exact) continue;
+      ++told;
+      const Estimate& e = d.causes[0].parameters.at(0);
+      CHECK(std::abs(e.value - size) <= 0.1 * size);
+      covered += e.low <= size && size <= e.high ? 1 : 0;
+      CHECK(field_of(d.extended.effects, effect, field).value == e.value);
+    }
+  CHECK(told >= 6);
+  CHECK(covered >= told - 2);
+}
+
+TEST_CASE("what records at constant speed cannot show is told") {
+  const Scenario scenario = mesh_friction_only();
+  const Diagnosis d = diagnosed(hidden(scenario, 2e-5, 7), scenario);
+  std::set<std::string> unseen;
+  for (const Visibility& v : d.certificate) {
+    if (!v.observable) unseen.insert(v.effect);
+    CHECK((!v.observable || v.nameable >= v.detectable));
+  }
+  for (const char* const effect : {"backlash", "worm_inertia", "gear_inertia", "encoder_offset", "actuator_lag"})
+    CHECK(unseen.count(effect) == 1);
+  for (const char* const effect : {"worm_viscous", "stribeck", "mesh_friction", "gear_coulomb"})
+    CHECK(unseen.count(effect) == 0);
+}
