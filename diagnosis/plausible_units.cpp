@@ -151,6 +151,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 }
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
+  if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const Fit as_is = Judge(scenario, table.time.values.front(), period).fit(table.torque.values, table.angle.values);
   if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
     refuse(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
