@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,7 +64,10 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
   std::vector<Visibility> list;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Coordinate& size = candidates[k].coordinates.front();
-    Visibility seen{std::string(size.effect), std::string(size.field), field_of({}, size.effect, size.field).unit};
+    Visibility seen;
+    seen.effect = size.effect;
+    seen.field = size.field;
+    seen.unit = field_of({}, size.effect, size.field).unit;
     std::vector<std::vector<double>> stated;
     std::vector<double> tolerances;
     for (std::size_t other = 0; other < candidates.size(); ++other) {
@@ -185,7 +189,7 @@ void propose_other_load(Diagnosis& d, const Scenario& scenario, const TorquePoin
     if (std::find(d.equivalents.begin(), d.equivalents.end(), v.effect) != d.equivalents.end() && v.observable)
       after = std::max(after, v.likeness);
   d.experiment = d.extended;
-  for (auto& load : {&d.experiment->load}) *load = Signal{{Constant{more.load_torque.back()}}};
+  d.experiment->load = Signal{{Constant{more.load_torque.back()}}};
   d.experiment->title = scenario.title + ", another load to tell effects apart";
   d.experiment_reason = fmt::format(
       "Record the same points under a load of {:.3g} N m as well, and diagnose both together: friction of the teeth "
