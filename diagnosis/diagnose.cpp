@@ -131,8 +131,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   Hypothesis base;
   base.effects = scenario.effects;
-  base.free = stated;
-  for (const Coordinate& c : stated) base.values.push_back(c.centre);
+  for (const Coordinate& c : stated)
+    if (c.tolerance > 0.0) {
+      base.free.push_back(c);
+      base.values.push_back(c.centre);
+    }
   const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
 
   Diagnosis d;

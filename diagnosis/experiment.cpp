@@ -97,8 +97,11 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
       const Evaluation by(told, InnovationLayout({recording}), threads);
       Hypothesis h;
       h.effects = told.effects;
-      h.free = toleranced;
-      for (const Coordinate& c : toleranced) h.values.push_back(c.centre);
+      for (const Coordinate& c : toleranced)
+        if (c.tolerance > 0.0) {
+          h.free.push_back(c);
+          h.values.push_back(c.centre);
+        }
       if (!evaluate(by, h)) continue;
       adjust_noise(by, h, 6);
       const std::vector<Visibility> seen = certificate(by, h, screen(by, h, members), members, sizes);
