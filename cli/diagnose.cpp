@@ -31,7 +31,10 @@ class Phases {
   ~Phases() { tell(""); }
   void tell(const std::string& phase) const {
     if (!wanted_) return;
-    fmt::print(stderr, phase.empty() ? "\r{:<76}\r" : "\r  {:<74.74}", phase);
+    if (phase.empty())
+      fmt::print(stderr, "\r{:<76}\r", "");
+    else
+      fmt::print(stderr, "\r  {:<74.74}", phase);
     std::fflush(stderr);
   }
 
