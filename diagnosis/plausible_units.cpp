@@ -11,6 +11,7 @@
 
 #include "diagnosis/impossible_samples.hpp"
 #include "diagnosis/needed_torque.hpp"
+#include "diagnosis/robust.hpp"
 
 namespace wormdrive {
 namespace {
@@ -20,9 +21,7 @@ using Values = std::vector<double>;
 double median_size(Values values) {
   if (values.empty()) return 0.0;
   for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 Values times(Values values, double factor) {

@@ -57,7 +57,8 @@ no code with the program; the diagnosis sees its data sheet and a CSV file. Size
 | realistic | off by 1 %, 0.5 deg, 0.3 mN m (standard deviations), as stated | 0.5 mN m | 16384 counts |
 | double | off by twice as much as stated | 0.5 mN m | 16384 counts |
 
-White torque noise of 0.5 mN m and encoder noise of 3e-5 rad are always there.
+Where nominal values are exact the data sheet says so (`[tolerance]` 0), else it states 1 %. White torque noise of
+0.5 mN m and encoder noise of 3e-5 rad are always there.
 
 | score | |
 |---|---|
