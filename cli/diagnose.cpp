@@ -31,7 +31,7 @@ class Phases {
   ~Phases() { tell(""); }
   void tell(const std::string& phase) const {
     if (!wanted_) return;
-    fmt::print(stderr, phase.empty() ? "\r{:<76}\r" : "\r  {:<74.74}", phase);
+    fmt::print(stderr, "\r  {:<74.74}{}", phase, phase.empty() ? "\r" : "");
     std::fflush(stderr);
   }
 

@@ -29,13 +29,6 @@ json as_json(const EstimatedEffect& effect) {
   return {{"effect", effect.effect}, {"parameters", parameters}};
 }
 
-template <class List>
-json list_of(const List& list) {
-  json all = json::array();
-  for (const auto& item : list) all.push_back(as_json(item));
-  return all;
-}
-
 json as_json(const Candidate& c) {
   json made = as_json(c.effect);
   made["delta_bic"] = number(c.delta_bic);
@@ -64,6 +57,13 @@ json as_json(const Visibility& v) {
 
 json as_json(const Remainder& r) {
   return {{"axis", r.axis}, {"evidence", number(r.evidence)}, {"torque_Nm", number(r.torque)}};
+}
+
+template <class List>
+json list_of(const List& list) {
+  json all = json::array();
+  for (const auto& item : list) all.push_back(as_json(item));
+  return all;
 }
 
 }  // namespace
