@@ -31,10 +31,7 @@ class Phases {
   ~Phases() { tell(""); }
   void tell(const std::string& phase) const {
     if (!wanted_) return;
-    if (phase.empty())
-      fmt::print(stderr, "\r{:<76}\r", "");
-    else
-      fmt::print(stderr, "\r  {:<74.74}", phase);
+    fmt::print(stderr, "\r  {:<74.74}{}", phase, phase.empty() ? "\r" : "");
     std::fflush(stderr);
   }
 

@@ -17,13 +17,30 @@ namespace {
 
 constexpr std::size_t fewest = 6;
 
-/// Torque at break-in of a scenario's drive with other effects under a load of its own.
-double torque_at(const Scenario& scenario, const Effects<double>& effects, double load, int direction) {
-  Scenario at = scenario;
-  at.load = Signal{{Constant{load}}};
-  return with_drive(at, effects, Signal{}, [&](auto& drive) {
-    drive.enter(0.0);
-    return break_in_torque(drive, direction > 0 ? Motion::forward : Motion::backward, scenario.initial.theta_g, 0.0);
+/// A scenario whose load takes these values one after another, from t = k on the k-th: so one drive serves all.
+Scenario under_loads(Scenario scenario, const std::vector<double>& loads) {
+  Samples samples;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    samples.times.push_back(static_cast<double>(k));
+    samples.values.push_back(loads[k]);
+  }
+  samples.interpolation = Interpolation::hold;
+  scenario.load = Signal{{samples}};
+  return scenario;
+}
+
+/// Torques at break-in in these directions, one for every load.
+std::vector<double> torques_at(const Scenario& scenario, const Effects<double>& effects,
+                               const std::vector<int>& direction) {
+  return with_drive(scenario, effects, Signal{}, [&](auto& drive) {
+    std::vector<double> torques;
+    for (std::size_t k = 0; k < direction.size(); ++k) {
+      const double t = static_cast<double>(k) + 0.5;
+      drive.enter(t);
+      torques.push_back(
+          break_in_torque(drive, direction[k] > 0 ? Motion::forward : Motion::backward, scenario.initial.theta_g, t));
+    }
+    return torques;
   });
 }
 
@@ -68,27 +85,25 @@ std::vector<BreakIn> read_break_in_table(const std::string& path, const Scenario
 
 TorquePoints break_in_points(const std::vector<BreakIn>& table, const Scenario& scenario) {
   TorquePoints points;
-  for (const BreakIn& row : table) {
-    const double forward = torque_at(scenario, scenario.effects, row.load_torque, 1),
-                 backward = torque_at(scenario, scenario.effects, row.load_torque, -1);
-    const bool ahead = std::abs(row.motor_torque - forward) < std::abs(row.motor_torque - backward);
+  for (const BreakIn& row : table) points.load_torque.push_back(row.load_torque);
+  const Scenario loaded = under_loads(scenario, points.load_torque);
+  const std::vector<double> forward = torques_at(loaded, scenario.effects, std::vector<int>(table.size(), 1)),
+                            backward = torques_at(loaded, scenario.effects, std::vector<int>(table.size(), -1));
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const double torque = table[k].motor_torque;
+    const bool ahead = std::abs(torque - forward[k]) < std::abs(torque - backward[k]);
     points.names.push_back(ahead ? "forward" : "backward");
     points.worm_speed.push_back(0.0);
-    points.load_torque.push_back(row.load_torque);
     points.direction.push_back(ahead ? 1 : -1);
-    points.torque.push_back(row.motor_torque);
-    points.deviation.push_back(std::abs(row.motor_torque));
+    points.torque.push_back(torque);
+    points.deviation.push_back(std::abs(torque));
   }
   double largest = 0.0;
   for (const double deviation : points.deviation) largest = std::max(largest, deviation);
   for (double& deviation : points.deviation) deviation = std::max(deviation, 0.01 * largest);
   points.half = every_second(points.direction, points.load_torque);
-  points.predict = [scenario = std::make_shared<const Scenario>(scenario), load = points.load_torque,
-                    direction = points.direction](const Effects<double>& with) {
-    std::vector<double> torques;
-    for (std::size_t k = 0; k < load.size(); ++k) torques.push_back(torque_at(*scenario, with, load[k], direction[k]));
-    return torques;
-  };
+  points.predict = [scenario = std::make_shared<const Scenario>(loaded), direction = points.direction](
+                       const Effects<double>& effects) { return torques_at(*scenario, effects, direction); };
   return points;
 }
 
