@@ -114,7 +114,7 @@ def draw_examples(result, examples):
         cells[0].set_title(f"{horizon:g} s ahead, change of the gear angle", loc="left", size=12)
     for cell in grid[-1]:
         cell.set_xlabel("time [s]")
-    figure.legend(handles=handles, loc="outside upper right", ncol=3)
+    figure.legend(handles=handles, loc="upper right", ncol=3)
     return figure
 
 
@@ -188,7 +188,7 @@ def draw_residual(result):
             handles += cell.plot(middle, factor * mean, color=colour, linewidth=1.6, label=name)
         cell.axhline(0.0, color=style.GREY, linewidth=0.9, zorder=1)
         cell.set(xlabel=label, ylabel=f"[{unit}]")
-    figure.legend(handles=handles, loc="outside upper right", ncol=2)
+    figure.legend(handles=handles, loc="upper right", ncol=2)
     return figure
 
 
