@@ -167,12 +167,14 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     (member ? classed : names).push_back(phrase(cause));
   }
   d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
+  if (classed.size() == 1) names.push_back(classed.front());
   if (!names.empty()) d.sentence = fmt::format("The simulation lacks {}.", fmt::join(names, " and "));
-  if (!classed.empty())
-    d.sentence +=
-        fmt::format("{}These data cannot tell which {} of {} {} at work.", names.empty() ? "" : " Beside it, ",
-                    classed.size() == 1 ? std::string("one") : fmt::format("{}", classed.size()),
-                    fmt::join(d.equivalents, ", "), classed.size() == 1 ? "is" : "are");
+  if (classed.size() == 1)
+    d.sentence += fmt::format(" These data cannot tell {} from {}.", d.equivalents.front(),
+                              fmt::join(d.equivalents.begin() + 1, d.equivalents.end(), " or "));
+  else if (!classed.empty())
+    d.sentence += fmt::format("{}{} of {} are at work; these data cannot tell which.", names.empty() ? "" : " Beside, ",
+                              classed.size(), fmt::join(d.equivalents, ", "));
   d.sentence += gain + left;
 }
 
