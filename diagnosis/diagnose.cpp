@@ -86,6 +86,7 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     c.outcome = c.named ? "named" : "promises too little to be fitted";
     list.push_back(std::move(c));
   }
+  // what is named comes first: a richer law that contains it has the higher evidence and is not named for it
   std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
     return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
   });
