@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,56 @@ struct PlotOptions {
 int plot_command(const PlotOptions& options);
 /// Draws files into a picture; the exit code of the program that draws.
 int draw(const PlotOptions& options);
+
+struct SweepOptions {
+  std::string study;
+  std::string output;    ///< empty: named after the study
+  unsigned threads = 0;  ///< 0: as many as the machine has
+  std::string shard;     ///< "i/n"; empty: all trials
+  std::optional<std::uint64_t> max_failures;
+  std::optional<std::uint64_t> referee;  ///< trials that CVODE judges; else what fits into 5 % of the time
+  bool resume = false;
+  bool quiet = false;
+  std::string command_line;
+};
+int sweep_command(const SweepOptions& options);
+
+struct MergeOptions {
+  std::vector<std::string> shards;
+  std::string output;
+  bool quiet = false;
+  std::string command_line;
+};
+int merge_command(const MergeOptions& options);
+
+struct ReplayOptions {
+  std::string sweep;
+  std::uint64_t trial = 0;
+  std::string output;
+  bool quiet = false;
+  std::string command_line;
+};
+int replay_command(const ReplayOptions& options);
+
+struct SummaryOptions {
+  std::string sweep;
+  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first one
+  unsigned worst = 5;  ///< trials shown
+  bool json = false;
+};
+int summary_command(const SummaryOptions& options);
+
+struct WorstOptions {
+  std::string sweep;
+  std::string metric;  ///< empty: the one by which trials are ranked
+  std::uint64_t evaluations = 400;
+  double tail = 1e-3;  ///< probability left out at either end of each parameter
+  unsigned threads = 0;
+  std::string output;
+  bool quiet = false;
+  std::string command_line;
+};
+int worst_command(const WorstOptions& options);
 
 int list_command(const std::string& what);
 

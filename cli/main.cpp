@@ -151,8 +151,10 @@ int main(int argc, char** argv) {
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
   plot_app
-      ->add_option("files", plot.files,
-                   "result of run, statics or steady (.h5); a statics result and runs: their break-aways in its map")
+      ->add_option(
+          "files", plot.files,
+          "result of run, statics, steady or sweep (.h5); a statics result and runs: their break-aways in its map; a "
+          "sweep and runs of its trials: one over the other")
       ->required();
   plot_app
       ->add_option("--over", plot.over,
@@ -161,6 +163,55 @@ int main(int argc, char** argv) {
   plot_app->add_option("--part", plot.part, "which picture of a diagnosis; default: prediction")
       ->check(CLI::IsMember({"prediction", "residual", "ranking", "certificate"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
+
+  SweepOptions sweep;
+  CLI::App* const sweep_app =
+      app.add_subcommand("sweep", "run a study: many trials of a scenario with uncertain numbers");
+  sweep_app->add_option("study", sweep.study, "study (.toml)")->required();
+  sweep_app->add_option("-o,--output", sweep.output, "result file; default: the study's name with .h5");
+  sweep_app->add_option("--threads", sweep.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
+  sweep_app->add_option("--shard", sweep.shard, "the i-th of n parts of the trials only, for `wormdrive merge`")
+      ->type_name("I/N");
+  sweep_app->add_option("--max-failures", sweep.max_failures, "stop when more trials than that fail");
+  sweep_app->add_option("--referee", sweep.referee,
+                        "trials that cvode runs again under the recorded torque; default: as many as fit into 5 % of "
+                        "the time, at least 8");
+  sweep_app->add_flag("--resume", sweep.resume, "keep the trials of an interrupted sweep and make the missing ones");
+  sweep_app->add_flag("-q,--quiet", sweep.quiet, "print faults only");
+
+  MergeOptions merge;
+  CLI::App* const merge_app = app.add_subcommand("merge", "put the shards of a sweep together");
+  merge_app->add_option("shards", merge.shards, "all shards of one sweep (.h5), in any order")->required();
+  merge_app->add_option("-o,--output", merge.output, "result file")->required();
+  merge_app->add_flag("-q,--quiet", merge.quiet, "print faults only");
+
+  ReplayOptions replay;
+  CLI::App* const replay_app = app.add_subcommand("replay", "run one trial of a sweep again, with its trajectory");
+  replay_app->add_option("sweep", replay.sweep, "result of a sweep (.h5)")->required();
+  replay_app->add_option("--trial", replay.trial, "index of the trial")->required();
+  replay_app->add_option("-o,--output", replay.output, "result file of the run")->required();
+  replay_app->add_flag("-q,--quiet", replay.quiet, "print faults only");
+
+  SummaryOptions summary;
+  CLI::App* const summary_app =
+      app.add_subcommand("summary", "what a sweep comes to: quantiles, risks, what matters most");
+  summary_app->add_option("sweep", summary.sweep, "result of a sweep (.h5)")->required();
+  summary_app->add_option("--metric", summary.metric,
+                          "by which parameters and trials are ranked; default: that of the first threshold");
+  summary_app->add_option("--worst", summary.worst, "how many of the worst trials are shown");
+  summary_app->add_flag("--json", summary.json, "print the result as JSON");
+
+  WorstOptions worst;
+  CLI::App* const worst_app =
+      app.add_subcommand("worst", "search the uncertain numbers of a sweep for the worst drive");
+  worst_app->add_option("sweep", worst.sweep, "result of a sweep (.h5)")->required();
+  worst_app->add_option("-o,--output", worst.output, "result file of the worst run")->required();
+  worst_app->add_option("--metric", worst.metric, "whose worst value is looked for; default: as in summary");
+  worst_app->add_option("--evaluations", worst.evaluations, "runs at most")->check(CLI::Range(4, 1000000));
+  worst_app->add_option("--tail", worst.tail, "probability that is left out at either end of each number")
+      ->check(CLI::Range(1e-12, 0.49));
+  worst_app->add_option("--threads", worst.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
+  worst_app->add_flag("-q,--quiet", worst.quiet, "print faults only");
 
   std::string what;
   CLI::App* const list_app =
@@ -182,6 +233,7 @@ int main(int argc, char** argv) {
   }
   for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario, &diagnose.scenario})
     options->command_line = typed;
+  sweep.command_line = merge.command_line = replay.command_line = worst.command_line = typed;
   return if_printed(guarded([&] {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);
@@ -189,6 +241,11 @@ int main(int argc, char** argv) {
     if (steady_app->parsed()) return steady_command(steady);
     if (diagnose_app->parsed()) return diagnose_command(diagnose);
     if (plot_app->parsed()) return plot_command(plot);
+    if (sweep_app->parsed()) return sweep_command(sweep);
+    if (merge_app->parsed()) return merge_command(merge);
+    if (replay_app->parsed()) return replay_command(replay);
+    if (summary_app->parsed()) return summary_command(summary);
+    if (worst_app->parsed()) return worst_command(worst);
     return list_command(what);
   }));
 }

@@ -12,10 +12,10 @@ namespace wormdrive {
 Progress::Progress(double end, bool quiet) : end_(end), wanted_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (drawn_) fmt::print(stderr, "\r{:<60}\r", "");
+  if (drawn_) fmt::print(stderr, "\r{:<100}\r", "");
 }
 
-void Progress::at(double now) {
+void Progress::at(double now, const std::function<std::string(double)>& note) {
   constexpr int calls_between_looks = 16;
   if (!wanted_ || ++calls_ % calls_between_looks != 0) return;
   const auto time = Clock::now();
@@ -24,9 +24,11 @@ void Progress::at(double now) {
   drawn_ = true;
   constexpr int width = 30;
   const double share = std::clamp(now / end_, 0.0, 1.0);
-  const double left = std::chrono::duration<double>(time - begin_).count() * (1.0 - share) / std::max(share, 1e-9);
+  const double passed = std::chrono::duration<double>(time - begin_).count();
+  const double left = passed * (1.0 - share) / std::max(share, 1e-9);
   const std::string bar(static_cast<std::size_t>(share * width), '#');
-  fmt::print(stderr, "\r  [{:<{}}] {:3.0f} %, {:.0f} s left ", bar, width, 100.0 * share, left);
+  fmt::print(stderr, "\r  [{:<{}}] {:3.0f} %, {:.0f} s left{} ", bar, width, 100.0 * share, left,
+             note ? note(passed) : "");
   std::fflush(stderr);
 }
 

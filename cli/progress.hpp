@@ -1,5 +1,7 @@
 #pragma once
 #include <chrono>
+#include <functional>
+#include <string>
 
 namespace wormdrive {
 
@@ -8,8 +10,9 @@ class Progress {
  public:
   explicit Progress(double end, bool quiet);
   ~Progress();
-  /// Tells how far the work has come, in the unit of `end`; cheap enough to call at every row.
-  void at(double now);
+  /// Tells how far the work has come, in the unit of `end`; cheap enough to call at every row. note(): what else is
+  /// to be told, asked for when it is drawn.
+  void at(double now, const std::function<std::string(double seconds)>& note = {});
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -8,6 +8,7 @@
 #include "cli/describe_control.hpp"
 #include "cli/describe_teeth.hpp"
 #include "cli/progress.hpp"
+#include "cli/run_and_write.hpp"
 #include "core/elastic_teeth.hpp"
 #include "events/halt.hpp"
 #include "scenarios/build.hpp"
@@ -55,10 +56,7 @@ RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& o
 
 }  // namespace
 
-int run_command(const RunOptions& options) {
-  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
-  const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
-  refuse_to_overwrite(output, options.scenario.file);
+RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options) {
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   if (talk) {
     fmt::print("{}\n", scenario.title);
@@ -72,15 +70,23 @@ int run_command(const RunOptions& options) {
     write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
     write_attribute(file.file().file(), "ratio", mesh.i);
   }
-  const RunSummary summary = run_into(file, scenario, options);
+  RunSummary summary = run_into(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
-  if (!talk) return 0;
+  if (!talk) return summary;
   print_item("run",
              fmt::format("{:g} s with {}, {} evaluations, {}", scenario.run.duration, describe_solver(scenario.run),
                          summary.statistics.evaluations, describe_events(summary)));
   if (summary.control) print_control(*summary.control);
   if (summary.audit) print_item("audit", describe_audit(*summary.audit, scenario));
   print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, output));
+  return summary;
+}
+
+int run_command(const RunOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
+  const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
+  refuse_to_overwrite(output, options.scenario.file);
+  run_and_write(scenario, output, options);
   return 0;
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include "core/sine_cosine.hpp"
 
 namespace wormdrive {
@@ -17,10 +19,11 @@ struct ReferencePoint {
   }
 };
 
-/// A point of amplitude sin(phase) whose phase [rad] turns at omega [rad/s].
-inline ReferencePoint sine_point(double amplitude, double phase, double omega) {
-  const SineAndCosine now = sine_and_cosine(phase);
-  return {amplitude * now.sine, amplitude * omega * now.cosine, -amplitude * omega * omega * now.sine};
+/// A point of amplitude sin(2 pi turns), where turns grows by a frequency [Hz].
+inline ReferencePoint sine_point(double amplitude, double turns, double frequency) {
+  const SineAndCosine now = sine_and_cosine_of_turns(turns);
+  const double omega = 2.0 * std::numbers::pi * frequency, angle = amplitude * now.sine;
+  return {angle, amplitude * omega * now.cosine, -(omega * omega) * angle};
 }
 
 }  // namespace wormdrive

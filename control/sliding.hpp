@@ -89,20 +89,22 @@ class SlidingController {
         const double C = k == 0 ? nominal.C1 : nominal.C2, beta = k == 0 ? p.beta1 : p.beta2;
         inertia_[lane] = nominal.inertia(C);
         d_[lane] = (C + nominal.surface()) / inertia_[lane];
-        of_load_[lane] = beta * bounds.D[k];
-        of_input_[lane] = beta - 1.0;
-        constant_[lane] = beta * (bounds.E[k] + p.eta);
+        const double against = (lane == 0 ? -1.0 : 1.0) * inertia_[lane];
+        of_load_[lane] = against * (beta * bounds.D[k]);
+        of_input_[lane] = against * (beta - 1.0);
+        constant_[lane] = against * (beta * (bounds.E[k] + p.eta));
       }
     }
 
     /// (u_hat -+ k) / b_hat [N m], with the gain k = beta (D |tau_l_hat| + E + eta) + (beta - 1) |u_hat|.
     Pair inputs(double load, double wanted) const {
       const Pair u_hat = wanted - d_ * load;
-      return inertia_ * (u_hat + Pair{-1.0, 1.0} * (of_load_ * std::abs(load) + constant_ + of_input_ * abs(u_hat)));
+      return inertia_ * u_hat + ((of_load_ * std::abs(load) + constant_) + of_input_ * abs(u_hat));
     }
 
    private:
-    Pair inertia_{}, d_{}, of_load_{}, of_input_{}, constant_{};
+    Pair inertia_{}, d_{};
+    Pair of_load_{}, of_input_{}, constant_{};  ///< what -+ k / b_hat has of |tau_l_hat|, of |u_hat| and without them
   };
 
   SlidingController(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "core/jet.hpp"
@@ -19,7 +20,12 @@ class MotorInput {
  public:
   /// limit [N m], infinity without one; delay [s]; time constant of the lag [s], 0 without one.
   MotorInput(Signal signal, const T& limit, const T& delay, const T& lag)
-      : signal_(std::move(signal)), limit_(limit), delay_(delay), late_(value_of(delay)), lag_(lag) {}
+      : signal_(std::move(signal)),
+        limit_(limit),
+        delay_(delay),
+        late_(value_of(delay)),
+        lag_(lag),
+        direct_(std::is_same_v<T, double> && late_ <= 0.0 && std::isinf(value_of(limit)) && !lags()) {}
 
   /// Forgets what was commanded, for a new run from its start.
   void rewind() {
@@ -44,19 +50,13 @@ class MotorInput {
     signal_constant_ = signal.constant;
     freeze(signal, commanded);
   }
-  /// Commands a torque [N m] from t on, in addition to the signal.
-  void command(double t, double torque) {
-    arrival_ = T(t);
-    if (late_ > 0.0) {
-      on_the_way_.push_back({t + late_, torque});
-      return;
-    }
+  /// Commands a torque [N m] from t on, in addition to the signal; whether the next knot may be another one now.
+  [[gnu::always_inline]] bool command(double t, double torque) {
+    if (!direct_) return command_indirect(t, torque);
     held_ = torque;
-    arrival_ = moving(t);
-    if (std::isinf(value_of(limit_)) && !lags())
-      piece_.constant = signal_constant_ + torque;
-    else
-      freeze(signal_.piece(t), t);
+    arrival_ = T(t);
+    piece_.constant = signal_constant_ + torque;
+    return false;
   }
 
   /// The torque at a time of the piece [N m].
@@ -92,6 +92,22 @@ class MotorInput {
 
   bool lags() const { return lag_ > T(0); }
 
+  /// The same through a limit, a delay or a lag.
+  [[gnu::noinline]] bool command_indirect(double t, double torque) {
+    arrival_ = T(t);
+    if (late_ > 0.0) {
+      on_the_way_.push_back({t + late_, torque});
+      return true;
+    }
+    held_ = torque;
+    arrival_ = moving(t);
+    if (std::isinf(value_of(limit_)) && !lags())
+      piece_.constant = signal_constant_ + torque;
+    else
+      freeze(signal_.piece(t), t);
+    return true;
+  }
+
   /// A time at which something commanded arrives, with its derivative by the delay.
   T moving(double t) const { return T(t) + (delay_ - late_); }
   /// What the limit leaves of the command now [N m].
@@ -121,6 +137,7 @@ class MotorInput {
   T delay_;
   double late_;  ///< the delay's value [s]
   T lag_;
+  bool direct_;   ///< what is commanded is what the motor gives; nothing carries a derivative by a delay
   int side_ = 0;  ///< of the limit that holds now, 0 for none
   T arrival_{};
   LaggedPiece<T> lagged_{};

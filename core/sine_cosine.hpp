@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "core/pair.hpp"
 
@@ -70,24 +71,27 @@ inline constexpr double third = 0x1.5555555555548p-3;  ///< near 1/3!
 /// What the C library finds, for angles that are too large for the reduction.
 [[gnu::noinline, gnu::cold]] inline Pair of_library(double x) { return Pair{std::sin(x), std::cos(x)}; }
 
+inline constexpr double to_whole = 0x1.8p52;  ///< added to a double it leaves the nearest whole number in the last bits
+
+/// Turned back by k quarter turns, k in the last bits of `shifted`; without a branch: factors 0 and +-1 are exact.
+[[gnu::always_inline]] inline Pair turned_back(Pair unturned, double shifted) {
+  static constexpr std::array<Pair, 4> same{Pair{1.0, 1.0}, Pair{0.0, 0.0}, Pair{-1.0, -1.0}, Pair{0.0, 0.0}};
+  static constexpr std::array<Pair, 4> other{Pair{0.0, 0.0}, Pair{1.0, -1.0}, Pair{0.0, 0.0}, Pair{-1.0, 1.0}};
+  const auto quarter = std::bit_cast<std::uint64_t>(shifted) & 3U;
+  return same[quarter] * unturned + other[quarter] * Pair{unturned[1], unturned[0]};
+}
+
 /// Sine and cosine of any angle.
 [[gnu::noinline]] inline Pair turned(double x) {
   if (!(std::abs(x) < 1e6)) [[unlikely]]
     return of_library(x);
-  constexpr double to_whole = 0x1.8p52;  // added to a double it leaves the nearest whole number in the last bits
   const double shifted = x * two_over_pi + to_whole, k = shifted - to_whole;
   const double first = x - k * p1, second = k * p2_and_rest;
   Reduced r{first - second, 0.0};
   r.low = (first - r.high) - second;
   if (std::abs(r.high) < 0x1p-10) [[unlikely]]
     r = cancelled(x, k);
-  const Pair unturned = within(r);
-
-  // Turned back by k quarter turns, without a branch: factors 0 and +-1 are exact.
-  static constexpr std::array<Pair, 4> same{Pair{1.0, 1.0}, Pair{0.0, 0.0}, Pair{-1.0, -1.0}, Pair{0.0, 0.0}};
-  static constexpr std::array<Pair, 4> other{Pair{0.0, 0.0}, Pair{1.0, -1.0}, Pair{0.0, 0.0}, Pair{-1.0, 1.0}};
-  const auto quarter = std::bit_cast<std::uint64_t>(shifted) & 3U;
-  return same[quarter] * unturned + other[quarter] * Pair{unturned[1], unturned[0]};
+  return turned_back(within(r), shifted);
 }
 
 }  // namespace quarter_turn
@@ -95,6 +99,15 @@ inline constexpr double third = 0x1.5555555555548p-3;  ///< near 1/3!
 [[gnu::always_inline]] inline SineAndCosine sine_and_cosine(double x) {
   using namespace quarter_turn;
   const Pair both = std::abs(x) < 0x1.921fb54442d18p-1 ? within(x) : turned(x);
+  return {both[0], both[1]};
+}
+
+/// sin and cos of 2 pi turns: quarters of a turn are taken off exactly, whatever is left is right to the last place but
+/// one. |turns| < 2^50.
+[[gnu::always_inline]] inline SineAndCosine sine_and_cosine_of_turns(double turns) {
+  using namespace quarter_turn;
+  const double quarters = 4.0 * turns, shifted = quarters + to_whole;
+  const Pair both = turned_back(within((quarters - (shifted - to_whole)) * (0.5 * std::numbers::pi)), shifted);
   return {both[0], both[1]};
 }
 

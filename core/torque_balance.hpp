@@ -54,8 +54,9 @@ class TorqueBalance {
   const T& motor_arrival() const { return motor_.arrival(); }
   /// Forgets the inputs of the past, for a new run from its start.
   void rewind() { motor_.rewind(); }
-  /// Holds a motor torque [N m] from t on, in addition to the motor's signal; the caller settles the mode.
-  void command(double t, double tau_m) { motor_.command(t, tau_m); }
+  /// Holds a motor torque [N m] from t on, in addition to the motor's signal; whether the next knot may be another one
+  /// now. The caller settles the mode.
+  bool command(double t, double tau_m) { return motor_.command(t, tau_m); }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
   /// First time after t at which an input jumps or bends.

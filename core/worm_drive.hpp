@@ -45,7 +45,9 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   // ---- continuous motion --------------------------------------------------------------------------------------
 
-  Moment<T> moment(const Instant& now) const { return resting(moment(T(now.t), now.x[0], now.x[1]), now); }
+  [[gnu::always_inline]] Moment<T> moment(const Instant& now) const {
+    return resting(moment(T(now.t), now.x[0], now.x[1]), now);
+  }
 
   State derivative(double t, const State& x, Mode mode) const {
     return {mode.motion == Motion::stuck ? T(0) : x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
@@ -76,6 +78,10 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 
   // ---- events -------------------------------------------------------------------------------------------------
+
+  /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
+  /// better than the square root of epsilon in its period; still far below anything mechanical.
+  double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
 
   static bool at_rest(Mode mode) { return mode.motion == Motion::stuck; }
 
@@ -125,6 +131,10 @@ class WormDrive : public TorqueBalance<T, Load> {
     }
     return now;
   }
+  /// The same where it is known already that the switching surface is crossed and not only touched.
+  static Mode across_surface(Mode mode) {
+    return {mode.motion, mode.flank == Flank::left ? Flank::right : Flank::left};
+  }
 
   /// The mode in which the drive goes on after inputs or state were set from outside; ties mean stick.
   Mode settle(const Instant& now) const {
@@ -159,9 +169,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
     return at;
   }
-  /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
-  /// better than the square root of epsilon in its period; still far below anything mechanical.
-  double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
   /// Whether a balance of torques [N m] keeps its sign for an instant, none of them changing by its size within 10 us.
   bool lasts(const T& balance, const SideTorques<T>& tau) const {
     using std::abs;
@@ -210,7 +217,7 @@ class WormDrive : public TorqueBalance<T, Load> {
     auto beyond = beyond_surface(ahead<order>(now), now.mode.motion);
     beyond[0] = T(0);
     const int side = sign_just_after(beyond, instant());
-    if (side == 0) return now.mode.flank == Flank::left ? Flank::right : Flank::left;
+    if (side == 0) return across_surface(now.mode).flank;
     return side > 0 ? Flank::right : Flank::left;
   }
 };

@@ -19,9 +19,15 @@ struct Abscissae {
   std::vector<double> angle, speed, time, load, direction, side, moving;
 };
 
-Abscissae abscissae(const Evaluation& by, const Magnitudes& sizes) {
+/// They are taken from the state that the predictor had before a sample: what is smoothed from later samples as well
+/// knows their noise, and would find itself in it.
+Abscissae abscissae(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes) {
   Abscissae a;
-  for (const PreparedRecording& r : by.layout().recordings) {
+  std::vector<FilteredStates> states;
+  by.innovations(extended(h), h.noise, {}, &states);
+  for (std::size_t q = 0; q < states.size(); ++q) {
+    const PreparedRecording& r = by.layout().recordings[q];
+    const FilteredStates& state = states[q];
     Scenario loaded = by.scenario();
     if (r.data.load) loaded.load = *r.data.load;
     with_drive(loaded, [&](auto& drive) {
@@ -30,10 +36,10 @@ Abscissae abscissae(const Evaluation& by, const Magnitudes& sizes) {
         auto load = drive.load();
         load.enter(t);
         const double tau =
-            sizes.load_torque > 0.0 ? load.torque(drive.moment(t, r.data.gear_angle[k], 0.0)) / sizes.load_torque : 0.0;
-        const double direction = r.speed[k] > 0.0 ? 1.0 : -1.0;
-        a.angle.push_back(r.data.gear_angle[k]);
-        a.speed.push_back(r.speed[k]);
+            sizes.load_torque > 0.0 ? load.torque(drive.moment(t, state.angle[k], 0.0)) / sizes.load_torque : 0.0;
+        const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
+        a.angle.push_back(state.angle[k]);
+        a.speed.push_back(state.speed[k]);
         a.time.push_back(t);
         a.load.push_back(tau);
         a.direction.push_back(direction);
@@ -234,7 +240,7 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
 
 std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
                                    const AdequacyRules& rules) {
-  const Abscissae a = abscissae(by, sizes);
+  const Abscissae a = abscissae(by, h, sizes);
   const auto factor = [](const std::vector<double>& values) { return [&values](std::size_t k) { return values[k]; }; };
   const auto one = [](std::size_t) { return 1.0; };
   const auto loaded_side = [&a](std::size_t k) { return std::abs(a.load[k]) * a.direction[k]; };

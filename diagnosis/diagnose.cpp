@@ -8,6 +8,7 @@
 
 #include "diagnosis/adequacy.hpp"
 #include "diagnosis/certificate.hpp"
+#include "diagnosis/experiment.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/intervals.hpp"
 #include "diagnosis/prediction_error.hpp"
@@ -85,9 +86,36 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     c.outcome = c.named ? "named" : "promises too little to be fitted";
     list.push_back(std::move(c));
   }
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.delta_bic > b.delta_bic; });
+  // what is named comes first: a richer law that contains it has the higher evidence and is not named for it
+  std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+    return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
+  });
   return list;
+}
+
+/// Looks for a motion that splits the class of a diagnosis.
+void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Suspect>& all,
+                        const std::vector<Coordinate>& stated, const Magnitudes& sizes,
+                        const std::vector<Recording>& recordings, const DiagnosisSettings& settings) {
+  std::vector<Suspect> members;
+  for (const std::string& effect : d.equivalents)
+    for (const Suspect& s : all)
+      if (s.effect == effect) members.push_back(s);
+  double size = 0.0, excursion = 0.0;
+  for (const EstimatedEffect& cause : d.causes)
+    if (cause.effect == d.equivalents.front()) size = std::abs(cause.parameters.front().value);
+  for (const Recording& r : recordings)
+    for (const double y : r.gear_angle) excursion = std::max(excursion, std::abs(y));
+  if (members.size() < d.equivalents.size()) {
+    d.experiment_reason =
+        "twins: no motion tells them apart; it takes an index mark for a zero, a time stamp for a delay";
+    return;
+  }
+  if (settings.progress) settings.progress("looking for an experiment");
+  Experiment found =
+      splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
+  d.experiment = std::move(found.scenario);
+  d.experiment_reason = std::move(found.reason);
 }
 
 }  // namespace
@@ -105,8 +133,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   Hypothesis base;
   base.effects = scenario.effects;
-  base.free = stated;
-  for (const Coordinate& c : stated) base.values.push_back(c.centre);
+  for (const Coordinate& c : stated)
+    if (c.tolerance > 0.0) {
+      base.free.push_back(c);
+      base.values.push_back(c.centre);
+    }
   const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
 
   Diagnosis d;
@@ -145,6 +176,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   d.extended = scenario;
   d.extended.effects = extended(last);
+  if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
   d.passes = by.passes() + by_all.passes();

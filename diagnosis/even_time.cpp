@@ -5,14 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/robust.hpp"
+
 namespace wormdrive {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void refuse_disorder(const RecordedTable& table) {
   const std::vector<double>& t = table.time.values;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/robust.hpp"
+
 namespace wormdrive {
 namespace {
 
@@ -14,18 +16,6 @@ constexpr double robust_deviations = 20.0;    ///< beyond which a value is impos
 constexpr std::size_t longest_group = 5;      ///< of neighbours that are left out together
 constexpr double most_impossible = 0.01;      ///< share of all samples
 constexpr std::size_t standing_samples = 10;  ///< equal readings in a row that count as standing
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double robust_deviation(std::vector<double> values) {
-  const double centre = median(values);
-  for (double& value : values) value = std::abs(value - centre);
-  return 1.4826 * median(std::move(values));
-}
 
 /// The readings of an encoder, and how far a sample may lie from where its neighbours put it.
 class Path {
@@ -145,10 +135,8 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
   // a drive that rests most of the time has torques far from the median too, but never one of a size all its own
   const double middle = median(u);
   std::vector<double> sizes;
-  for (const double torque : u) sizes.push_back(std::abs(torque - middle));
-  const auto largest = sizes.end() - static_cast<std::ptrdiff_t>(sizes.size() / 200 + 1);
-  std::nth_element(sizes.begin(), largest, sizes.end());
-  const double far = std::max(robust_deviations * robust_deviation(u), 5.0 * *largest);
+  for (const double torque : u) sizes.push_back(torque - middle);
+  const double far = std::max(robust_deviations * robust_deviation(u), 5.0 * usual_peak(std::move(sizes)));
   for (std::size_t k = 0; k < u.size(); ++k) {
     if (far == 0.0 || std::abs(u[k] - middle) <= far) continue;
     leave(table.torque.name, table.torque.in_file(u[k]), k, k + 1);

@@ -11,6 +11,7 @@
 
 #include "diagnosis/impossible_samples.hpp"
 #include "diagnosis/needed_torque.hpp"
+#include "diagnosis/robust.hpp"
 
 namespace wormdrive {
 namespace {
@@ -20,9 +21,7 @@ using Values = std::vector<double>;
 double median_size(Values values) {
   if (values.empty()) return 0.0;
   for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 Values times(Values values, double factor) {
@@ -151,6 +150,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 }
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
+  if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const Fit as_is = Judge(scenario, table.time.values.front(), period).fit(table.torque.values, table.angle.values);
   if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
     refuse(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "

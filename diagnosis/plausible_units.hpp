@@ -9,6 +9,7 @@ namespace wormdrive {
 void refuse_implausible_units(const RecordedTable& table, double period, const Scenario& scenario);
 
 /// Throws InputFault if the torque is more than ten times what the drive needs for the motion, or less than a tenth.
+/// Of a drive without a gear it says nothing: most of its torque may be friction that is not stated.
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario);
 
 }  // namespace wormdrive

@@ -24,7 +24,8 @@ std::vector<double> slopes(const std::vector<double>& y, double period, long hal
   for (long k = 0; k < n; ++k) {
     const long middle = std::clamp(k, w, n - 1 - w);
     double sum = 0.0;
-    for (long j = -w; j <= w; ++j) sum += static_cast<double>(j) * y[static_cast<std::size_t>(middle + j)];
+    const double here = y[static_cast<std::size_t>(middle)];  // what stands has no slope, not one of rounding
+    for (long j = -w; j <= w; ++j) sum += static_cast<double>(j) * (y[static_cast<std::size_t>(middle + j)] - here);
     slope[static_cast<std::size_t>(k)] = sum / (squares * period);
   }
   return slope;

@@ -1,7 +1,5 @@
 #include "diagnosis/read_recording.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "diagnosis/even_time.hpp"
@@ -9,20 +7,9 @@
 #include "diagnosis/needed_torque.hpp"
 #include "diagnosis/plausible_units.hpp"
 #include "diagnosis/recorded_table.hpp"
+#include "diagnosis/robust.hpp"
 
 namespace wormdrive {
-namespace {
-
-/// A size that all but one in two hundred torques stay within.
-double usual_peak(std::vector<double> torques) {
-  for (double& torque : torques) torque = std::abs(torque);
-  const auto peak = torques.end() - static_cast<std::ptrdiff_t>(torques.size() / 200 + 1);
-  std::nth_element(torques.begin(), peak, torques.end());
-  return *peak;
-}
-
-}  // namespace
-
 Recording read_recording(const std::string& path, const Scenario& scenario) {
   RecordedTable table = read_recorded_table(path, scenario);
   EvenTime time = even_time(table);

@@ -4,18 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/robust.hpp"
 #include "scenarios/csv.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

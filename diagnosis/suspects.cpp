@@ -108,8 +108,8 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
     all.push_back(periodic("position_friction", 0.05, 0.7));
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
-    all.push_back(
-        finite("static_friction", "rise", 0.04 * m.friction, 0.0, m.friction, {0.05 * m.friction, 0.25 * m.friction}));
+    all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, m.friction,
+                         {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.5 * m.friction}));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
     all.push_back(linear("gear_coulomb", "torque", 0.02 * gear_torque, 0.0, gear_torque));
     all.push_back(
@@ -125,7 +125,7 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
     Suspect s = linear(c.effect, c.field, c.scale, c.low, c.high);
     s.coordinates[0] = c;
     s.starts[0].values = {c.centre};
-    s.toleranced = true;
+    s.toleranced = c.tolerance > 0.0;
     if (c.effect == "load_angle") s.twins = {"encoder_offset"};
     all.push_back(s);
   }
@@ -148,6 +148,8 @@ std::vector<NotExamined> not_examined(const Magnitudes& m) {
       list.push_back({effect, "without a gear the worm's side stands for both"});
   if (m.load_torque <= 0.0)
     for (const std::string_view effect : {"load_magnitude", "load_angle"}) list.push_back({effect, "there is no load"});
+  else if (!m.load_turns)
+    list.push_back({"load_angle", "the load does not depend on the angle"});
   return list;
 }
 

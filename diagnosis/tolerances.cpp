@@ -12,7 +12,6 @@ std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const M
                        double high) {
     for (const Tolerance& t : stated)
       if (t.effect == effect && t.field == field) tolerance = t.deviation;
-    if (tolerance <= 0.0) return;
     const double centre = field_of(scenario.effects, effect, field).value;
     all.push_back({.effect = effect,
                    .field = field,

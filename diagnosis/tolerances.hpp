@@ -8,10 +8,9 @@
 
 namespace wormdrive {
 
-/// The stated numbers that stay free in every fit, each with its tolerance: those of the settings, else those of the
-/// scenario, else 1 % of mesh friction, load, inertias and torque gain, 1 % of the rms torque of torque offset, and
-/// 0.01 rad of the load's angle. Throws std::invalid_argument for a tolerance of a field that the catalogue does not
-/// have.
+/// The stated numbers, each with its tolerance: that of the settings, else of the scenario. Those with a tolerance above 0
+/// stay free in every fit; one that is exactly known is a suspect like any other effect. Throws std::invalid_argument for
+/// a tolerance of a field that the catalogue does not have.
 std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const Magnitudes& sizes,
                                                const std::vector<Tolerance>& stated);
 

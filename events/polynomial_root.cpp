@@ -73,6 +73,16 @@ std::size_t start_roots(Polynomial c) {
   return c.size();
 }
 
+bool falls_through(Polynomial c, double s, double instant) {
+  double slope = 0.0, bend = 0.0, value = 0.0;  // bend: half the second derivative
+  for (std::size_t k = c.size(); k-- > 0;) {
+    bend = bend * s + slope;
+    slope = slope * s + value;
+    value = value * s + c[k];
+  }
+  return slope < 0.0 && -slope > 2.0 * instant * std::abs(bend);
+}
+
 RootSearch::Fall RootSearch::start_of_segment(Polynomial guard, double h) {
   const auto found = [](double begin, std::optional<double> s) {
     return Fall{s ? std::optional(begin + *s) : std::nullopt, true};

@@ -9,6 +9,9 @@ namespace wormdrive {
 /// sign_just_after judges them: the polynomial has that many roots at s = 0. All of them where nothing remains.
 std::size_t start_roots(Polynomial c);
 
+/// Whether a polynomial that has a root at s certainly falls there, and for longer than an instant [s].
+bool falls_through(Polynomial c, double s, double instant);
+
 /// Finds where guards fall through zero within a step, and counts how often a guard had to be evaluated for it.
 class RootSearch {
  public:

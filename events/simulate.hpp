@@ -42,6 +42,15 @@ typename System::Mode settle(const System& system, Solver& solver, const typenam
     return system.settle(now);
 }
 
+/// The state after a guard has fired; likewise.
+template <class System, class Solver>
+typename System::Instant jump(const System& system, Solver& solver, const typename System::Instant& now, int guard) {
+  if constexpr (requires { solver.jump(now, guard); })
+    return solver.jump(now, guard);
+  else
+    return system.jump(now, guard);
+}
+
 /// Runs a hybrid system to the end of its timetable and returns its last instant.
 ///
 /// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next;
@@ -75,14 +84,13 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         if (!std::isfinite(tau_m))
           throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
         cause.torque = tau_m;
-        system.command(now.t, tau_m);
-        timetable.schedule_knot(system.next_knot(now.t));
+        if (system.command(now.t, tau_m)) timetable.schedule_knot(system.next_knot(now.t));
         now.mode = settle(system, solver, now);
         break;
       }
       case Reason::guard: {
         const auto before = now.mode;
-        now = system.jump(now, guard);
+        now = jump(system, solver, now, guard);
         log.count(now.t, std::string(System::guard_name(before, guard)), before, now.mode);
         break;
       }

@@ -21,11 +21,16 @@ inline double rough_exp2(double y) {
 /// The tolerances are errors per second of simulated time, so that the error of a run does not depend on into how
 /// many steps samples and inputs cut it.
 class TaylorAccuracy {
+  /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
+  static constexpr int window = 6;
+
  public:
+  static constexpr int least_order = window + 2;  ///< below which no series is judged
+
   explicit TaylorAccuracy(const SolverSettings& settings)
       : absolute_(std::max(settings.absolute_tolerance, 1e-18)),
         relative_(std::max(settings.relative_tolerance, 1e-16)),
-        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), window + 2, highest_order)) {}
+        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), least_order, highest_order)) {}
 
   /// Error of the speed [rad/s] that a second may bring.
   double allowed(double speed) const { return absolute_ + relative_ * std::abs(speed); }
@@ -37,7 +42,7 @@ class TaylorAccuracy {
   /// Whether the last terms of speed and guards are negligible over a step of h.
   template <class Expansion>
   bool suffices(Expansion& e, double h) const {
-    if (e.order < window + 2) return false;
+    if (e.order < least_order) return false;
     double power = h;
     for (int k = 2; k <= e.order - window; ++k) power *= h;
     for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
@@ -65,9 +70,6 @@ class TaylorAccuracy {
   }
 
  private:
-  /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
-  static constexpr int window = 6;
-
   /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
   /// the guard may only touch zero, would show as two events.
   template <class Expansion>

@@ -70,7 +70,35 @@ struct HeldMotion {
     // Squares, for a root would keep everything behind it waiting.
     const double reach = rate * (h * h), error = restoring * restoring * (reach * reach * reach);
     const double allowed = accuracy.allowed(fastest);
+    if constexpr (!rubs) {
+      constexpr double remainder = motion_bounds.remainder(5);
+      if (error * reach * (remainder * remainder) <= allowed * allowed) {
+        fifth_order<swings>(theta, omega, h, held.push, arm);
+        return true;
+      }
+    }
     return follow<4, swings, rubs>(theta, omega, h, held.push, arm, error, reach, allowed * allowed);
+  }
+
+  /// The step to the fifth derivative of the angle without drag, in closed form. It is linear in the acceleration, and
+  /// all that multiplies it and is added to it is known before the torque is: nothing else waits for a controller.
+  template <bool swings>
+  [[gnu::always_inline]] void fifth_order(double& theta, double& omega, double h, double push,
+                                          const SineAndCosine& arm) const {
+    if constexpr (!swings) {
+      theta += omega * h + 0.5 * push * (h * h);
+      omega += push * h;
+    } else {
+      const double alpha = push + gravity * arm.cosine, drift = omega * h, square = h * h;
+      const double tilt = gravity * arm.sine * square, pull = gravity * arm.cosine * square, swing = drift * drift;
+      // derivatives of the angle times powers of h, without what alpha gives them
+      const double third = -tilt * drift, fourth = -pull * swing, fifth = tilt * drift * (tilt + swing);
+      const double turning = 3.0 * pull * drift;
+      theta += (drift + (third * (1.0 / 6) + (fourth * (1.0 / 24) + fifth * (1.0 / 120)))) +
+               alpha * (square * (0.5 - (tilt * (1.0 / 24) + turning * (1.0 / 120))));
+      omega += (third * 0.5 + (fourth * (1.0 / 6) + fifth * (1.0 / 24))) * (1.0 / h) +
+               alpha * (h * (1.0 - (tilt * (1.0 / 6) + turning * (1.0 / 24))));
+    }
   }
 
   /// The step with the derivatives of the angle up to the N-th or, if they are not enough, to a later one; error, reach

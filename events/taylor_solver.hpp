@@ -31,6 +31,15 @@ class TaylorSolver {
     return system_.settle(now);
   }
 
+  /// The state after a guard has fired.
+  Instant jump(const Instant& now, int guard) {
+    if constexpr (NominalFlow<System>::known)
+      if (!System::at_rest(now.mode) && guard == System::flank_guard &&
+          falls_through(series_.guard(guard), now.t - begin_.t, system_.instant()))
+        return {now.t, now.x, System::across_surface(now.mode), now.since};
+    return system_.jump(now, guard);
+  }
+
   /// Takes up a new state.
   void restart(const Instant& now) {
     ++count_.restarts;

@@ -34,41 +34,54 @@ class Timetable {
     schedule_sample();
     schedule_latch();
     schedule_report();
+    find_next();
   }
 
   /// The next time event of any kind.
-  double next_time() const { return std::min({next_stop(), latch_, report_}); }
+  double next_time() const { return next_; }
   /// The next time past which no solver may look: behind it the inputs differ.
-  double next_stop() const { return std::min({knot_, sample_, end_}); }
+  double next_stop() const { return next_stop_; }
 
   /// Takes the event that is due at next_time(); simultaneous ones in the order knot, latch, sample, report, end.
-  Reason pop() {
-    const double t = next_time();
-    if (knot_ <= t && knot_ < end_) {
+  [[gnu::always_inline]] Reason pop() {
+    const Reason due = next();
+    find_next();
+    return due;
+  }
+
+  void schedule_knot(double t) {
+    knot_ = t;
+    find_next();
+  }
+
+ private:
+  Reason next() {
+    if (knot_ <= next_ && knot_ < end_) {
       knot_ = std::numeric_limits<double>::infinity();
       return Reason::knot;
     }
-    if (latch_ <= t && latch_ < end_) {
+    if (latch_ <= next_ && latch_ < end_) {
       ++latches_;
       schedule_latch();
       return Reason::latch;
     }
-    if (sample_ <= t && sample_ < end_) {
+    if (sample_ <= next_ && sample_ < end_) {
       ++samples_;
       schedule_sample();
       return Reason::sample;
     }
-    if (report_ <= t) {
+    if (report_ <= next_) {
       ++reports_;
       schedule_report();
       return Reason::report;
     }
     return Reason::end;
   }
+  void find_next() {
+    next_stop_ = std::min({knot_, sample_, end_});
+    next_ = std::min({next_stop_, latch_, report_});
+  }
 
-  void schedule_knot(double t) { knot_ = t; }
-
- private:
   // Counted, not accumulated, so that the k-th sample or report is where its number says.
   double sample_time(long k) const {
     // 0 times an infinite period would not be a number
@@ -89,6 +102,7 @@ class Timetable {
   Sampling sampling_;
   double sample_ = 0.0, latch_ = std::numeric_limits<double>::infinity(), report_ = 0.0;
   long samples_ = 0, latches_ = 0, reports_ = 1;
+  double next_stop_ = 0.0, next_ = 0.0;
 };
 
 /// True where so little time is left that a solver could not take a step: at most 2 ulp of t.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 namespace wormdrive {
 namespace {
@@ -79,6 +80,12 @@ Hdf5Handle open_hdf5(const std::string& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
 }
 
+Hdf5Handle reopen_hdf5(const std::string& path) {
+  prepare_hdf5();
+  errno = 0;
+  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot open " + path};
+}
+
 Hdf5Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
@@ -102,6 +109,15 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   check_hdf5(H5Awrite(attribute, H5T_NATIVE_INT8, values.data()), action);
 }
 
+std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
+  const std::string action = "it has no attribute '" + name + "'";
+  errno = 0;
+  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, action);
+  std::int64_t value = 0;
+  check_hdf5(H5Aread(attribute, H5T_NATIVE_INT64, &value), action);
+  return value;
+}
+
 std::string read_text_attribute(hid_t object, const std::string& name) {
   const std::string action = "it has no attribute '" + name + "'";
   errno = 0;
@@ -116,14 +132,31 @@ std::string read_text_attribute(hid_t object, const std::string& name) {
   return copy;
 }
 
-std::vector<double> read_column(hid_t file, const std::string& path) {
+namespace {
+
+/// count: how many, or all that follow.
+std::vector<double> read_values(hid_t file, const std::string& path, hsize_t first, std::optional<hsize_t> count) {
   const std::string action = "it has no dataset '" + path + "'";
   errno = 0;
   const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, action);
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, action);
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), action);
+  const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+  const hsize_t wanted = count.value_or(size - first);
+  std::vector<double> values(wanted);
+  if (wanted == 0) return values;
+  if (first + wanted > size) throw OutputFault("its dataset '" + path + "' is too short");
+  const Hdf5Handle memory(H5Screate_simple(1, &wanted, nullptr), H5Sclose, action);
+  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &wanted, nullptr), action);
+  check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), action);
   return values;
+}
+
+}  // namespace
+
+std::vector<double> read_column(hid_t file, const std::string& path) { return read_values(file, path, 0, {}); }
+
+std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count) {
+  return read_values(file, path, first, count);
 }
 
 }  // namespace wormdrive

@@ -51,6 +51,8 @@ void check_hdf5(herr_t status, const std::string& action);
 bool is_hdf5(const std::string& path);
 Hdf5Handle create_hdf5(const std::string& path);
 Hdf5Handle open_hdf5(const std::string& path);
+/// Opens a file to write on in it.
+Hdf5Handle reopen_hdf5(const std::string& path);
 Hdf5Handle create_group(hid_t parent, const std::string& name);
 
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
@@ -58,9 +60,13 @@ void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values);
 
+/// Whole number of an attribute of an object; throws OutputFault if it is absent.
+std::int64_t read_integer_attribute(hid_t object, const std::string& name);
 /// Text of a string attribute of an object; throws OutputFault if it is absent or something else.
 std::string read_text_attribute(hid_t object, const std::string& name);
 /// All values of a one-dimensional dataset, converted to double.
 std::vector<double> read_column(hid_t file, const std::string& path);
+/// So many of them from the first one on.
+std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count);
 
 }  // namespace wormdrive

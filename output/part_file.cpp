@@ -29,7 +29,13 @@ void refuse_to_replace_other_things(const std::string& path) {
     throw OutputFault(fmt::format("cannot write {}: it exists and is not an HDF5 file; choose another name", path));
 }
 
-/// HDF5 locks a file that it writes, but empties it before it asks for the lock.
+void remove_quietly(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+}
+
+}  // namespace
+
 void refuse_to_disturb_a_writer(const std::string& part_path) {
   const int descriptor = ::open(part_path.c_str(), O_RDONLY);
   if (descriptor < 0) return;
@@ -37,13 +43,6 @@ void refuse_to_disturb_a_writer(const std::string& part_path) {
   ::close(descriptor);
   if (taken) throw OutputFault(fmt::format("cannot write {}: another program is writing it", part_path));
 }
-
-void remove_quietly(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
-}
-
-}  // namespace
 
 void synchronise(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY);
@@ -63,6 +62,12 @@ PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(path_ 
     remove_quietly(part_path_);
     throw;
   }
+}
+
+PartFile::PartFile(std::string path, Left) : path_(std::move(path)), part_path_(path_ + ".part"), stays_(true) {
+  refuse_to_replace_other_things(path_);
+  refuse_to_disturb_a_writer(part_path_);
+  file_ = reopen_hdf5(part_path_);
 }
 
 PartFile::~PartFile() {

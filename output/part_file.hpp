@@ -11,6 +11,8 @@ class PartFile {
   /// Creates NAME.part; throws OutputFault if the place cannot be written, or if NAME is something that no result may
   /// replace: neither a plain file nor absent, or a file that is not HDF5.
   explicit PartFile(std::string path);
+  /// Opens the NAME.part that a program left, to go on with it; it stays whatever happens.
+  static PartFile reopened(std::string path) { return {std::move(path), Left{}}; }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
   /// Deletes a part that was neither finished nor kept: what could not be written whole is not left behind.
@@ -28,17 +30,24 @@ class PartFile {
   void keep();
 
  private:
+  struct Left {};
+  PartFile(std::string path, Left);
+
   std::string path_, part_path_;
   Hdf5Handle file_;
   bool stays_ = false;
 };
+
+/// HDF5 locks a file that it writes, but empties it before it asks for the lock. Throws OutputFault where a program has
+/// it.
+void refuse_to_disturb_a_writer(const std::string& part_path);
 
 /// Waits until a file is on disk: a rename may otherwise outlive its data in a power cut. Throws OutputFault.
 void synchronise(const std::string& path);
 
 /// Title, kind and provenance that every result file carries as root attributes.
 struct Provenance {
-  std::string kind;  ///< "run", "statics", "steady" or "diagnosis"
+  std::string kind;  ///< "run", "statics", "steady", "sweep" or "diagnosis"
   std::string title;
   std::string scenario;      ///< the resolved scenario as TOML text
   std::string command_line;  ///< as typed

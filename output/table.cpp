@@ -18,22 +18,28 @@ GrowingTable::GrowingTable(hid_t parent, const std::string& group, std::vector<C
   const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
   check_hdf5(H5Pset_chunk(properties, 1, &rows_per_chunk), action);
   for (const ColumnDescription& column : descriptions_) {
-    const hid_t type = column.is_flag() ? H5T_STD_I8LE : H5T_IEEE_F64LE;
-    Hdf5Handle dataset(H5Dcreate2(group_, column.name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
-                       H5Dclose, action);
-    write_attribute(dataset, "long_name", column.long_name);
-    if (column.is_flag()) {
-      write_attribute(dataset, "flag_values", column.flag_values);
-      write_attribute(dataset, "flag_meanings", column.flag_meanings);
-    } else {
-      write_attribute(dataset, "units", column.units);
-    }
-    if (datasets_.empty())
-      check_hdf5(H5DSset_scale(dataset, column.name.c_str()), action);
-    else
-      check_hdf5(H5DSattach_scale(dataset, datasets_.front(), 0), action);
-    datasets_.push_back(std::move(dataset));
+    const hid_t scale = datasets_.empty() ? H5I_INVALID_HID : hid_t(datasets_.front());
+    datasets_.push_back(create_column(group_, column, space, properties, scale, action));
   }
+}
+
+Hdf5Handle create_column(hid_t group, const ColumnDescription& column, hid_t space, hid_t properties, hid_t scale,
+                         const std::string& action) {
+  const hid_t type = column.is_flag() ? H5T_STD_I8LE : H5T_IEEE_F64LE;
+  Hdf5Handle dataset(H5Dcreate2(group, column.name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+                     H5Dclose, action);
+  write_attribute(dataset, "long_name", column.long_name);
+  if (column.is_flag()) {
+    write_attribute(dataset, "flag_values", column.flag_values);
+    write_attribute(dataset, "flag_meanings", column.flag_meanings);
+  } else {
+    write_attribute(dataset, "units", column.units);
+  }
+  if (scale < 0)
+    check_hdf5(H5DSset_scale(dataset, column.name.c_str()), action);
+  else
+    check_hdf5(H5DSattach_scale(dataset, scale, 0), action);
+  return dataset;
 }
 
 void GrowingTable::append(const std::vector<std::vector<double>>& columns) {

@@ -38,6 +38,10 @@ class GrowingTable {
   hsize_t rows_ = 0;
 };
 
+/// Creates an empty column of a table with its attributes; scale: the table's first column, if there is one.
+Hdf5Handle create_column(hid_t group, const ColumnDescription& column, hid_t space, hid_t properties, hid_t scale,
+                         const std::string& action);
+
 /// A text column beside a table, such as names.
 void write_texts(hid_t group, const std::string& name, const std::string& long_name,
                  const std::vector<std::string>& texts);

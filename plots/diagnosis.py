@@ -13,6 +13,12 @@ BINS = 40  # of a map
 MOST_BARS = 15  # effects in the ranking
 
 
+def legend_above(figure, handles):
+    """One legend for all panels, in a strip of its own."""
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.95))
+    figure.legend(handles=handles, loc="upper right", ncol=len(handles))
+
+
 def texts(table, name):
     """Returns a text column."""
     return [text(value) for value in dataset(table, name)[:]]
@@ -116,7 +122,7 @@ def draw_examples(result, examples):
         cells[0].set_title(f"{horizon:g} s ahead, change of the gear angle", loc="left", size=12)
     for cell in grid[-1]:
         cell.set_xlabel("time [s]")
-    figure.legend(handles=handles, loc="upper right", ncol=3)
+    legend_above(figure, handles)
     return figure
 
 
@@ -190,7 +196,7 @@ def draw_residual(result):
             handles += cell.plot(middle, factor * mean, color=colour, linewidth=1.6, label=name)
         cell.axhline(0.0, color=style.GREY, linewidth=0.9, zorder=1)
         cell.set(xlabel=label, ylabel=f"torque [{unit}]")
-    figure.legend(handles=handles, loc="upper right", ncol=2)
+    legend_above(figure, handles)
     return figure
 
 

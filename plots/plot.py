@@ -12,9 +12,11 @@ import over
 import run
 import statics
 import steady
+import sweep
 from result import NotAResult, attribute, text
 
-PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "diagnosis": diagnosis.draw}
+PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "sweep": sweep.draw,
+            "diagnosis": diagnosis.draw}
 NOT_A_RESULT, NOT_WRITTEN = 2, 4  # exit codes
 
 
@@ -75,8 +77,10 @@ def picture(paths, over_torque, part):
         return over.draw(read_runs(paths, over.read), names)
     if not others:
         return read(first, PICTURES[name])
+    if name == "sweep":
+        return sweep.draw_overlay(read_runs(others, sweep.read_course))
     if name != "statics":
-        fail(NOT_A_RESULT, "several runs need --over motor_torque, or a statics file first")
+        fail(NOT_A_RESULT, "several runs need --over motor_torque, or a statics or sweep file first")
     runs = read_runs(others, run.break_aways)
     if runs[0].units[:2] != read(first, statics.torque_units):
         fail(NOT_A_RESULT, f"{others[0]} is in other units than {first}")
@@ -101,8 +105,8 @@ def main():
     """Reads the command line and draws."""
     parser = argparse.ArgumentParser(prog="plot", description="Draws wormdrive result files as a PNG picture.")
     parser.add_argument("files", metavar="FILE.h5", nargs="+",
-                        help="result of wormdrive run, statics, steady or diagnose; a statics file and runs; "
-                             "or, with --over, several runs")
+                        help="result of wormdrive run, statics, steady, sweep or diagnose; a statics file and runs; a sweep "
+                             "and runs of its trials; or, with --over, several runs")
     parser.add_argument("-o", "--output", metavar="OUT.png", required=True, help="picture to write")
     parser.add_argument("--over", choices=["motor_torque"], help="draw the gear angle of runs over the motor torque")
     parser.add_argument("--part", choices=list(diagnosis.PARTS), help="which picture of a diagnosis")

@@ -5,6 +5,7 @@
 
 #include "core/worm_drive.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/taken_up.hpp"
 
 namespace wormdrive {
 
@@ -15,13 +16,15 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
 }
 
 /// Builds the concrete drive of a scenario with other effects and another motor torque, and calls use(drive): its
-/// load's type is known from here on.
+/// load's type is known from here on. Of the effects the drive has those that are not taken up by mesh and load.
 template <class Use>
 decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
-        using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> drive(stated_mesh(scenario), make_load(parameters), effects, motor);
+        auto load = make_load(parameters);
+        GearMesh<double> mesh = stated_mesh(scenario);
+        const Effects<double> left = take_up(effects, mesh, load);
+        WormDrive<double, decltype(load)> drive(mesh, load, left, motor);
         return use(drive);
       },
       scenario.load);

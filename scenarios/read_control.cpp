@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/build_control.hpp"
 #include "scenarios/read_reference.hpp"
 #include "scenarios/read_signal.hpp"
+#include "scenarios/refusal.hpp"
 #include "scenarios/variant_kinds.hpp"
 
 namespace wormdrive {
@@ -64,7 +64,8 @@ class ControlReader {
     std::visit([&](auto& law) { read_law(table, law, folder_); }, control.law);
     const bool follows = !std::holds_alternative<OpenLoopParameters>(control.law);
     if (follows && !root_.has("reference")) table.lacks("a [reference] to follow");
-    if (follows && root_.faults().empty()) check_nominal(table);
+    if (root_.faults().empty())
+      for (const ControllerRefusal& refusal : controller_refusals(scenario_)) table.fault(refusal.key, refusal.what);
   }
 
   void check_sampling(TableReader& table, const SamplingSettings& sampling) {
@@ -82,21 +83,6 @@ class ControlReader {
       table.fault("sample_offset_s",
                   fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s", sampling.offset,
                               duration));
-  }
-
-  /// Both branches must have a positive inertia, for the law divides by it, and the linear design a solution.
-  void check_nominal(TableReader& table) {
-    const NominalModel nominal = make_nominal(scenario_);
-    for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})
-      if (nominal.inertia(C) <= 0.0)
-        table.fault(
-            "nominal",
-            fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be greater than 0", name,
-                        nominal.inertia(C)));
-    const auto* const pid = std::get_if<PidParameters>(&scenario_.control->law);
-    if (pid && pid->integral_weight > 0.0 && root_.faults().empty() &&
-        !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
-      table.fault("kind", "the weights have no stabilising gains in double precision; bring them closer to each other");
   }
 
   void read_window(TableReader& metrics, MetricsWindow& window) {

@@ -5,6 +5,7 @@
 #include "core/compliant_start.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
+#include "output/event_counter.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/replay.hpp"
 #include "scenarios/run_scenario.hpp"
@@ -32,7 +33,12 @@ class DriveRun {
       finish_rows();
       throw;
     }
-    summary_.end = recorder_.trajectory().rows.back().at;
+    if (listeners_.rows) {
+      summary_.end = recorder_.trajectory().rows.back().at;
+    } else {
+      summary_.events = counter_.events();
+      summary_.end = counter_.end(drive_);
+    }
     finish_rows();
     summary_.statistics = solver_.statistics();
     if (listeners_.audit) audit();
@@ -41,9 +47,12 @@ class DriveRun {
 
  private:
   void record(const Drive& drive, const Instant& now) {
-    recorder_(drive, now);
+    if (listeners_.rows)
+      recorder_(drive, now);
+    else
+      counter_(drive, now);
     if (listeners_.audit) trail_(drive, now);
-    if (recorder_.trajectory().rows.size() > portion) hand_over();
+    if (recorder_.trajectory().rows.size() > portion || samples_.size() > portion) hand_over();
     if (listeners_.time) listeners_.time(now.t);
   }
 
@@ -111,7 +120,8 @@ class DriveRun {
   Solver& solver_;
   const Scenario& scenario_;
   const RunListeners& listeners_;
-  TrajectoryRecorder recorder_;
+  TrajectoryRecorder recorder_;  ///< while somebody wants rows
+  EventCounter<Drive> counter_;  ///< else
   AuditTrail<Drive, Solver> trail_{solver_};
   std::vector<ControlRecord> samples_;
   std::vector<typename Replay<Drive>::Held> held_;

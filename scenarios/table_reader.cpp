@@ -65,7 +65,7 @@ TableReader::TableReader(const toml::table* table, std::string path, Axis axis, 
 }
 
 std::string TableReader::table_name() const {
-  if (path_.empty()) return "the scenario";
+  if (path_.empty()) return whole_;
   return path_.ends_with(']') ? path_ : fmt::format("[{}]", path_);
 }
 
@@ -147,6 +147,22 @@ std::optional<std::string> TableReader::text(const std::string& key) {
   if (!node) return std::nullopt;
   if (!node->is_string()) wrong_type(key, *node, "a string");
   return node->value<std::string>();
+}
+
+std::vector<std::string> TableReader::texts(const std::string& key) {
+  const toml::node* node = find(key);
+  if (!node) return {};
+  if (!node->is_array()) wrong_type(key, *node, "an array of strings");
+  std::vector<std::string> list;
+  for (std::size_t k = 0; node->is_array() && k < node->as_array()->size(); ++k) {
+    const toml::node& element = *node->as_array()->get(k);
+    if (const auto word = element.value<std::string>())
+      list.push_back(*word);
+    else
+      faults_.add(location(element.source()),
+                  fmt::format("{}[{}] must be a string, not {}", path_of(key), k, type_name(element)));
+  }
+  return list;
 }
 
 std::optional<bool> TableReader::truth(const std::string& key) {

@@ -19,6 +19,8 @@ class TableReader {
   /// missing_at: where faults stand of a table that is not there.
   TableReader(const toml::table* table, std::string path, Axis axis, Faults& faults, Location missing_at);
 
+  /// What messages call the whole file, "the scenario" unless it is said otherwise.
+  void set_whole(std::string whole) { whole_ = std::move(whole); }
   /// From here on keys are spelled for this axis.
   void set_axis(Axis axis) { axis_ = axis; }
 
@@ -39,6 +41,8 @@ class TableReader {
   /// A list of numbers in SI.
   std::optional<std::vector<double>> numbers(const Spelling& spelling);
   std::optional<std::string> text(const std::string& key);
+  /// A list of strings; empty if it is not there.
+  std::vector<std::string> texts(const std::string& key);
   std::optional<bool> truth(const std::string& key);
   /// One of several words; the first is the default, or, if required, there is none.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words, Presence presence);
@@ -90,6 +94,7 @@ class TableReader {
   const bool present_;
   const toml::table& table_;
   std::string path_;
+  std::string whole_ = "the scenario";
   Axis axis_;
   Faults& faults_;
   Location here_;

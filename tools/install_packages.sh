@@ -19,6 +19,9 @@ packages=(
   libtomlplusplus-dev  # scenario files
   nlohmann-json3-dev   # reports for machines
   libfmt-dev           # text output
+  libnlopt-dev         # searches for the worst case
+  libopenmpi-dev       # sweeps shared by several machines
+  openmpi-bin          # mpirun
   catch2               # unit tests
   python3              # plots and tools/check_layers
   python3-numpy        # plots

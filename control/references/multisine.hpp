@@ -30,8 +30,8 @@ struct MultisineReference {
     const int n = static_cast<int>(count);
     for (int k = 0; k < n; ++k) {
       const double share = n > 1 ? static_cast<double>(k) / (n - 1) : 0.0;
-      const double omega = 2.0 * std::numbers::pi * (lowest_frequency + share * (highest_frequency - lowest_frequency));
-      sum += sine_point(amplitude, omega * t - std::numbers::pi * k * (k - 1) / n, omega);
+      const double frequency = lowest_frequency + share * (highest_frequency - lowest_frequency);
+      sum += sine_point(amplitude, frequency * t - 0.5 * k * (k - 1) / n, frequency);
     }
     return sum;
   }

@@ -23,8 +23,7 @@ struct SinusoidReference {
                       Field{&P::phase, "phase", unit::degrees, bounds::any, "phase at t = 0", Presence::optional}};
   }
   ReferencePoint at(double t) const {
-    const double omega = 2.0 * std::numbers::pi * frequency;
-    return sine_point(amplitude, omega * t + phase, omega);
+    return sine_point(amplitude, frequency * t + phase * (0.5 * std::numbers::inv_pi), frequency);
   }
 };
 

@@ -267,7 +267,7 @@ TEST_CASE("several results share one picture: break-aways in the map of statics,
 
   const Outcome alone = folder.run({"plot", "f.h5", "b.h5"});
   CHECK(alone.exit == 2);
-  CHECK(alone.err == "plot: several runs need --over motor_torque, or a statics file first\n");
+  CHECK(alone.err == "plot: several runs need --over motor_torque, or a statics or sweep file first\n");
   const Outcome missing = folder.run({"plot", "no.h5", "f.h5", "neither.h5"});
   CHECK(missing.exit == 2);
   CHECK(missing.err ==

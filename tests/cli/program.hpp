@@ -56,7 +56,7 @@ class Process {
     wait();
   }
 
-  void kill() const { ::kill(pid_, SIGKILL); }
+  void kill(int signal = SIGKILL) const { ::kill(pid_, signal); }
   Outcome wait() {
     Outcome outcome;
     std::array<pollfd, 2> ends{{{out_[0], POLLIN, 0}, {err_[0], POLLIN, 0}}};

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iostream>
 #include <numbers>
 
 #include "catch.hpp"
@@ -109,4 +111,19 @@ TEST_CASE("the recording that is shipped is one") {
   CHECK(r.samples() == 8000);
   CHECK(r.remarks.empty());
   CHECK(std::abs(r.gear_resolution - 2 * std::numbers::pi / 16384) < 1e-6);
+}
+
+TEST_CASE("the measured servo axis is taken for a recording", "[reference]") {
+  const std::string path = std::string(WORMDRIVE_REFERENCE_DATA) + "/emps/data_emps.csv";
+  if (!std::filesystem::exists(path)) {
+    std::cout << "skipped: reference data not found\n";
+    return;
+  }
+  Scenario axis;
+  axis.axis = Axis::linear;
+  axis.mesh = SingleInertia<double>{95.1};
+  const Recording r = read_recording(path, axis);
+  CHECK(r.samples() == 24841);
+  CHECK(std::abs(r.period - 1e-3) < 1e-9);
+  CHECK(r.remarks.empty());
 }

@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/steady.hpp"

@@ -23,7 +23,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 struct Autonomous {
   using Mode = wormdrive::Mode;
   void enter(double) {}
-  void command(double, double) {}
+  bool command(double, double) { return false; }
   double next_knot(double) const { return never; }
   double fastest_input(double) const { return 0.0; }
   static bool at_rest(Mode) { return false; }

@@ -175,19 +175,52 @@ TEST_CASE("short steps and late times leave the equations of core their rounding
   REQUIRE((late.end.x - free.end.x).cwiseAbs().maxCoeff() <= 1e-9);
 }
 
+/// How far a double is from the exact number, in units of its last place.
+double units_off(double found, long double exact) {
+  return static_cast<double>((found - exact) / (std::nextafter(std::abs(found), 2.0) - std::abs(found)));
+}
+
 TEST_CASE("sine and cosine are within one unit in the last place, whatever the angle and its quarter turn") {
   Deviation ulps;
   for (int k = 0; k < 200'000; ++k) {
     const double near = k % 7 == 0 ? (k % 4001) * (std::numbers::pi / 2) : 0.0;
     const double x = near + std::ldexp((k % 1999) - 999.5, k % 23 - 20);
     const auto [sine, cosine] = sine_and_cosine(x);
-    const auto off = [](double found, long double exact) {
-      return static_cast<double>((found - exact) / (std::nextafter(std::abs(found), 2.0) - std::abs(found)));
-    };
-    ulps.add(off(sine, std::sin(static_cast<long double>(x))));
-    ulps.add(off(cosine, std::cos(static_cast<long double>(x))));
+    ulps.add(units_off(sine, std::sin(static_cast<long double>(x))));
+    ulps.add(units_off(cosine, std::cos(static_cast<long double>(x))));
   }
   REQUIRE(ulps <= 1.0);
+}
+
+TEST_CASE("sine and cosine of turns are within two units in the last place after any number of turns") {
+  Deviation ulps;
+  for (int k = 0; k < 200'000; ++k) {
+    const double turns = std::ldexp((k % 1999) - 999.5, k % 43 - 23) + (k % 5) * 0.25;
+    const auto [sine, cosine] = sine_and_cosine_of_turns(turns);
+    const double quarters = std::round(4.0 * turns);
+    const long double left = 0.5L * std::numbers::pi_v<long double> * (4.0 * turns - quarters);
+    const int quarter = static_cast<int>(quarters - 4.0 * std::floor(0.25 * quarters));
+    const std::array exact{std::sin(left), std::cos(left), -std::sin(left), -std::cos(left)};
+    ulps.add(units_off(sine, exact[quarter]));
+    ulps.add(units_off(cosine, exact[(quarter + 1) % 4]));
+  }
+  REQUIRE(ulps <= 2.0);
+  for (int quarter = -4; quarter <= 4; ++quarter) {  // the axes are hit exactly
+    const auto [sine, cosine] = sine_and_cosine_of_turns(0.25 * quarter + 1e9);
+    REQUIRE(std::array{sine, cosine} == std::array{quarter % 2 == 0         ? 0.0
+                                                   : (quarter + 4) % 4 == 1 ? 1.0
+                                                                            : -1.0,
+                                                   quarter % 2 != 0   ? 0.0
+                                                   : quarter % 4 == 0 ? 1.0
+                                                                      : -1.0});
+  }
+}
+
+TEST_CASE("a polynomial falls through its root unless it only touches zero for an instant") {
+  const double falls[] = {0.3, -1.0, 0.5}, rises[] = {-0.02, 0.3, -1.0}, touches[] = {1e-24, -2e-12, 1.0};
+  REQUIRE(falls_through(falls, 1.0 - std::sqrt(0.4), 1e-11));
+  REQUIRE(!falls_through(rises, 0.1, 1e-11));
+  REQUIRE(!falls_through(touches, 0.0, 1e-11));
 }
 
 TEST_CASE("the first root of a polynomial is found where others follow, and none where it only comes near") {

@@ -138,7 +138,7 @@ std::vector<Case> draw(const Plan& plan) {
   return cases;
 }
 
-wormdrive::Scenario data_sheet() {
+wormdrive::Scenario data_sheet(const Conditions& conditions) {
   const truth::Geometry g;
   wormdrive::Scenario sheet;
   sheet.title = "test bench";
@@ -155,8 +155,14 @@ wormdrive::Scenario data_sheet() {
   arm.arm = g.arm;
   sheet.load = arm;
   sheet.run.duration = 24.0;
-  sheet.tolerance = wormdrive::Tolerances{};
-  sheet.tolerance->torque_offset = stated_errors.offset;
+  const truth::NominalErrors stated = conditions.errors.share > 0.0 ? stated_errors : truth::NominalErrors{};
+  sheet.tolerance = wormdrive::Tolerances{.friction = stated.share,
+                                          .load = stated.share,
+                                          .load_angle = stated.angle,
+                                          .worm_inertia = stated.share,
+                                          .gear_inertia = stated.share,
+                                          .torque_gain = stated.share,
+                                          .torque_offset = stated.offset};
   return sheet;
 }
 
@@ -177,7 +183,7 @@ Bench record(const Case& drawn) {
       ("recovery_" + std::to_string(getpid()) + "_" + std::to_string(drawn.seed) + ".csv");
   truth::write_csv(recorded, file.string());
   try {
-    bench.recording = wormdrive::read_recording(file.string(), data_sheet());
+    bench.recording = wormdrive::read_recording(file.string(), data_sheet(drawn.conditions));
   } catch (...) {
     std::filesystem::remove(file);
     throw;
@@ -249,7 +255,7 @@ std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnos
       try {
         const Bench bench = record(cases[k]);
         const auto start = std::chrono::steady_clock::now();
-        const wormdrive::Diagnosis found = diagnose(data_sheet(), {bench.recording});
+        const wormdrive::Diagnosis found = diagnose(data_sheet(cases[k].conditions), {bench.recording});
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         outcome = judge(cases[k], bench.drive, found);
         outcome.seconds = took.count();

@@ -63,8 +63,9 @@ struct Plan {
 /// The cases of a plan: effects in turn, sizes in turn, everything else drawn from the seed.
 std::vector<Case> draw(const Plan& plan);
 
-/// What the data sheet says of the bench: all that the diagnosis is told.
-wormdrive::Scenario data_sheet();
+/// What the data sheet says of the bench: all that the diagnosis is told. Where the nominal values are exact it says
+/// so; else it states 1 %, also where the errors are larger.
+wormdrive::Scenario data_sheet(const Conditions& conditions);
 
 /// Records a case, writes it to a CSV file, and reads it as a user's.
 struct Bench {

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnosis/robust.hpp"
+
 namespace recovery {
 namespace {
 
@@ -20,12 +22,7 @@ double binomial_at_most(long k, long n, double p) {
   return sum;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
+double median(const std::vector<double>& values) { return values.empty() ? std::nan("") : wormdrive::median(values); }
 
 std::string hidden(const Outcome& outcome) {
   std::vector<std::string> parts;

@@ -160,6 +160,7 @@ TEST_CASE("a scenario with every torque, load, effect and axis is the same after
     require_round_trip(s);
     if (std::holds_alternative<GravityArm>(load)) continue;  // it turns: no linear axis has one
     s.axis = Axis::linear;
+    s.columns = {{"motor_force_N", "u \"raw\", N"}, {"position_m", "q"}};
     require_round_trip(s);
   }
 }

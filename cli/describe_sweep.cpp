@@ -1,0 +1,64 @@
+#include "cli/describe_sweep.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/describe.hpp"
+
+namespace wormdrive {
+namespace {
+
+std::vector<ReasonTable::Entry> by_frequency(const ReasonTable& reasons) {
+  std::vector<ReasonTable::Entry> list = reasons.entries();
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.count > b.count; });
+  return list;
+}
+
+}  // namespace
+
+void print_study(const Study& study, TrialRange range) {
+  fmt::print("{}\n", study.title);
+  const std::string part =
+      range.size() == study.trials() ? "" : fmt::format(", of these {} to {}", range.first, range.end - 1);
+  print_item("study", fmt::format("{} of {} parameter{}, {} trials{}, seed {}",
+                                  std::visit([](const auto& design) { return design.kind; }, study.design),
+                                  study.parameters.size(), study.parameters.size() == 1 ? "" : "s", study.trials(),
+                                  part, study.seed));
+  print_item("scenario", study.scenario.title);
+}
+
+void print_failures(const ReasonTable& reasons) {
+  constexpr std::size_t most = 5;
+  const auto list = by_frequency(reasons);
+  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
+    print_item("failed", fmt::format("{}: {}", list[k].count, list[k].example));
+  if (list.size() > most)
+    print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
+}
+
+void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
+  if (verdicts.empty()) return;
+  double angle = 0.0, speed = 0.0;
+  std::vector<std::uint64_t> others;
+  for (const Verdict& verdict : verdicts) {
+    angle = std::max(angle, verdict.found.angle);
+    speed = std::max(speed, verdict.found.speed);
+    if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
+  }
+  std::sort(others.begin(), others.end());
+  print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
+                                    "speeds within {:.2g} rad/s",
+                                    verdicts.size(), angle, speed));
+  constexpr std::size_t most = 10;
+  const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
+  if (!others.empty())
+    print_item("referee", fmt::format("disagrees by more than {:g} rad, or cannot go on, in {} of them: trial{} {}{}",
+                                      tolerance, others.size(), others.size() == 1 ? "" : "s", fmt::join(first, ", "),
+                                      others.size() > most ? ", ..." : ""));
+}
+
+std::string most_frequent(const ReasonTable& reasons) { return by_frequency(reasons).front().example; }
+
+}  // namespace wormdrive

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sweep/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// Prints what a study asks for.
+void print_study(const Study& study, TrialRange range);
+
+/// Prints how many trials are not done, and why.
+void print_failures(const ReasonTable& reasons);
+/// The reason that most of them have.
+std::string most_frequent(const ReasonTable& reasons);
+
+/// Prints how far CVODE is from the trials that it has judged, and with which it disagrees; tolerance [rad].
+void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance);
+
+}  // namespace wormdrive

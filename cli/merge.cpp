@@ -1,0 +1,21 @@
+#include "sweep/merge.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "cli/replay_trial.hpp"
+
+namespace wormdrive {
+
+int merge_command(const MergeOptions& options) {
+  for (const std::string& shard : options.shards) refuse_to_overwrite(options.output, shard);
+  const std::uint64_t trials = merge_shards(options.shards, options.output, options.command_line);
+  keep_trajectories(options.output, options.command_line, options.quiet);
+  if (options.quiet) return 0;
+  print_item("merged", fmt::format("{} shards, {} trials", options.shards.size(), trials));
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", options.output, options.output));
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "cli/commands.hpp"
+#include "scenarios/run_scenario.hpp"
+
+namespace wormdrive {
+
+/// Runs a scenario into a result file and tells what it comes to. Throws Halt, the part kept, or OutputFault.
+RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options);
+
+}  // namespace wormdrive

@@ -1,0 +1,134 @@
+#include "sweep/summary.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "cli/describe_sweep.hpp"
+
+namespace wormdrive {
+namespace {
+
+std::string with_interval(const Estimate& e, double scale = 1.0) {
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
+}
+
+void print_metrics(const SweepSummary& summary) {
+  fmt::print("\n  {:<28} {:<10} {:>11} {:>11} {:>34} {:>34} {:>11}\n", "metric", "unit", "mean", "median",
+             "95 % lie below [95 % interval]", "99 % lie below [95 % interval]", "greatest");
+  for (const MetricSummary& m : summary.metrics) {
+    if (m.count == 0) {
+      fmt::print("  {:<28} {:<10} no trial has it\n", m.metric.name, m.metric.unit.symbol);
+      continue;
+    }
+    fmt::print("  {:<28} {:<10} {:>11.4g} {:>11.4g} {:>34} {:>34} {:>11.4g}\n", m.metric.name, m.metric.unit.symbol,
+               m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]), m.greatest);
+  }
+}
+
+void print_thresholds(const SweepSummary& summary) {
+  for (const ThresholdSummary& t : summary.thresholds)
+    print_item(t.threshold.above ? "above" : "below",
+               fmt::format("{} {} {:g} {}: {} of {} trials{}", t.threshold.metric, t.threshold.above ? ">" : "<",
+                           t.threshold.limit, t.unit.symbol, t.missed, t.of,
+                           summary.sample
+                               ? fmt::format(", {} % (95 % interval, exact binomial)", with_interval(t.share, 100.0))
+                               : ""));
+}
+
+void print_influences(const SweepSummary& summary) {
+  fmt::print("\n  what matters most for {}\n", summary.ranked_by);
+  for (const Influence& i : summary.influences)
+    if (i.sobol)
+      fmt::print("  {:<44} Sobol index total {:<24} first {}\n", i.parameter, with_interval(i.sobol->total),
+                 with_interval(i.sobol->first));
+    else
+      fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
+}
+
+void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
+  if (summary.worst.empty()) return;
+  fmt::print("\n  worst trials\n");
+  const Study& study = sweep.study();
+  for (const Trial& trial : summary.worst) {
+    std::string values;
+    for (std::size_t k = 0; k < study.metrics.size(); ++k)
+      if (study.metrics[k].name == summary.ranked_by)
+        values += fmt::format("{} {:.6g} {}", summary.ranked_by, trial.metrics[k], study.metrics[k].unit.symbol);
+    for (std::size_t k = 0; k < study.parameters.size(); ++k)
+      values += fmt::format(", {} {:.6g}", study.parameters[k].name, trial.parameters[k]);
+    fmt::print("  trial {:<9} {}\n", trial.index, values);
+  }
+  fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", sweep.path(), summary.worst.front().index);
+}
+
+void print_conditions(const SweepSummary& summary) {
+  for (const ConditionSummary& c : summary.conditions)
+    if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials: {}", c.trials, c.of, c.rule));
+}
+
+nlohmann::json as_json(const Estimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
+
+nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
+  const Study& study = sweep.study();
+  nlohmann::json json{{"title", study.title},          {"trials", summary.trials}, {"done", summary.done},
+                      {"refused", summary.refused},    {"halted", summary.halted}, {"sample", summary.sample},
+                      {"ranked_by", summary.ranked_by}};
+  for (const MetricSummary& m : summary.metrics) {
+    nlohmann::json& metric = json["metrics"][m.metric.name];
+    metric = {{"unit", m.metric.unit.symbol}, {"count", m.count}, {"mean", m.mean},
+              {"deviation", m.deviation},     {"least", m.least}, {"greatest", m.greatest}};
+    for (std::size_t k = 0; k < m.quantiles.size(); ++k)
+      metric["quantiles"][fmt::format("{:g}", summary_quantiles[k])] = as_json(m.quantiles[k]);
+  }
+  for (const ThresholdSummary& t : summary.thresholds)
+    json["thresholds"].push_back({{"metric", t.threshold.metric},
+                                  {"limit", t.threshold.limit},
+                                  {"above", t.threshold.above},
+                                  {"missed", t.missed},
+                                  {"of", t.of},
+                                  {"share", as_json(t.share)}});
+  for (const Influence& i : summary.influences) {
+    nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation}};
+    if (i.sobol) influence["sobol"] = {{"first", as_json(i.sobol->first)}, {"total", as_json(i.sobol->total)}};
+    json["influences"].push_back(std::move(influence));
+  }
+  for (const Trial& trial : summary.worst) {
+    nlohmann::json worst{{"trial", trial.index}};
+    for (std::size_t k = 0; k < study.parameters.size(); ++k)
+      worst["parameters"][study.parameters[k].name] = trial.parameters[k];
+    for (std::size_t k = 0; k < study.metrics.size(); ++k) worst["metrics"][study.metrics[k].name] = trial.metrics[k];
+    json["worst"].push_back(std::move(worst));
+  }
+  for (const ConditionSummary& c : summary.conditions)
+    if (c.trials > 0) json["lemma1"].push_back({{"condition", c.rule}, {"trials", c.trials}, {"of", c.of}});
+  return json;
+}
+
+}  // namespace
+
+int summary_command(const SummaryOptions& options) {
+  const SweepReader sweep(options.sweep);
+  const SweepSummary summary = summarise(sweep, options.metric, options.worst);
+  if (options.json) {
+    print_json(as_json(sweep, summary));
+    return 0;
+  }
+  fmt::print("{}\n", sweep.study().title);
+  print_item("trials", fmt::format("{} of {}{}", summary.trials, sweep.range().size(),
+                                   sweep.complete() ? "" : ", the sweep is not complete"));
+  if (summary.done < summary.trials)
+    print_item("failed", fmt::format("{} refused, {} halted; all else is told of the {} that are done", summary.refused,
+                                     summary.halted, summary.done));
+  for (const std::string& reason : sweep.reasons()) print_item("", reason);
+  print_verdicts(sweep.verdicts(), sweep.study().referee_tolerance);
+  print_thresholds(summary);
+  print_conditions(summary);
+  print_metrics(summary);
+  print_influences(summary);
+  print_worst(sweep, summary);
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,116 @@
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/describe.hpp"
+#include "cli/describe_sweep.hpp"
+#include "cli/progress.hpp"
+#include "cli/replay_trial.hpp"
+#include "cli/sweep_ranks.hpp"
+#include "cli/sweep_steps.hpp"
+#include "events/halt.hpp"
+#include "scenarios/faults.hpp"
+#include "sweep/load_study.hpp"
+#include "sweep/rank_files.hpp"
+#include "sweep/resume.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
+  const TrialRange range = range_of(options.shard, study.trials());
+  const OpenSweep open = open_sweep(output, study, range, options.command_line, options.resume);
+  if (!options.quiet) print_study(study, range);
+  if (!open.file) {
+    if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
+    return 0;
+  }
+  SweepFile& file = *open.file;
+
+  const unsigned threads = threads_of(options);
+  const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
+  std::uint64_t made = 0;
+  const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
+  std::vector<Verdict> verdicts;
+  double seconds = 0.0;
+  const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = cpu_time();
+  try {
+    Progress progress(static_cast<double>(wanted), options.quiet);
+    auto next = open.missing.begin();
+    const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
+    const auto take = [&](const Trial& trial) {
+      file.append(trial);
+      progress.at(static_cast<double>(++made), [&](double passed) {
+        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, file.reasons().total());
+      });
+      return !too_many();
+    };
+    if (!too_many()) run_ensemble(study, source, threads, take, [] { return Interruptible::signal() != 0; });
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (made == wanted && !too_many()) {
+      verdicts = judge(file, study, options, cpu_time() - cpu_begin, least_judged);
+      file.finish();
+    } else {
+      file.flush();
+    }
+  } catch (const OutputFault& fault) {
+    throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
+                                  how_to_resume(options)));
+  }
+  if (too_many())
+    throw Halt(fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}; {} keeps them all",
+                           file.reasons().total(), before + made, *options.max_failures, most_frequent(file.reasons()),
+                           file.part_path()));
+  if (made < wanted) {
+    fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
+               range.size(), file.part_path(), how_to_resume(options));
+    return 128 + Interruptible::signal();
+  }
+  keep_trajectories(output, options.command_line, options.quiet);
+  if (options.quiet) return 0;
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
+                                threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
+                                before > 0 ? fmt::format("; {} were there already", before) : ""));
+  print_failures(file.reasons());
+  print_verdicts(verdicts, study.referee_tolerance);
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
+  return 0;
+}
+
+/// Bad input is told by the first rank alone: it looks at everything before the others do.
+template <class Look>
+bool looks_good(Ranks& ranks, Look&& look) {
+  if (ranks.first()) {
+    try {
+      look();
+    } catch (...) {
+      ranks.told({1});
+      throw;
+    }
+  }
+  return ranks.told({0}).front() == 0;
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options) {
+  Ranks ranks;
+  const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
+  const bool good = looks_good(ranks, [&] {
+    load_study(options.study);
+    refuse_to_overwrite(output, options.study);
+    if (ranks.count() > 1 && !options.shard.empty())
+      refuse({"--shard " + options.shard}, "the ranks share all trials; leave it out");
+  });
+  if (!good) return 2;
+  const Study study = load_study(options.study);
+  const Interruptible interruptible;
+  if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
+  return sweep_alone(options, study, output);
+}
+
+}  // namespace wormdrive

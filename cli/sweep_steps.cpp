@@ -1,0 +1,77 @@
+#include "cli/sweep_steps.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "scenarios/faults.hpp"
+#include "sweep/referee.hpp"
+
+namespace wormdrive {
+namespace {
+volatile std::sig_atomic_t interrupted = 0;
+}
+
+Interruptible::Interruptible() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { interrupted = signal; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &action, &before_[k]);
+}
+
+Interruptible::~Interruptible() {
+  for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &before_[k], nullptr);
+}
+
+int Interruptible::signal() { return interrupted; }
+
+TrialRange range_of(const std::string& shard, std::uint64_t trials) {
+  if (shard.empty()) return {0, trials};
+  std::uint64_t part = 0, parts = 0;
+  const char* const end = shard.data() + shard.size();
+  const auto first = std::from_chars(shard.data(), end, part);
+  const bool slash = first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
+  if (!slash || first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || part < 1 || part > parts)
+    refuse({"--shard " + shard}, "must be i/n with 1 <= i <= n, as in 3/7");
+  if (parts > trials)
+    refuse({"--shard " + shard}, fmt::format("the study has only {} trials; take at most as many shards", trials));
+  const auto begin = [&](std::uint64_t k) { return trials / parts * k + std::min(k, trials % parts); };
+  return {begin(part - 1), begin(part)};
+}
+
+unsigned threads_of(const SweepOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+std::string how_to_resume(const SweepOptions& options) {
+  const bool has = options.command_line.find(" --resume") != std::string::npos;
+  return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
+}
+
+double cpu_time() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                           std::size_t at_least) {
+  constexpr double share = 0.05;
+  if (study.scenario.run.solver == SolverKind::cvode) return {};
+  file.flush();
+  const double begin = cpu_time();
+  const auto enough = [&](std::size_t count) {
+    if (Interruptible::signal() != 0) return true;
+    if (options.referee) return count >= *options.referee;
+    return count >= at_least && cpu_time() - begin >= share * trials_took;
+  };
+  std::vector<Verdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
+  file.write(verdicts);
+  return verdicts;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,46 @@
+#pragma once
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "sweep/ensemble.hpp"
+#include "sweep/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// While it lives, SIGINT and SIGTERM ask for an end instead of being one; a second one ends at once.
+class Interruptible {
+ public:
+  Interruptible();
+  Interruptible(const Interruptible&) = delete;
+  ~Interruptible();
+  /// The signal that came, 0 for none.
+  static int signal();
+
+ private:
+  static constexpr int signals[] = {SIGINT, SIGTERM};
+  struct sigaction before_[2]{};
+};
+
+/// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.
+TrialRange range_of(const std::string& shard, std::uint64_t trials);
+
+/// How many threads make trials.
+unsigned threads_of(const SweepOptions& options);
+
+/// "go on with: wormdrive sweep ... --resume"
+std::string how_to_resume(const SweepOptions& options);
+
+/// Trials of a sweep that a referee looks at in any case.
+inline constexpr std::size_t least_judged = 8;
+
+/// CPU time of this process [s].
+double cpu_time();
+
+/// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at_least, and more while
+/// that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself.
+std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                           std::size_t at_least);
+
+}  // namespace wormdrive

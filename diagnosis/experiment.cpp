@@ -1,0 +1,124 @@
+#include "diagnosis/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "control/pid.hpp"
+#include "diagnosis/certificate.hpp"
+#include "diagnosis/fit.hpp"
+#include "scenarios/build_control.hpp"
+#include "scenarios/run_scenario.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+struct Variant {
+  std::string_view what;
+  double angle;    ///< of the slow sweep, shares of the excursion, or rad where the load turns with the gear
+  double highest;  ///< frequency [Hz]
+  double payload;  ///< times the stated one
+};
+constexpr Variant variants[] = {{"a motion over a larger angle", 1.0, 9.0, 1.0},
+                                {"a faster motion over a larger angle", 1.0, 25.0, 1.0},
+                                {"a second payload, twice the first", 1.0, 9.0, 2.0}};
+
+/// A closed loop that follows a slow sweep, several sines and steps with all its poles at one distance from the origin.
+ControlScenario rich_motion(const Scenario& scenario, double angle, double highest, double period) {
+  ControlScenario control;
+  control.sampling.period = period;
+  PidParameters pid;
+  constexpr double pole = 40.0;  // [rad/s]
+  Scenario told = scenario;
+  told.control = control;
+  const double M = mean_inertia(make_nominal(told));
+  pid.integral_weight = M * M * std::pow(pole, 6);
+  pid.feedforward = 1.0;
+  control.law = pid;
+  control.reference.terms = {
+      SinusoidReference{.amplitude = angle, .frequency = 0.045},
+      MultisineReference{.amplitude = 0.015 * angle, .lowest_frequency = 0.7, .highest_frequency = highest, .count = 7},
+      RandomStepsReference{.amplitude = 0.1 * angle, .interval = 1.7, .seed = 5},
+      SinusoidReference{.amplitude = 0.06 * angle, .frequency = 1.5}};
+  control.sensor.filter_cutoff = 0.1 / period;
+  return control;
+}
+
+bool multiply_payload(Scenario& scenario, double by) {
+  if (by == 1.0) return true;
+  auto* arm = std::get_if<GravityArm>(&scenario.load);
+  if (!arm) return false;
+  if (arm->mass) *arm->mass *= by;
+  if (arm->amplitude) *arm->amplitude *= by;
+  if (arm->own_inertia) *arm->own_inertia *= by;
+  return true;
+}
+
+Recording simulated(const Scenario& scenario) {
+  Recording recording;
+  recording.period = scenario.control->sampling.period;
+  RunListeners listeners;
+  listeners.samples = [&](const std::vector<ControlRecord>& samples) {
+    for (const ControlRecord& s : samples) {
+      recording.motor_torque.push_back(s.decided.torque);
+      recording.gear_angle.push_back(s.measured.angle);
+    }
+  };
+  run_scenario(scenario, listeners);
+  recording.gear_resolution = 2.0 * std::numbers::pi / scenario.control->sensor.counts;
+  return recording;
+}
+
+}  // namespace
+
+Experiment splitting_experiment(const Scenario& extended, const Scenario& stated, const std::vector<Suspect>& members,
+                                double size, const std::vector<Coordinate>& toleranced, const Magnitudes& sizes,
+                                double excursion, int threads) {
+  Experiment best;
+  double best_margin = 1.0;  // sizes that could be named
+  for (const Variant& v : variants) {
+    Scenario run = extended, told = stated;
+    if (!multiply_payload(run, v.payload) || !multiply_payload(told, v.payload)) continue;
+    const double angle = sizes.load_turns ? 2.2 * v.angle : excursion * v.angle;
+    run.control = rich_motion(stated, angle, v.highest, sizes.period);
+    run.control->sensor.counts = 65536.0;
+    run.control->disturbance.deviation = 0.01 * sizes.torque;
+    run.run.duration = 24.0;
+    run.run.solver = SolverKind::taylor;
+    run.run.relative_tolerance = 1e-9;
+    told.control = run.control;
+    told.run = run.run;
+    try {
+      // signatures are those about what is stated
+      const PreparedRecording recording = prepared(simulated(told), {}, 0);
+      const Evaluation by(told, InnovationLayout({recording}), threads);
+      Hypothesis h;
+      h.effects = told.effects;
+      for (const Coordinate& c : toleranced)
+        if (c.tolerance > 0.0) {
+          h.free.push_back(c);
+          h.values.push_back(c.centre);
+        }
+      if (!evaluate(by, h)) continue;
+      adjust_noise(by, h, 6);
+      const std::vector<Visibility> seen = certificate(by, h, screen(by, h, members), members, sizes);
+      if (seen.empty() || seen.front().effect != members.front().effect) continue;
+      const double margin = size / seen.front().nameable;
+      if (margin <= best_margin) continue;
+      best_margin = margin;
+      run.control->disturbance.deviation = 0.0;
+      run.title = fmt::format("Experiment that tells {} from what looks like it", members.front().effect);
+      best.scenario = run;
+      best.reason = fmt::format("{}: a {} {:.2g} times smaller could be named", v.what, members.front().effect, margin);
+    } catch (const std::exception&) {
+      continue;  // a drive that cannot follow this motion needs another one
+    }
+  }
+  if (!best.scenario) best.reason = "none of the motions that were tried out tells them apart";
+  return best;
+}
+
+}  // namespace wormdrive

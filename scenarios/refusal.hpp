@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+
+namespace wormdrive {
+
+// What the bounds of single fields cannot say against a run.
+
+/// An effect that cannot be on as it is stated.
+struct EffectRefusal {
+  std::string id, what;
+};
+std::vector<EffectRefusal> effect_refusals(const Scenario& scenario);
+
+/// Why no unique motion exists: friction beyond mu_g, where the worm locks itself, or against eq. 17.
+std::optional<std::string> why_it_cannot_move(const Scenario& scenario);
+
+/// A key of [controller] whose values give no controller.
+struct ControllerRefusal {
+  std::string key, what;
+};
+std::vector<ControllerRefusal> controller_refusals(const Scenario& scenario);
+
+/// The first of all these reasons.
+std::optional<std::string> why_it_cannot_run(const Scenario& scenario);
+
+}  // namespace wormdrive

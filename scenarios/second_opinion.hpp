@@ -1,0 +1,18 @@
+#pragma once
+#include "scenarios/scenario.hpp"
+
+namespace wormdrive {
+
+/// How far CVODE is from the solver that made a run.
+struct Disagreement {
+  double angle = 0.0;  ///< largest difference of the gear angle [rad]
+  double speed = 0.0;  ///< of the gear speed [rad/s]
+  double t = 0.0;      ///< when the angles differ most [s]
+};
+
+/// Runs a scenario as it is stated, then with CVODE under the very torques that its controller gave, and compares the
+/// states at all samples and reports: a closed loop would amplify the last digit of either. The teeth must be rigid.
+/// Throws Halt if one of the runs cannot go on.
+Disagreement second_opinion(const Scenario& scenario);
+
+}  // namespace wormdrive

@@ -1,0 +1,116 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "core/field.hpp"
+
+namespace wormdrive {
+
+// How an uncertain number is distributed, in the unit in which its parameter is stated. Each has quantile(u), the value
+// below which it lies with probability u, 0 < u < 1; and refusal(), what bounds of single fields cannot say, or empty.
+
+/// Every value between two limits is equally likely.
+struct Uniform {
+  static constexpr std::string_view kind = "uniform";
+  double low{}, high{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&Uniform::low, "low", unit::none, bounds::any, "lowest value"},
+                      Field{&Uniform::high, "high", unit::none, bounds::any, "highest value"}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const { return low + u * (high - low); }
+};
+
+/// The bell curve, without limits.
+struct Normal {
+  static constexpr std::string_view kind = "normal";
+  double mean{}, deviation{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&Normal::mean, "mean", unit::none, bounds::any, "mean"},
+                      Field{&Normal::deviation, "deviation", unit::none, bounds::positive, "standard deviation"}};
+  }
+  std::string refusal() const { return ""; }
+  double quantile(double u) const;
+};
+
+/// The bell curve cut off at one or both ends; mean and deviation are those before the cut.
+struct TruncatedNormal {
+  static constexpr std::string_view kind = "truncated_normal";
+  double mean{}, deviation{};
+  double low{-std::numeric_limits<double>::infinity()}, high{std::numeric_limits<double>::infinity()};
+
+  static constexpr auto fields() {
+    using P = TruncatedNormal;
+    constexpr Presence o = Presence::optional;
+    return std::tuple{
+        Field{&P::mean, "mean", unit::none, bounds::any, "mean of the uncut bell"},
+        Field{&P::deviation, "deviation", unit::none, bounds::positive, "standard deviation of the uncut bell"},
+        Field{&P::low, "low", unit::none, bounds::any, "lowest value; none if not stated", o},
+        Field{&P::high, "high", unit::none, bounds::any, "highest value; none if not stated", o}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// A positive number whose logarithm is normal.
+struct Lognormal {
+  static constexpr std::string_view kind = "lognormal";
+  double median{}, log_deviation{};
+
+  static constexpr auto fields() {
+    using P = Lognormal;
+    return std::tuple{Field{&P::median, "median", unit::none, bounds::positive, "half of the values lie below"},
+                      Field{&P::log_deviation, "log_deviation", unit::none, bounds::positive,
+                            "standard deviation of the natural logarithm"}};
+  }
+  std::string refusal() const { return ""; }
+  double quantile(double u) const;
+};
+
+/// Rises linearly to its most likely value and falls linearly from it.
+struct Triangular {
+  static constexpr std::string_view kind = "triangular";
+  double low{}, mode{}, high{};
+
+  static constexpr auto fields() {
+    using P = Triangular;
+    return std::tuple{Field{&P::low, "low", unit::none, bounds::any, "lowest value"},
+                      Field{&P::mode, "mode", unit::none, bounds::any, "most likely value"},
+                      Field{&P::high, "high", unit::none, bounds::any, "highest value"}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// One of several values, equally likely unless weights say otherwise.
+struct Discrete {
+  static constexpr std::string_view kind = "discrete";
+  std::vector<double> values, weights;
+
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// A distribution as it was found: values at probabilities from 0 to 1, straight between them.
+struct QuantileTable {
+  static constexpr std::string_view kind = "table";
+  std::vector<double> values, probabilities;
+
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// A new distribution is a struct like these and one entry here.
+using Distribution = std::variant<Uniform, Normal, TruncatedNormal, Lognormal, Triangular, Discrete, QuantileTable>;
+
+inline double quantile(const Distribution& distribution, double u) {
+  return std::visit([u](const auto& d) { return d.quantile(u); }, distribution);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,41 @@
+#pragma once
+#include <cmath>
+#include <limits>
+
+namespace wormdrive {
+
+// A C library picks its variant of log and exp by the processor, and they differ in the last bit. These take IEEE
+// arithmetic alone, so that a trial is the same on every machine.
+
+/// ln x for a normal x > 0, wrong by less than two units in the last place.
+inline double portable_log(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);  // exact
+  if (m < 0x1.6a09e667f3bcdp-1) {
+    m *= 2.0;
+    --exponent;
+  }
+  // ln m = 2 artanh(t), |t| < 0.172
+  const double f = m - 1.0, t = f / (2.0 + f), z = t * t;
+  double sum = 0.0;
+  for (int k = 23; k >= 3; k -= 2) sum = z * (sum + 1.0 / k);
+  // 2 t = f - f t: f is exact, what is added to it is small
+  const double rest = t * (f - 2.0 * sum);
+  constexpr double ln2_high = 0x1.62e42fefa0000p-1, ln2_low = 0x1.cf79abc9e3b3ap-40;  // 38 bits and the rest
+  return exponent * ln2_high + (f - (rest - exponent * ln2_low));
+}
+
+/// e^x, wrong by less than two units in the last place where the result is a normal number.
+inline double portable_exp(double x) {
+  if (!(x < 709.0))
+    return x > 709.0 ? std::numeric_limits<double>::infinity() : x == 709.0 ? 0x1.d422d2be5dc9bp+1022 : x;
+  if (x < -708.0) return 0.0;
+  const double k = std::nearbyint(x * 0x1.71547652b82fep+0);
+  const double high = x - k * 0x1.62e42fefa0000p-1, low = k * 0x1.cf79abc9e3b3ap-40;
+  const double r = high - low, lost = (high - r) - low;  // |r| < 0.35
+  double sum = 0.0;
+  for (int n = 14; n >= 2; --n) sum = r * (1.0 + sum) / n;
+  return std::ldexp(1.0 + (r + (r * sum + lost)), static_cast<int>(k));
+}
+
+}  // namespace wormdrive

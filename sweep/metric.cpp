@@ -1,0 +1,53 @@
+#include "sweep/metric.hpp"
+
+#include <fmt/format.h>
+
+#include "core/elastic_teeth.hpp"
+#include "scenarios/build_control.hpp"
+
+namespace wormdrive {
+namespace {
+
+void add_tracking(std::vector<Metric>& list) {
+  for_each_field<Metrics>([&](const auto& field) {
+    list.push_back({std::string(field.name), field.unit, std::string(field.meaning),
+                    [member = field.member](const Outcome& o) { return o.run.control->metrics.*member; }});
+  });
+}
+
+void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
+  list.push_back({"layer_reached", unit::second, "first sample within the boundary layer",
+                  [](const Outcome& o) { return o.run.control->lemma->reached(); }});
+  const auto promises = make_monitor(scenario.control->law, make_lemma1(scenario))->violations();
+  for (std::size_t k = 0; k < promises.size(); ++k)
+    list.push_back({fmt::format("{}_violations", promises[k].name), unit::none,
+                    fmt::format("samples that broke {}", promises[k].promise), [k](const Outcome& o) {
+                      return static_cast<double>(o.run.control->lemma->violations()[k].count);
+                    }});
+  const std::vector<Condition> conditions = lemma1_conditions(scenario);
+  for (std::size_t k = 0; k < conditions.size(); ++k)
+    list.push_back({fmt::format("condition_{}", k + 1), unit::none,
+                    fmt::format("margin of {}, negative where it fails", conditions[k].rule),
+                    [k](const Outcome& o) { return o.conditions[k].margin(); }});
+}
+
+}  // namespace
+
+std::vector<Metric> metrics_of(const Scenario& scenario) {
+  std::vector<Metric> list;
+  if (scenario.control) add_tracking(list);
+  if (scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law)) add_lemma1(list, scenario);
+  for (const EventKind kind : event_kinds)
+    if (kind <= EventKind::flank_change || has_elastic_teeth(scenario.effects))
+      list.push_back({fmt::format("{}_events", name(kind)), unit::none,
+                      fmt::format("events of the kind {}, over the whole run", name(kind)), [kind](const Outcome& o) {
+                        return static_cast<double>(o.run.events[static_cast<std::size_t>(kind)]);
+                      }});
+  list.push_back(
+      {"final_gear_angle", unit::radian, "gear angle at the end", [](const Outcome& o) { return o.run.end.theta_g; }});
+  list.push_back({"final_gear_speed", unit::radian_per_second, "gear speed at the end",
+                  [](const Outcome& o) { return o.run.end.omega_g; }});
+  return list;
+}
+
+}  // namespace wormdrive

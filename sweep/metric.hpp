@@ -1,0 +1,29 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "control/lemma1_conditions.hpp"
+#include "core/unit.hpp"
+#include "scenarios/run_scenario.hpp"
+
+namespace wormdrive {
+
+/// What metrics are taken from.
+struct Outcome {
+  RunSummary run;
+  std::vector<Condition> conditions;  ///< of Lemma 1, for the values of this run
+};
+
+/// One number that a trial comes to.
+struct Metric {
+  std::string name;  ///< "error_max"
+  Unit unit;         ///< SI
+  std::string meaning;
+  std::function<double(const Outcome&)> of;  ///< not a number where a run has none
+};
+
+/// All that runs of a scenario come to, whatever the values of its numbers are.
+std::vector<Metric> metrics_of(const Scenario& scenario);
+
+}  // namespace wormdrive

@@ -1,0 +1,25 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include <Random123/philox.h>
+
+namespace wormdrive {
+
+/// What the random numbers of a sweep are for: streams of one seed never overlap, nor with those of a run.
+enum class SweepStream : std::uint64_t { draws = 0x100, permutation, digital_shift, bootstrap };
+
+/// Random bits without memory: they depend on seed, stream and the two counters alone, whoever asks and when.
+inline std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, SweepStream stream, std::uint64_t trial,
+                                                std::uint64_t parameter) {
+  const auto bits = r123::Philox4x64()({{trial, parameter, 0, 0}}, {{seed, static_cast<std::uint64_t>(stream)}});
+  return {bits[0], bits[1], bits[2], bits[3]};
+}
+
+/// The 53 leading bits as a number in (0, 1), neither end included.
+constexpr double to_unit_interval(std::uint64_t bits) {
+  const double u = (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  return u < 1.0 ? u : 1.0 - 0x1p-53;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,86 @@
+#include "sweep/referee.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "events/halt.hpp"
+#include "sweep/keyed_permutation.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// The trials that are done, in random order.
+class Sample {
+ public:
+  explicit Sample(const SweepReader& sweep)
+      : sweep_(sweep), order_(sweep.range().size(), sweep.study().seed, referee_key) {}
+
+  std::optional<std::uint64_t> next() {
+    while (at_ < sweep_.range().size()) {
+      const std::uint64_t trial = sweep_.range().first + order_(at_++);
+      if (sweep_.has(trial) && sweep_.read({trial, trial + 1}).front().status == TrialStatus::done) return trial;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::uint64_t referee_key = std::uint64_t{1} << 32;  ///< no parameter has it
+  const SweepReader& sweep_;
+  KeyedPermutation order_;
+  std::uint64_t at_ = 0;
+};
+
+Verdict judged(Trials& trials, std::uint64_t trial) {
+  Verdict verdict{trial, {}, false};
+  try {
+    verdict.found = second_opinion(trials.scenario(trial));
+  } catch (const Halt&) {
+    verdict.halted = true;
+  } catch (const SolverFault&) {  // before the run began
+    verdict.halted = true;
+  }
+  return verdict;
+}
+
+}  // namespace
+
+std::vector<Verdict> referee(const SweepReader& sweep, unsigned threads,
+                             const std::function<bool(std::size_t)>& enough) {
+  Sample sample(sweep);
+  std::vector<Verdict> verdicts;
+  std::size_t begun = 0;
+  std::exception_ptr fault;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      Trials trials(sweep.study());
+      for (;;) {
+        std::unique_lock lock(mutex);
+        if (fault || begun == most_verdicts || enough(begun)) return;
+        const auto trial = sample.next();
+        if (!trial) return;
+        const std::size_t place = begun++;
+        verdicts.resize(begun);
+        lock.unlock();
+        Verdict verdict = judged(trials, *trial);
+        lock.lock();
+        verdicts[place] = std::move(verdict);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      fault = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (unsigned k = 0; k < threads; ++k) workers.emplace_back(work);
+  }
+  if (fault) std::rethrow_exception(fault);
+  return verdicts;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,14 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "sweep/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// Judges trials of a sweep that are done by CVODE, in an order that its seed decides, on several threads.
+/// enough(count): asked before each, in turn, whether that many are enough.
+std::vector<Verdict> referee(const SweepReader& sweep, unsigned threads,
+                             const std::function<bool(std::size_t)>& enough);
+
+}  // namespace wormdrive

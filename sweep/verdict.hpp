@@ -1,0 +1,23 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "scenarios/second_opinion.hpp"
+
+namespace wormdrive {
+
+/// What the referee found of a trial.
+struct Verdict {
+  std::uint64_t trial{};
+  Disagreement found;
+  bool halted = false;  ///< CVODE could not go on
+
+  /// tolerance: of the gear angle [rad].
+  bool agrees(double tolerance) const { return !halted && found.angle <= tolerance; }
+};
+
+/// How many trials a referee looks at, at most, so that all it finds fits into the sweep's file.
+inline constexpr std::size_t most_verdicts = 1000;
+
+}  // namespace wormdrive

@@ -1,0 +1,154 @@
+// What a sweep answers beside its rows: summary, referee, kept trajectories, worst case, pictures.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "output/fixed_table.hpp"
+#include "sweep/distribution.hpp"
+#include "sweep/studies.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+std::vector<double> summary_column(const StudyFolder& folder, const std::string& file, const std::string& path) {
+  return read_column(open_hdf5(folder / file), "summary/" + path);
+}
+std::vector<std::string> summary_texts(const StudyFolder& folder, const std::string& file, const std::string& path) {
+  return read_fixed_texts(open_hdf5(folder / file), "summary/" + path);
+}
+
+/// A closed loop with a friction that its controller does not know.
+const std::string closed = R"(scenario = ")" + shipped("fig10_sliding_014deg_bare.toml") + R"("
+set = ["run.solver=taylor", "run.report_interval_s=1"]
+[sweep]
+design = "monte_carlo"
+trials = 20
+seed = 5
+[[parameter]]
+path = "effect.mesh_friction.change"
+distribution = "uniform"
+low = -0.025
+high = 0.025
+)";
+
+}  // namespace
+
+TEST_CASE("/summary holds what the command tells", "[sweep]") {
+  const StudyFolder folder(study_but("= -2.5", "= -0.3"));
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const Outcome told = folder.run({"summary", "o.h5", "--worst", "10", "--json"});
+  REQUIRE(told.exit == 0);
+  const auto json = nlohmann::json::parse(told.out);
+  const std::vector<std::string> names = summary_texts(folder, "o.h5", "metrics/name");
+  CHECK(names.size() == 6);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto& metric = json["metrics"][names[k]];
+    INFO(names[k]);
+    CHECK(metric["mean"] == summary_column(folder, "o.h5", "metrics/mean")[k]);
+    CHECK(metric["quantiles"]["0.95"]["high"] == summary_column(folder, "o.h5", "metrics/quantile_95_high")[k]);
+    CHECK(metric["count"] == summary_column(folder, "o.h5", "metrics/count")[k]);
+  }
+  // the share of the threshold, counted here
+  const std::vector<double> speed = folder.column("o.h5", "final_gear_speed");
+  const auto missed = static_cast<double>(std::count_if(speed.begin(), speed.end(), [](double v) { return v < -0.3; }));
+  CHECK(missed > 0.0);
+  CHECK(summary_column(folder, "o.h5", "thresholds/missed") == std::vector{missed});
+  CHECK(summary_column(folder, "o.h5", "thresholds/of") == std::vector{200.0});
+  CHECK(summary_column(folder, "o.h5", "statuses/trials") == std::vector{200.0, 0.0, 0.0});
+  // the worst are the least, for the threshold is missed below
+  const std::vector<double> worst = summary_column(folder, "o.h5", "worst/value");
+  std::vector<double> rising = speed;
+  std::sort(rising.begin(), rising.end());
+  CHECK(worst == std::vector(rising.begin(), rising.begin() + 10));
+  const std::vector<double> trial = summary_column(folder, "o.h5", "worst/trial");
+  for (std::size_t k = 0; k < 10; ++k) CHECK(speed[static_cast<std::size_t>(trial[k])] == worst[k]);
+  CHECK(summary_texts(folder, "o.h5", "influences/parameter").size() == 2);
+}
+
+TEST_CASE("trajectories are kept of the trials that a study names and of the worst, and of no other", "[sweep]") {
+  const StudyFolder folder(study_but("seed = 3", "seed = 3\nkeep = [7, 123]\nkeep_worst = 2"));
+  const Outcome outcome = folder.sweep({"-o", "o.h5"});
+  REQUIRE(outcome.exit == 0);
+  std::set<std::string> names{"s.toml", "study.toml", "o.h5", "o_trial_7.h5", "o_trial_123.h5"};
+  const std::vector<double> worst = summary_column(folder, "o.h5", "worst/trial");
+  for (const double trial : {worst[0], worst[1]}) names.insert(fmt::format("o_trial_{:.0f}.h5", trial));
+  CHECK(names.size() == 7);
+  CHECK(folder.names() == names);
+  CHECK(read_column(open_hdf5(folder / "o_trial_123.h5"), "trajectory/gear_speed").back() ==
+        folder.column("o.h5", "final_gear_speed")[123]);
+
+  folder.write("study.toml", study_but("seed = 3", "seed = 3\nkeep = [200]"));
+  CHECK(folder.sweep({"-o", "p.h5"}).err ==
+        "study.toml:8:8: error: sweep.keep names 200, which is no trial; there are 0 to 199\n");
+  folder.write("study.toml", study_but("seed = 3", "seed = 3\nkeep_worst = 1\nkeep_worst_by = \"final_gear_anle\""));
+  CHECK(folder.sweep({"-o", "p.h5"}).err ==
+        "study.toml: error: sweep.keep_worst_by = \"final_gear_anle\": this study has no such metric; did you mean "
+        "'final_gear_angle'?\n");
+}
+
+TEST_CASE("the referee agrees with the fast path, and says so where it does not", "[sweep]") {
+  const StudyFolder folder(closed);
+  const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "5"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  CHECK(outcome.out.find("  referee  5 trials again with cvode under the recorded torque: angles within ") !=
+        std::string::npos);
+  CHECK(outcome.out.find("disagrees") == std::string::npos);
+  const auto verdicts = [&](const std::string& file, const std::string& column) {
+    return read_column(open_hdf5(folder / file), "referee/" + column);
+  };
+  const std::vector<double> judged = verdicts("o.h5", "judged"), angle = verdicts("o.h5", "angle_difference");
+  CHECK(std::count(judged.begin(), judged.end(), 1.0) == 5);
+  CHECK(std::count(judged.begin(), judged.end(), 0.0) == 995);
+  double largest = 0.0;
+  for (int k = 0; k < 5; ++k) largest = std::max(largest, angle[k]);
+  CHECK(largest > 0.0);  // two solvers never agree to the last digit
+  CHECK(largest < 1e-8);
+
+  // the same sample whatever the number of threads, and a line with every trial beyond the tolerance
+  folder.write("study.toml", edited(closed, "seed = 5", "seed = 5\nreferee_tolerance_rad = 1e-300"));
+  const Outcome strict = folder.sweep({"-o", "strict.h5", "--referee", "5", "--threads", "1"});
+  CHECK(verdicts("strict.h5", "trial") == verdicts("o.h5", "trial"));
+  CHECK(verdicts("strict.h5", "angle_difference") == angle);
+  CHECK(strict.out.find("  referee  disagrees by more than 1e-300 rad, or cannot go on, in 5 of them: trials ") !=
+        std::string::npos);
+  CHECK(folder.run({"summary", "strict.h5"}).out.find("disagrees by more than 1e-300 rad") != std::string::npos);
+}
+
+TEST_CASE("the worst case is the corner of the box where it has to be", "[sweep]") {
+  const StudyFolder folder(study_but("trials = 200", "trials = 50"));
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const Outcome outcome = folder.run({"worst", "o.h5", "-o", "worst.h5", "--tail", "0.01", "--evaluations", "800"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  // the less friction, the faster backward
+  const double speed = read_column(open_hdf5(folder / "worst.h5"), "trajectory/gear_speed").back();
+  CHECK(speed < summary_column(folder, "o.h5", "worst/value")[0]);
+  TruncatedNormal friction{0.25, 0.05};
+  friction.low = 0.1;
+  const Outcome corner =
+      folder.run({"run", "s.toml", "-q", "-o", "corner.h5", "--set", "run.solver=taylor", "--set",
+                  fmt::format("mesh.friction={}", friction.quantile(0.01)), "--set",
+                  fmt::format("effect.worm_coulomb.torque_Nm={}", Lognormal{1e-3, 0.5}.quantile(0.01))});
+  INFO(corner.err);
+  REQUIRE(corner.exit == 0);
+  const double there = read_column(open_hdf5(folder / "corner.h5"), "trajectory/gear_speed").back();
+  CHECK(std::abs(speed - there) <= 1e-5 * std::abs(there));
+  CHECK(outcome.out.find("  referee  with cvode final_gear_speed ") != std::string::npos);
+}
+
+TEST_CASE("a sweep has its picture, and runs of its trials are drawn one over the other", "[sweep]") {
+  const StudyFolder folder(closed);
+  REQUIRE(folder.sweep({"-o", "o.h5", "-q"}).exit == 0);
+  for (const char* trial : {"3", "4"})
+    REQUIRE(folder.run({"replay", "o.h5", "--trial", trial, "-o", std::string(trial) + ".h5", "-q"}).exit == 0);
+  const Outcome drawn = folder.run({"plot", "o.h5"}),
+                over = folder.run({"plot", "o.h5", "3.h5", "4.h5", "-o", "over.png"});
+  CHECK(drawn.err.empty());
+  CHECK(drawn.exit == 0);
+  CHECK(over.err.empty());
+  CHECK(over.exit == 0);
+  for (const char* picture : {"o.png", "over.png"}) CHECK(std::filesystem::file_size(folder / picture) > 10'000);
+}

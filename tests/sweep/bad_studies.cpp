@@ -1,0 +1,212 @@
+// What the commands of a sweep say about bad input, word for word, and what they make of trials that fail.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "catch.hpp"
+#include "cli/bad_input.hpp"
+#include "output/part_file.hpp"
+#include "sweep/studies.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+struct BadStudy {
+  std::string part, by, message;
+};
+
+}  // namespace
+
+TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
+  const std::vector<BadStudy> cases{
+      {"path = \"mesh.friction\"", "path = \"mesh.frction\"",
+       "study.toml:9:8: error: unknown key 'frction' in [mesh]; did you mean 'friction'?"},
+      {"path = \"mesh.friction\"", "path = \"mesh.worm_inertia\"",
+       "study.toml:9:8: error: unknown key 'worm_inertia' in [mesh]; did you mean 'worm_inertia_kgm2'?"},
+      {"path = \"mesh.friction\"", "path = \"run.duration_s\"",
+       "study.toml:9:8: error: 'run.duration_s' is not a number of the scenario that a sweep can vary"},
+      {"\"effect.worm_coulomb.torque_Nm\"", "\"mesh.friction\"",
+       "study.toml:15:8: error: 'mesh.friction' is the same number as 'mesh.friction'; keep one of them"},
+      {"trials = 200", "trials = 0", "study.toml:6:10: error: sweep.trials = 0 must be at least 1 and at most 1e+12"},
+      {"trials = 200", "trials = 2.5", "study.toml:6:10: error: sweep.trials = 2.5 must be a whole number"},
+      {"design = \"monte_carlo\"", "design = \"random\"",
+       "study.toml:5:10: error: sweep.design = \"random\" must be one of \"monte_carlo\", \"latin_hypercube\", "
+       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\""},
+      {"distribution = \"lognormal\"", "distribution = \"gauss\"",
+       "study.toml:16:16: error: parameter[1].distribution = \"gauss\" must be one of \"uniform\", \"normal\", "
+       "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\""},
+      {"deviation = 0.05", "deviation = 0",
+       "study.toml:12:13: error: parameter[0].deviation = 0 must be greater than 0"},
+      {"low = 0.1", "low = 0.1\nhigh = 0.05",
+       "study.toml:10:16: error: parameter[0] of 'mesh.friction': low = 0.1 must be less than high = 0.05"},
+      {"scenario = \"s.toml\"", "scenario = \"none.toml\"",
+       "none.toml: error: cannot be read: No such file or directory"},
+      {"seed = 3", "seed = 3\nsed = 1", "study.toml:8:1: error: unknown key 'sed' in [sweep]; did you mean 'seed'?"},
+      {"[sweep]", "metrics = [\"final_gear_sped\"]\n[sweep]",
+       "study.toml:4:11: error: there is no metric 'final_gear_sped'; did you mean 'final_gear_speed'?"},
+      {"metric = \"final_gear_speed\"", "metric = \"error_max\"",
+       "study.toml:20:10: error: this study has no metric 'error_max'; valid keys: break_away_events, stop_events, "
+       "reversal_events, flank_change_events, final_gear_angle, final_gear_speed"},
+      {"[\"run.solver=taylor\"", "[\"run.solver=tailor\"",
+       "study.toml:3:7: error: run.solver = \"tailor\" must be one of \"cvode\", \"taylor\""},
+      {"[[threshold]]",
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"mesh.ratio\"]\ncoefficient = 0.5\n[[threshold]]",
+       "study.toml:20:11: error: correlation[0].between names 'mesh.ratio', which is no [[parameter]]"}};
+  for (const BadStudy& bad : cases) {
+    const StudyFolder folder(study_but(bad.part, bad.by));
+    const std::set<std::string> before = folder.names();
+    const Outcome outcome = folder.sweep({});
+    INFO("case: " << bad.by << "\nexpected:\n" << bad.message << "\nfound:\n" << outcome.err);
+    CHECK(outcome.err == bad.message + "\n");
+    CHECK(outcome.exit == 2);
+    CHECK(folder.names() == before);
+  }
+}
+
+TEST_CASE("Sobol indices of correlated parameters are refused", "[sweep]") {
+  const StudyFolder folder(study_but("design = \"monte_carlo\"\ntrials = 200", "design = \"saltelli\"\nsamples = 20") +
+                           "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\n"
+                           "coefficient = 0.5\n");
+  CHECK(folder.sweep({}).err ==
+        "study.toml:5:10: error: sweep.design = \"saltelli\" needs independent parameters, and there is a "
+        "[[correlation]]; Sobol indices of dependent parameters do not add up to the variance\n");
+}
+
+TEST_CASE("a number that has to be whole is not drawn from a continuous distribution", "[sweep]") {
+  const StudyFolder folder(R"(scenario = ")" + shipped("fig10_sliding_014deg_bare.toml") + R"("
+[sweep]
+design = "monte_carlo"
+trials = 2
+[[parameter]]
+path = "sensor.counts"
+distribution = "uniform"
+low = 1000
+high = 2000
+)");
+  const Outcome outcome = folder.sweep({});
+  CHECK(outcome.exit == 2);
+  CHECK(outcome.err ==
+        "study.toml:6:8: error: sensor.counts = 1500.0000013969848 must be a whole number; let it be \"discrete\" with "
+        "whole values\n");
+}
+
+TEST_CASE("trials that cannot run become rows with their reason, and the sweep is done", "[sweep]") {
+  const std::string failing = study_but("distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1",
+                                        "distribution = \"discrete\"\nvalues = [0.25, -0.1, 20]\nweights = [95, 3, 2]");
+  const StudyFolder folder(edited(failing, "trials = 200", "trials = 2000"));
+  const Outcome outcome = folder.sweep({"-o", "out.h5"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit == 0);
+  const std::vector<double> status = folder.column("out.h5", "status"),
+                            friction = folder.column("out.h5", "mesh.friction"),
+                            reason = folder.column("out.h5", "reason"),
+                            speed = folder.column("out.h5", "final_gear_speed");
+  REQUIRE(status.size() == 2000);
+  std::map<double, long> with_reason;
+  for (std::size_t k = 0; k < status.size(); ++k) {
+    const bool good = friction[k] == 0.25;
+    REQUIRE(status[k] == (good ? 1.0 : 2.0));
+    REQUIRE(std::isfinite(speed[k]) == good);
+    ++with_reason[reason[k]];
+  }
+  const long failed = with_reason[1] + with_reason[2];
+  CHECK(with_reason.size() == 3);  // none, and two that differ in more than their numbers
+  CHECK(std::abs(failed - 100) < 4 * 10);
+  CHECK(outcome.out.find(fmt::format("{}: mesh.friction = -0.1 must be at least 0",
+                                     std::count(friction.begin(), friction.end(), -0.1))) != std::string::npos);
+  CHECK(outcome.out.find("mesh.friction = 20 is not below mu_g = 13.4382") != std::string::npos);
+  CHECK(folder
+            .run({"replay", "out.h5", "--trial",
+                  std::to_string(std::find(friction.begin(), friction.end(), -0.1) - friction.begin()), "-o", "r.h5"})
+            .err.ends_with("was not run: mesh.friction = -0.1 must be at least 0\n"));
+
+  // the eleventh failure is the last row, however many threads were ahead of it
+  std::size_t rows = 0;
+  for (int failures = 0; failures < 11; ++rows)
+    if (status[rows] == 2.0) ++failures;
+  std::map<double, long> first;
+  for (std::size_t k = 0; k < rows; ++k) ++first[reason[k]];
+  const std::string most = first[1] >= first[2] ? "mesh.friction = -0.1 must be at least 0" : "mesh.friction = 20 is";
+  for (const char* threads : {"1", "8"}) {
+    const Outcome stopped = folder.sweep({"-o", "few.h5", "--max-failures", "10", "--resume", "--threads", threads});
+    CHECK(stopped.exit == 3);
+    CHECK(stopped.err.starts_with(
+        fmt::format("wormdrive: 11 of {} trials failed, more than --max-failures 10; most often: {}", rows, most)));
+    CHECK(stopped.err.ends_with("; few.h5.part keeps them all\n"));
+    CHECK(folder.present("few.h5.part") == rows);
+    // once more as it is, then anew
+    CHECK(folder.sweep({"-o", "few.h5", "--max-failures", "10", "--resume"}).err == stopped.err);
+    std::filesystem::remove(folder / "few.h5.part");
+  }
+}
+
+TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[sweep]") {
+  const StudyFolder folder(study_but("trials = 200", "trials = 500000"));
+  REQUIRE(folder.interrupted({"-o", "o.h5"}, SIGINT).exit == 128 + SIGINT);
+  const std::string begun = folder.read("o.h5.part");
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
+    const Outcome outcome = folder.sweep(words);
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.err == message);
+    CHECK(folder.read("o.h5.part") == begun);
+  };
+  const std::size_t rows = folder.present("o.h5.part");
+  refused({"-o", "o.h5"},
+          fmt::format("o.h5.part: error: holds {} of 500000 trials of an interrupted sweep; add --resume to "
+                      "go on, or delete it to begin anew\n",
+                      rows));
+  refused(
+      {"-o", "o.h5", "--resume", "--shard", "1/2"},
+      "o.h5.part: error: cannot be resumed: it holds trials 0 to 499999, and 0 to 249999 are wanted; give its --shard "
+      "again\n");
+  folder.write("study.toml", study_but("trials = 200", "trials = 400000"));
+  refused({"-o", "o.h5", "--resume"},
+          "o.h5.part: error: cannot be resumed: the study differs in sweep.trials: 500000, then 400000; undo the "
+          "change, or "
+          "delete the file to begin anew\n");
+  folder.write("study.toml", study_but("trials = 200", "trials = 500000  # a comment is no difference"));
+  folder.write("s.toml", good_but("ratio = 60", "ratio = 61"));
+  refused(
+      {"-o", "o.h5", "--resume"},
+      "o.h5.part: error: cannot be resumed: the scenario differs in mesh.ratio: 60.0, then 61.0; undo the change, or "
+      "delete the file to begin anew\n");
+  folder.write("s.toml", good_scenario);
+  {
+    const Hdf5Handle part = reopen_hdf5(folder / "o.h5.part");
+    H5Adelete(part, "build");
+    write_attribute(part, "build", std::string("wormdrive 0.0.1 (abc)"));
+  }
+  const Outcome other = folder.sweep({"-o", "o.h5", "--resume"});
+  CHECK(other.exit == 2);
+  CHECK(other.err == fmt::format("o.h5.part: error: cannot be resumed: it was made by wormdrive 0.0.1 (abc), and this "
+                                 "is {}; undo the change, or delete the file to begin anew\n",
+                                 build_description()));
+  folder.write("o.h5.part", "no HDF5");
+  CHECK(folder.sweep({"-o", "o.h5", "--resume"}).err ==
+        "o.h5.part: error: cannot be resumed: it cannot be opened as HDF5; delete the file to begin anew\n");
+}
+
+TEST_CASE("shards that do not make one sweep are not merged", "[sweep]") {
+  const StudyFolder folder;
+  for (const char* k : {"1", "2", "3"})
+    REQUIRE(folder.sweep({"-o", std::string(k) + ".h5", "--shard", std::string(k) + "/3"}).exit == 0);
+  const auto says = [&](std::vector<std::string> words, const std::string& message) {
+    words.insert(words.begin(), "merge");
+    words.insert(words.end(), {"-o", "m.h5"});
+    const Outcome outcome = folder.run(words);
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.err == message + "\n");
+    CHECK_FALSE(folder.names().contains("m.h5"));
+  };
+  says({"1.h5", "3.h5"}, "3.h5: error: trials 67 to 133 before it stand in no shard");
+  says({"1.h5", "2.h5"}, "2.h5: error: trials 134 to 199 after it stand in no shard");
+  says({"1.h5", "2.h5", "2.h5", "3.h5"}, "2.h5: error: trials 67 to 133 stand in another shard too");
+  says({"1.h5", "s.toml"}, "s.toml: error: it cannot be opened as HDF5");
+  folder.write("study.toml", study_but("seed = 3", "seed = 4"));
+  REQUIRE(folder.sweep({"-o", "other.h5", "--shard", "2/3"}).exit == 0);
+  says({"1.h5", "other.h5", "3.h5"},
+       "other.h5: error: is not a shard of the same sweep as 1.h5: the study differs in sweep.seed: 4, then 3");
+  CHECK(folder.sweep({"--shard", "4/3"}).err == "--shard 4/3: error: must be i/n with 1 <= i <= n, as in 3/7\n");
+}

@@ -1,0 +1,129 @@
+// Designs: what each promises of its points, and that any point can be asked for alone.
+#include <filesystem>
+#include <set>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+#include "sweep/design.hpp"
+#include "sweep/keyed_permutation.hpp"
+#include "sweep/load_study.hpp"
+
+using namespace wormdrive;
+
+namespace {
+
+std::vector<std::vector<double>> points(const DesignSettings& settings, std::size_t parameters, std::uint64_t seed) {
+  Design design(settings, parameters, seed);
+  std::vector<std::vector<double>> all;
+  for (std::uint64_t k = 0; k < size(settings, parameters); ++k) all.push_back(design.point(k));
+  return all;
+}
+
+/// A smooth function of three numbers with mean 0.
+double smooth(const std::vector<double>& u) {
+  return (u[0] - 0.5) + 2.0 * (u[1] - 0.5) + (u[2] * u[2] - 1.0 / 3.0) + (u[0] - 0.5) * (u[2] - 0.5);
+}
+
+/// Root mean square error of the mean of smooth() over seeds.
+template <class Sampled>
+double error_of_mean() {
+  double squares = 0.0;
+  constexpr int seeds = 20;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    double mean = 0.0;
+    for (const auto& u : points(Sampled{256}, 3, seed)) mean += smooth(u) / 256.0;
+    squares += mean * mean / seeds;
+  }
+  return std::sqrt(squares);
+}
+
+}  // namespace
+
+TEST_CASE("a keyed permutation meets every number once, and keys differ", "[sweep]") {
+  for (const std::uint64_t n : {1, 2, 3, 7, 64, 65, 1000, 4097}) {
+    const KeyedPermutation permutation(n, 5, 0), other(n, 5, 1);
+    std::set<std::uint64_t> met;
+    std::uint64_t same = 0;
+    for (std::uint64_t k = 0; k < n; ++k) {
+      met.insert(permutation(k));
+      if (permutation(k) == other(k)) ++same;
+    }
+    CHECK(met.size() == n);
+    CHECK(*met.rbegin() == n - 1);
+    if (n > 50) CHECK(same < 10);
+  }
+}
+
+TEST_CASE("a Latin hypercube uses every stratum of every parameter once", "[sweep]") {
+  for (const std::uint64_t n : {1, 10, 97, 1024}) {
+    const auto all = points(LatinHypercube{n}, 4, 3);
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::set<int> strata;
+      for (const auto& u : all) strata.insert(static_cast<int>(u[k] * static_cast<double>(n)));
+      CHECK(strata.size() == n);
+    }
+  }
+}
+
+TEST_CASE("of a shifted Sobol sequence the first 2^m points lie one in each 2^-m, the origin included", "[sweep]") {
+  const auto all = points(SobolSequence{256}, 5, 9);
+  for (std::size_t k = 0; k < 5; ++k) {
+    std::set<int> strata;
+    for (const auto& u : all) strata.insert(static_cast<int>(u[k] * 256.0));
+    CHECK(strata.size() == 256);
+  }
+  CHECK(points(SobolSequence{4}, 5, 10) != std::vector(all.begin(), all.begin() + 4));
+}
+
+TEST_CASE("a Latin hypercube and a Sobol sequence find a mean better than independent draws", "[sweep]") {
+  const double random = error_of_mean<MonteCarlo>(), latin = error_of_mean<LatinHypercube>(),
+               sobol = error_of_mean<SobolSequence>();
+  CHECK(std::abs(random - 0.045) < 0.02);  // deviation of smooth() over 16
+  CHECK(latin < 0.2 * random);
+  CHECK(sobol < 0.1 * random);
+}
+
+TEST_CASE("a Saltelli design has A, B, and A with one column of B", "[sweep]") {
+  const auto all = points(Saltelli{8}, 3, 2);
+  REQUIRE(all.size() == 40);
+  for (std::size_t j = 0; j < 8; ++j) {
+    const auto &A = all[5 * j], &B = all[5 * j + 1];
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<double> mixed = A;
+      mixed[k] = B[k];
+      CHECK(A[k] != B[k]);
+      CHECK(all[5 * j + 2 + k] == mixed);
+    }
+  }
+}
+
+TEST_CASE("a grid has every combination, one at a time every parameter alone", "[sweep]") {
+  const auto grid = points(Grid{{2, 3}}, 2, 0);
+  CHECK(grid == std::vector<std::vector<double>>{
+                    {0.25, 0.5 / 3}, {0.25, 0.5}, {0.25, 2.5 / 3}, {0.75, 0.5 / 3}, {0.75, 0.5}, {0.75, 2.5 / 3}});
+  const auto alone = points(OneAtATime{{2, 1}}, 2, 0);
+  CHECK(alone == std::vector<std::vector<double>>{{0.5, 0.5}, {0.25, 0.5}, {0.75, 0.5}, {0.5, 0.5}});
+}
+
+TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
+  const DesignSettings designs[] = {MonteCarlo{100}, LatinHypercube{100}, SobolSequence{100},
+                                    Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}}};
+  for (const DesignSettings& settings : designs) {
+    const auto forward = points(settings, 3, 11);
+    Design design(settings, 3, 11);
+    for (std::uint64_t k = 100; k-- > 0;) REQUIRE(design.point(k * 37 % 100) == forward[k * 37 % 100]);
+    for (const auto& u : forward)
+      for (const double x : u) REQUIRE((x > 0.0 && x < 1.0));
+  }
+}
+
+TEST_CASE("every shipped study can be read", "[sweep]") {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WORMDRIVE_SCENARIOS "/studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    CHECK(load_study(entry.path().string()).trials() > 0);
+    ++files;
+  }
+  CHECK(files >= 1);
+}

@@ -1,0 +1,157 @@
+// The rows of a sweep are the same bits however it is made.
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "catch.hpp"
+#include "sweep/studies.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+const std::string many = study_but("trials = 200", "trials = 60000");
+
+}  // namespace
+
+TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
+  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
+    const StudyFolder folder(study_but("monte_carlo", design));
+    for (const char* threads : {"1", "2", "8"}) {
+      const Outcome outcome = folder.sweep({"-o", std::string(threads) + ".h5", "--threads", threads});
+      INFO(outcome.err);
+      REQUIRE(outcome.exit == 0);
+    }
+    const auto one = folder.rows("1.h5");
+    CHECK(one.at("index").size() == 200 * sizeof(double));
+    CHECK(one == folder.rows("2.h5"));
+    CHECK(one == folder.rows("8.h5"));
+  }
+}
+
+TEST_CASE("another seed makes other rows", "[sweep]") {
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "a.h5"}).exit == 0);
+  folder.write("study.toml", study_but("seed = 3", "seed = 4"));
+  REQUIRE(folder.sweep({"-o", "b.h5"}).exit == 0);
+  CHECK(folder.rows("a.h5") != folder.rows("b.h5"));
+}
+
+TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
+  const StudyFolder folder(study_but("monte_carlo", "latin_hypercube"));
+  REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
+  std::vector<std::string> merge{"merge"};
+  for (int k = 7; k >= 1; --k) {
+    const std::string shard = std::to_string(k) + ".h5";
+    REQUIRE(folder.sweep({"-o", shard, "--shard", std::to_string(k) + "/7"}).exit == 0);
+    merge.push_back(shard);
+  }
+  merge.insert(merge.end(), {"-o", "merged.h5"});
+  const Outcome merged = folder.run(merge);
+  INFO(merged.err);
+  REQUIRE(merged.exit == 0);
+  CHECK(folder.rows("merged.h5") == folder.rows("whole.h5"));
+}
+
+TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep]") {
+  const StudyFolder folder(many);
+  const auto begin = std::chrono::steady_clock::now();
+  REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  const auto rows = folder.rows("whole.h5");
+  const auto is_whole = [&] {
+    CHECK(folder.rows("killed.h5") == rows);
+    CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "whole.h5", "killed.h5"});
+    std::filesystem::remove(folder / "killed.h5");
+  };
+  const unsigned seed = std::random_device()();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  int killed = 0, resumed = 0;
+  while (killed < 20) {
+    const bool begun = folder.present("killed.h5.part") > 0;
+    Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "killed.h5", "--resume"}, folder.path());
+    std::this_thread::sleep_for(0.25 * whole * std::generate_canonical<double, 32>(random));
+    process.kill();
+    const Outcome outcome = process.wait();
+    if (outcome.exit == 128 + SIGKILL)
+      ++killed;
+    else if (outcome.exit == 0)
+      is_whole();  // it was faster: once more
+    else
+      FAIL(outcome.err);
+    if (begun) ++resumed;
+  }
+  CHECK(resumed >= 5);
+  const Outcome last = folder.sweep({"-o", "killed.h5", "--resume"});
+  INFO(last.err);
+  REQUIRE(last.exit == 0);
+  is_whole();
+}
+
+TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on", "[sweep]") {
+  const StudyFolder folder(many);
+  REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
+  const Outcome ended = folder.interrupted({"-o", "ended.h5"}, SIGTERM);
+  CHECK(ended.exit == 128 + SIGTERM);
+  CHECK(ended.err == fmt::format("wormdrive: interrupted after {} of 60000 trials, all of them in ended.h5.part; go on "
+                                 "with: wormdrive sweep study.toml -o ended.h5 --resume\n",
+                                 folder.present("ended.h5.part")));
+  REQUIRE(folder.sweep({"-o", "ended.h5", "--resume"}).exit == 0);
+  CHECK(folder.rows("ended.h5") == folder.rows("whole.h5"));
+}
+
+TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when there is room", "[sweep]") {
+  const StudyFolder folder(many);
+  REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
+  constexpr rlim_t room = 2'000'000;
+  const Outcome none = folder.run({"sweep", "study.toml", "-o", "full.h5"}, room);
+  CHECK(none.exit == 4);
+  CHECK(none.err == "wormdrive: cannot write full.h5.part.part: File too large\n");
+  CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "whole.h5"});
+
+  folder.interrupted({"-o", "full.h5"}, SIGINT);
+  const std::size_t before = folder.present("full.h5.part");
+  const Outcome full = folder.run({"sweep", "study.toml", "-o", "full.h5", "--resume"}, room);
+  CHECK(full.exit == 4);
+  CHECK(full.err.starts_with("wormdrive: cannot write full.h5.part"));
+  CHECK(
+      full.err.ends_with("File too large; nothing before the last second is lost: make room, then go on with: "
+                         "wormdrive sweep study.toml -o full.h5 --resume\n"));
+  CHECK(folder.present("full.h5.part") >= before);
+  const Outcome resumed = folder.sweep({"-o", "full.h5", "--resume"});
+  INFO(full.err << resumed.err);
+  REQUIRE(resumed.exit == 0);
+  CHECK(resumed.out.find(" were there already") != std::string::npos);
+  CHECK(folder.rows("full.h5") == folder.rows("whole.h5"));
+}
+
+TEST_CASE("a sweep that is whole is not made again", "[sweep]") {
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const auto made = std::filesystem::last_write_time(folder / "o.h5");
+  const Outcome again = folder.sweep({"-o", "o.h5", "--resume"});
+  CHECK(again.exit == 0);
+  CHECK(again.out.ends_with("  resume   every trial is in o.h5 already\n"));
+  CHECK(std::filesystem::last_write_time(folder / "o.h5") == made);
+}
+
+TEST_CASE("a trial runs again with its trajectory and the same metrics, with either solver", "[sweep]") {
+  const StudyFolder folder;
+  for (const char* solver : {"taylor", "cvode"}) {
+    // reports that no sample or step meets
+    folder.write("study.toml",
+                 study_but("[\"run.solver=taylor\", \"run.report_interval_s=0.01\"]",
+                           fmt::format("[\"run.solver={}\", \"run.report_interval_s=0.00037\"]", solver)));
+    REQUIRE(folder.sweep({"-o", "sweep.h5"}).exit == 0);
+    const Outcome outcome = folder.run({"replay", "sweep.h5", "--trial", "123", "-o", "run.h5"});
+    INFO(outcome.err);
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.out.find("every metric is that of the sweep, to the last bit") != std::string::npos);
+    CHECK(read_column(open_hdf5(folder / "run.h5"), "trajectory/gear_speed").back() ==
+          folder.column("sweep.h5", "final_gear_speed")[123]);
+  }
+}

@@ -1,0 +1,72 @@
+#pragma once
+// What the tests of sweeps share: a folder with a scenario and a study, and rows to compare.
+#include <algorithm>
+
+#include "cli/program.hpp"
+
+namespace wormdrive::test {
+
+/// Fast trials of an open loop; line numbers in the tests count from the first line.
+inline const std::string good_study = R"(title = "A good study"
+scenario = "s.toml"
+set = ["run.solver=taylor", "run.report_interval_s=0.01"]
+[sweep]
+design = "monte_carlo"
+trials = 200
+seed = 3
+[[parameter]]
+path = "mesh.friction"
+distribution = "truncated_normal"
+mean = 0.25
+deviation = 0.05
+low = 0.1
+[[parameter]]
+path = "effect.worm_coulomb.torque_Nm"
+distribution = "lognormal"
+median = 1e-3
+log_deviation = 0.5
+[[threshold]]
+metric = "final_gear_speed"
+below_rad_per_s = -2.5
+)";
+inline std::string study_but(const std::string& part, const std::string& by) { return edited(good_study, part, by); }
+
+/// A folder with s.toml and study.toml.
+struct StudyFolder : Folder {
+  explicit StudyFolder(const std::string& study = good_study) {
+    write("s.toml", good_scenario);
+    write("study.toml", study);
+  }
+  Outcome sweep(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"sweep", "study.toml"});
+    return run(words);
+  }
+  /// A sweep that gets a signal as soon as it has some trials.
+  Outcome interrupted(std::vector<std::string> words, int signal) const {
+    words.insert(words.begin(), {WORMDRIVE_PROGRAM, "sweep", "study.toml"});
+    Process process(words, path());
+    const auto has_part = [this] {
+      const auto all = names();
+      return std::any_of(all.begin(), all.end(), [](const std::string& name) { return name.ends_with(".h5.part"); });
+    };
+    while (!has_part()) usleep(1000);
+    usleep(50'000);
+    process.kill(signal);
+    return process.wait();
+  }
+  /// The table of trials byte for byte.
+  std::map<std::string, std::vector<char>> rows(const std::string& file) const {
+    return bytes(open_hdf5(*this / file), "trials");
+  }
+  /// How many trials a file has; 0 if there is no such file.
+  std::size_t present(const std::string& file) const {
+    if (!names().contains(file)) return 0;
+    const std::vector<double> status = column(file, "status");
+    return status.size() - static_cast<std::size_t>(std::count(status.begin(), status.end(), 0.0));
+  }
+  std::vector<double> column(const std::string& file, const std::string& name) const {
+    return read_column(open_hdf5(*this / file), "trials/" + name);
+  }
+};
+
+}  // namespace wormdrive::test
