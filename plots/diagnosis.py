@@ -1,5 +1,7 @@
 """The pictures of a diagnosis: predictions before and after, maps of the residual torque, ranking, certificate."""
 
+import textwrap
+
 import numpy as np
 
 import style
@@ -193,7 +195,7 @@ def draw_residual(result):
                               alpha=0.15, linewidth=0)
             handles += cell.plot(middle, factor * mean, color=colour, linewidth=1.6, label=name)
         cell.axhline(0.0, color=style.GREY, linewidth=0.9, zorder=1)
-        cell.set(xlabel=label, ylabel=f"[{unit}]")
+        cell.set(xlabel=label, ylabel=f"torque [{unit}]")
     legend_above(figure, handles)
     return figure
 
@@ -212,7 +214,8 @@ def draw_ranking(result):
     figure = new_figure(result, "which effects explain the data")
     axes = figure.subplots()
     size = np.maximum(evidence[rows], 1.0)
-    colours = [style.BLUE if named[k] else style.DARK_STUCK for k in rows]
+    colours = [style.BLUE if named[k] else style.MID_BLUE if "can stand for" in outcomes[k] else style.DARK_STUCK
+               for k in rows]
     axes.barh(rows, size, color=colours, height=0.62)
     axes.set_xscale("log")
     axes.set_xlim(1.0, np.max(size) * 60.0)
@@ -267,7 +270,7 @@ def draw_certificate(result):
     axes.set_xlabel("size, in units of the smallest that can be seen")
     hidden = [effects[k] for k in np.flatnonzero(observable == 0)]
     if hidden:
-        figure.supxlabel("cannot be seen at all: " + ", ".join(hidden), x=0.012, ha="left", size=10, wrap=True)
+        figure.supxlabel("\ncannot be seen at all: " + textwrap.fill(", ".join(hidden), 150), x=0.012, ha="left", size=10)
     style.header(axes, dots)
     return figure
 
