@@ -5,6 +5,7 @@
 
 #include "control/random.hpp"
 #include "core/field.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -28,7 +29,7 @@ class TorqueDisturbance {
  public:
   TorqueDisturbance(const DisturbanceSettings& settings, double period)
       : settings_(settings),
-        keep_(settings.time_constant > 0.0 ? std::exp(-period / settings.time_constant) : 0.0),
+        keep_(settings.time_constant > 0.0 ? portable::exp(-period / settings.time_constant) : 0.0),
         renew_(std::sqrt(1.0 - keep_ * keep_)) {}
 
   /// The torque [N m] from the k-th sample on; its variance is the same from the first sample.

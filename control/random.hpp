@@ -6,6 +6,7 @@
 #include <Random123/philox.h>
 
 #include "core/field.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -26,7 +27,7 @@ enum class Stream : std::uint64_t { encoder_noise = 1, torque_disturbance = 2, r
   const auto bits = r123::Philox4x64()({{k, 1, 0, 0}}, {{seed, static_cast<std::uint64_t>(stream)}});
   const double u = (static_cast<double>(bits[0] >> 11) + 0.5) * 0x1p-53;
   const double v = static_cast<double>(bits[1] >> 11) * 0x1p-53;
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  return std::sqrt(-2.0 * portable::log(u)) * portable::cos(2.0 * std::numbers::pi * v);
 }
 
 }  // namespace wormdrive

@@ -6,6 +6,7 @@
 
 #include "control/random.hpp"
 #include "core/field.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -55,7 +56,8 @@ class Encoder {
 class SpeedEstimator {
  public:
   SpeedEstimator(double cutoff, double period)
-      : gain_(cutoff > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0), rate_(1.0 / period) {}
+      : gain_(cutoff > 0.0 ? 1.0 - portable::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0),
+        rate_(1.0 / period) {}
 
   /// Starts from an angle [rad] at which nothing has moved yet.
   void start(double angle) { previous_ = angle; }

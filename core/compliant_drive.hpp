@@ -11,6 +11,7 @@
 
 #include "core/compliant_mode.hpp"
 #include "core/contact_law.hpp"
+#include "core/portable.hpp"
 #include "core/worm_drive.hpp"
 
 namespace wormdrive {
@@ -39,7 +40,7 @@ class CompliantDrive {
 
   CompliantDrive(WormDrive<T, Load> rigid, ToothContact<T> contact)
       : rigid_(std::move(rigid)), contact_(std::move(contact)) {
-    using std::cos, std::sin;
+    using portable::cos, portable::sin;
     const GearMesh<T>& teeth = mesh();
     worm_normal_ = teeth.worm_arm(T(0));
     gear_normal_ = teeth.gear_arm(T(0));

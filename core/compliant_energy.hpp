@@ -3,6 +3,7 @@
 
 #include "core/compliant_drive.hpp"
 #include "core/energy.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -27,7 +28,7 @@ Power power(const CompliantDrive<double, Load>& drive, const typename CompliantD
   const auto input = drive.rigid().inputs(at);
   const double Wn = drive.normal_force(at, now.mode);
   double loss = drive.friction(at, now.mode, Wn) *
-                (std::cos(mesh.lambda) * mesh.lw * at.omega_w + std::sin(mesh.lambda) * mesh.lg * at.omega_g);
+                (portable::cos(mesh.lambda) * mesh.lw * at.omega_w + portable::sin(mesh.lambda) * mesh.lg * at.omega_g);
   loss -= drive.effects().worm_torque(at, now.mode.worm) * at.omega_w +
           drive.effects().gear_torque(at, now.mode.gear) * at.omega_g;
   for (const Flank flank : {Flank::left, Flank::right})

@@ -4,6 +4,7 @@
 
 #include "core/jet.hpp"
 #include "core/piece.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -19,7 +20,7 @@ class LaggedPiece {
 
   template <class S>
   S operator()(const S& t) const {
-    using std::exp;
+    using portable::exp;
     return staying(t) + excess_ * exp((begin_ - t) / lag_);
   }
 
@@ -29,7 +30,7 @@ class LaggedPiece {
  private:
   template <class S>
   S staying(const S& t) const {
-    using std::cos, std::sin;
+    using portable::cos, portable::sin;
     S y = constant_ + u_.slope * (t - u_.start - lag_);
     for (const Cosine& c : u_.cosines) {
       const T turn = c.omega * lag_;

@@ -5,6 +5,7 @@
 
 #include "core/field.hpp"
 #include "core/mode.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -67,8 +68,7 @@ class GearMesh {
 
   explicit GearMesh(const MeshParameters<T>& p)
       : i(p.i), mu(p.mu), Jw(p.Jw), Jg(p.Jg), lw(p.lw), lg(p.lg), lambda(p.lambda), phi_n(p.phi_n) {
-    using std::cos;
-    using std::sin;
+    using portable::cos, portable::sin;
     radius_ratio_ = lw / lg;
     cos_phi_sin_lambda_ = cos(phi_n) * sin(lambda);
     cos_phi_cos_lambda_ = cos(phi_n) * cos(lambda);
@@ -110,7 +110,7 @@ class GearMesh {
   /// Wn [N] >= 0 between the torques of both sides [N m]: from the balance of the gear with its inertial torque Jg
   /// theta_g'' and the signed friction m while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
   T normal_force(const T& tau_w, const T& tau_g, const T& inertial, Mode mode, const T& m) const {
-    using std::abs, std::cos;
+    using std::abs, portable::cos;
     if (!has_teeth) return T(0);
     if (mode.motion == Motion::stuck) return abs(tau_g / lg * cos_lambda_ - tau_w / lw * sin_lambda_) / cos(phi_n);
     return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(m);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/portable.hpp"
+
 namespace wormdrive {
 
 /// A cos(omega t + phase), t in absolute time.
@@ -20,7 +22,7 @@ struct Piece {
 
   template <class S>
   S operator()(const S& t) const {
-    using std::cos;
+    using portable::cos;
     S value = constant + slope * (t - start);
     for (const Cosine& c : cosines) value += c.amplitude * cos(c.omega * t + c.phase);
     return value;

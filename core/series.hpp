@@ -3,6 +3,8 @@
 #include <cmath>
 #include <concepts>
 
+#include "core/portable.hpp"
+
 namespace wormdrive {
 
 /// Truncated power series sum of c[k] s^k, k = 0..N, around the present moment: a scalar that carries the future.
@@ -15,8 +17,8 @@ struct Series {
   Series() = default;
   /// A constant, or a number that a constant is made from: they mix freely, also where T carries derivatives.
   template <class Constant>
-    requires std::constructible_from<T, Constant>
-  Series(const Constant& constant) {  // NOLINT(google-explicit-constructor)
+  requires std::constructible_from<T, Constant> Series(
+      const Constant& constant) {  // NOLINT(google-explicit-constructor)
     c[0] = T(constant);
   }
 
@@ -72,8 +74,8 @@ struct SineCosine {
   Series<T, N> sine, cosine;
 
   explicit SineCosine(const Series<T, N>& x) {
-    using std::cos;
-    using std::sin;
+    using portable::cos;
+    using portable::sin;
     sine[0] = sin(x[0]);
     cosine[0] = cos(x[0]);
     for (int k = 1; k <= N; ++k) {
@@ -99,7 +101,7 @@ Series<T, N> cos(const Series<T, N>& x) {
 /// From r' = x' r.
 template <class T, int N>
 Series<T, N> exp(const Series<T, N>& x) {
-  using std::exp;
+  using portable::exp;
   Series<T, N> r(exp(x[0]));
   for (int k = 1; k <= N; ++k) {
     for (int j = 1; j <= k; ++j) r[k] += T(j) * x[j] * r[k - j];

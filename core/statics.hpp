@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/mesh.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -16,7 +17,7 @@ struct MeshForces {
 
 /// Solves the two torque balances at rest for the mesh forces; right and left flank are one solution with N signed.
 inline MeshForces forces_at_rest(const GearMesh<double>& mesh, double tau_m, double tau_l) {
-  const double cos_phi = std::cos(mesh.phi_n), s = std::sin(mesh.lambda), c = std::cos(mesh.lambda);
+  const double cos_phi = portable::cos(mesh.phi_n), s = portable::sin(mesh.lambda), c = portable::cos(mesh.lambda);
   const double worm_force = tau_m / mesh.lw, gear_force = tau_l / mesh.lg;
   // worm: 0 = worm_force + N cos_phi s - Wf c;  gear: 0 = gear_force - N cos_phi c - Wf s
   return {(gear_force * c - worm_force * s) / cos_phi, worm_force * c + gear_force * s};

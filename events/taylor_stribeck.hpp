@@ -41,7 +41,7 @@ class StribeckCurve {
       return mesh.Jw * mesh.i * mesh.gear_arm(product * mu) + Jg * mesh.worm_arm(product * mu);
     };
     const double least = inertia(least_);
-    return {mesh.lg * mesh.lw * std::cos(mesh.phi_n) * product * drop_ * Jg / (least * least),
+    return {mesh.lg * mesh.lw * portable::cos(mesh.phi_n) * product * drop_ * Jg / (least * least),
             (inertia(least_ + drop_) - least) / least};
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/lemma1_conditions.hpp"
+#include "core/sine_cosine.hpp"
 #include "scenarios/build.hpp"
 #include "scenarios/control_scenario.hpp"
 
@@ -67,7 +68,10 @@ inline bool is_estimable(const Scenario& scenario) {
 inline double largest_load_error(const Scenario& scenario) {
   if (!is_estimable(scenario)) return std::numeric_limits<double>::infinity();
   const NominalModel exact = exact_nominal(scenario), nominal = make_nominal(scenario);
-  const auto arm = [](const NominalModel& n) { return std::polar(1.0, n.load_angle_offset) * n.load_torque; };
+  const auto arm = [](const NominalModel& n) {
+    const auto [sine, cosine] = sine_and_cosine(n.load_angle_offset);
+    return std::complex<double>(cosine, sine) * n.load_torque;
+  };
   return std::abs(arm(exact) - arm(nominal)) + std::abs(exact.load_constant - nominal.load_constant);
 }
 

@@ -35,7 +35,7 @@ double TruncatedNormal::quantile(double u) const {
   return std::clamp(mean + deviation * (mirrored ? -z : z), low, high);
 }
 
-double Lognormal::quantile(double u) const { return median * portable_exp(log_deviation * normal_quantile(u)); }
+double Lognormal::quantile(double u) const { return median * portable::exp(log_deviation * normal_quantile(u)); }
 
 std::string Triangular::refusal() const {
   if (low < high && low <= mode && mode <= high) return "";

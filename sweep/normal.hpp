@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "sweep/elementary.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -50,7 +50,7 @@ inline double normal_quantile(double u) {
         2.04426310338993978564e-15};
   const double q = u - 0.5;
   if (std::abs(q) <= 0.425) return q * ratio(a, b, 0.180625 - q * q);
-  const double r = std::sqrt(-portable_log(q < 0.0 ? u : 1.0 - u));
+  const double r = std::sqrt(-portable::log(q < 0.0 ? u : 1.0 - u));
   const double z = r <= 5.0 ? ratio(c, d, r - 1.6) : ratio(e, f, r - 5.0);
   return q < 0.0 ? -z : z;
 }

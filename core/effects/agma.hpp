@@ -8,6 +8,7 @@
 #include "core/cubic_table.hpp"
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 #include "core/sliding_contact.hpp"
 
 namespace wormdrive {
@@ -34,8 +35,8 @@ struct Agma {
   /// The standard's coefficient of friction at a sliding speed v > 0 [m/s].
   static double standard(double v) {
     const double V = v / 0.00508;  // [ft/min]
-    return V > 10.0 ? 0.103 * std::exp(-0.110 * std::pow(V, 0.450)) + 0.012
-                    : 0.124 * std::exp(-0.074 * std::pow(V, 0.645));
+    return V > 10.0 ? 0.103 * portable::exp(-0.110 * portable::pow(V, 0.450)) + 0.012
+                    : 0.124 * portable::exp(-0.074 * portable::pow(V, 0.645));
   }
   /// Coefficient of friction, whatever that of the mesh is.
   template <class S>

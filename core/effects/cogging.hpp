@@ -6,6 +6,7 @@
 #include "core/field.hpp"
 #include "core/moment.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -29,7 +30,7 @@ struct Cogging {
   /// Motor torque [N m] for a command.
   template <class S>
   S motor_torque(const S& command, const Moment<S>& at) const {
-    using std::sin;
+    using portable::sin;
     return command + amplitude * sin(periods * at.theta_w + phase);
   }
 };

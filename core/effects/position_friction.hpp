@@ -5,6 +5,7 @@
 
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 #include "core/sliding_contact.hpp"
 
 namespace wormdrive {
@@ -27,7 +28,7 @@ struct PositionFriction {
   /// Coefficient of friction out of that without this effect.
   template <class S>
   S friction(const S& mu, const SlidingContact<S>& at) const {
-    using std::sin;
+    using portable::sin;
     return mu + mu * (amplitude * sin(at.theta_g + phase));
   }
   FrictionRange friction_range(const FrictionRange& mu, double) const {

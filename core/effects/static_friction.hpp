@@ -5,6 +5,7 @@
 
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 #include "core/sliding_contact.hpp"
 
 namespace wormdrive {
@@ -34,7 +35,7 @@ struct StaticFriction {
   /// Coefficient of friction out of that without this effect.
   template <class S>
   S friction(const S& mu, const SlidingContact<S>& at) const {
-    using std::exp;
+    using portable::exp;
     if (at.rest < S(T(0))) return mu;
     return growth_time > T(0) ? mu + rise * (S(T(1)) - exp(-at.rest / growth_time)) : mu + S(rise);
   }

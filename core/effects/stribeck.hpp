@@ -6,6 +6,7 @@
 
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 #include "core/sliding_contact.hpp"
 
 namespace wormdrive {
@@ -36,7 +37,7 @@ struct Stribeck {
   /// Coefficient of friction out of that without this effect.
   template <class S>
   S friction(const S& mu, const SlidingContact<S>& at) const {
-    using std::exp;
+    using portable::exp;
     // |v| by the sign of the motion: smooth where an integrator looks beyond a reversal, and bounded beyond that
     S x = T(sign(at.motion)) * at.sliding_speed / speed;
     if (x < S(T(-1))) x = S(T(-1));

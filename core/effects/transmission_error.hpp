@@ -5,6 +5,7 @@
 
 #include "core/field.hpp"
 #include "core/place.hpp"
+#include "core/portable.hpp"
 #include "core/transmission.hpp"
 
 namespace wormdrive {
@@ -31,7 +32,7 @@ struct TransmissionError {
   /// How the worm follows the gear, per ratio i.
   template <class S>
   Transmission<S> transmission(const S& theta_g) const {
-    using std::cos, std::sin;
+    using portable::cos, portable::sin;
     const S x = theta_g + phase, s = amplitude * sin(x);
     return {theta_g + s, S(T(1)) + amplitude * cos(x), -s};
   }

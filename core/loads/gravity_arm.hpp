@@ -7,6 +7,7 @@
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
+#include "core/portable.hpp"
 
 namespace wormdrive {
 
@@ -18,10 +19,10 @@ struct GravityArm {
   static constexpr std::string_view kind = "gravity_arm";
   static constexpr std::string_view meaning =
       "mass on an arm, torque cos(theta_g + angle_offset); state torque, or mass and arm";
-  std::optional<double> amplitude;  ///< [N m]
-  std::optional<double> mass;       ///< [kg]
-  std::optional<double> arm;        ///< [m]
-  double offset{0.0};               ///< [rad]
+  std::optional<double> amplitude;    ///< [N m]
+  std::optional<double> mass;         ///< [kg]
+  std::optional<double> arm;          ///< [m]
+  double offset{0.0};                 ///< [rad]
   std::optional<double> own_inertia;  ///< [kg m^2]
 
   static constexpr auto fields() {
@@ -63,7 +64,7 @@ struct GravityLoad {
   /// Load torque tau_l [N m] = amplitude cos(theta_g + offset).
   template <class S>
   S torque(const Moment<S>& at) const {
-    using std::cos;
+    using portable::cos;
     return amplitude * cos(at.theta_g + offset);
   }
 };

@@ -2,13 +2,17 @@
 #include <cmath>
 #include <limits>
 
-namespace wormdrive {
+#include "core/sine_cosine.hpp"
 
-// A C library picks its variant of log and exp by the processor, and they differ in the last bit. These take IEEE
-// arithmetic alone, so that a trial is the same on every machine.
+/// Elementary functions that take IEEE arithmetic alone, so that a run is the same bits on every machine. A C library
+/// picks its variants by the processor, and they differ in the last bit.
+namespace wormdrive::portable {
+
+inline double sin(double x) { return sine_and_cosine(x).sine; }
+inline double cos(double x) { return sine_and_cosine(x).cosine; }
 
 /// ln x for a normal x > 0, wrong by less than two units in the last place.
-inline double portable_log(double x) {
+inline double log(double x) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);  // exact
   if (m < 0x1.6a09e667f3bcdp-1) {
@@ -26,7 +30,7 @@ inline double portable_log(double x) {
 }
 
 /// e^x, wrong by less than two units in the last place where the result is a normal number.
-inline double portable_exp(double x) {
+inline double exp(double x) {
   if (!(x < 709.0))
     return x > 709.0 ? std::numeric_limits<double>::infinity() : x == 709.0 ? 0x1.d422d2be5dc9bp+1022 : x;
   if (x < -708.0) return 0.0;
@@ -38,4 +42,7 @@ inline double portable_exp(double x) {
   return std::ldexp(1.0 + (r + (r * sum + lost)), static_cast<int>(k));
 }
 
-}  // namespace wormdrive
+/// x^p for a normal x > 0.
+inline double pow(double x, double p) { return exp(p * log(x)); }
+
+}  // namespace wormdrive::portable
