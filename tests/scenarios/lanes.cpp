@@ -55,8 +55,9 @@ std::vector<std::uint64_t> bits(const RunSummary& run) {
 int strangers(const std::vector<Scenario>& scenarios, const std::vector<BatchResult>& results) {
   int differ = 0;
   for (std::size_t k = 0; k < scenarios.size(); ++k) try {
+      const RunSummary alone = run_scenario(scenarios[k]);
       const auto* const run = std::get_if<RunSummary>(&results[k]);
-      differ += !run || bits(*run) != bits(run_scenario(scenarios[k]));
+      differ += !run || bits(*run) != bits(alone);
     } catch (const Halt& halt) {
       const auto* const reason = std::get_if<std::string>(&results[k]);
       differ += !reason || *reason != halt.what();
@@ -106,9 +107,15 @@ TEST_CASE("lanes: the same far from the horizontal, at rest, and where Lemma 1 i
   std::mt19937_64 random(12);
   std::vector<Scenario> scenarios;
   for (int k = 0; k < 8; ++k) {
-    Scenario scenario = figure_10({"reference.amplitude_rad=1.7", "reference.frequency_Hz=0.7"});
+    Scenario scenario = figure_10({"reference.amplitude_rad=1.7", "reference.frequency_Hz=0.7", "metrics.from_s=0"});
     if (k % 4 == 1) scenario.initial.theta_g = 40.0;
-    if (k % 4 == 2) std::get<MeshParameters<double>>(scenario.mesh).mu = 2.0;
+    if (k % 4 == 2) {  // too weak to move for most of the time
+      std::get<SinusoidReference>(scenario.control->reference.terms.front()).amplitude = 0.01;
+      auto& law = std::get<SlidingParameters>(scenario.control->law);
+      law.Phi = 50.0;
+      law.eta = 0.01;
+      scenario.control->nominal.load_torque = 0.0;
+    }
     if (k % 4 == 3) std::get<GravityArm>(scenario.load).amplitude = 0.4;
     scenarios.push_back(varied(scenario, random, 0.2));
   }
@@ -135,7 +142,7 @@ TEST_CASE("lanes: scenarios that do not fit into a lane, or not with the others,
                                              {"effect.worm_coulomb.torque_Nm=1e-4"},
                                              {"effect.torque_saturation.limit_Nm=0.03"},
                                              {"effect.encoder_offset.angle_deg=0.01"},
-                                             {"run.solver=cvode", "run.duration_s=0.2"},
+                                             {"run.solver=cvode"},
                                              {"controller.delay_samples=1"},
                                              {}})
     scenarios.push_back(varied(figure_10(change), random, 0.1));
