@@ -15,6 +15,7 @@
 #include "bench/hybrid_by_hand.hpp"
 #include "bench/odeint_by_hand.hpp"
 #include "bench/reference.hpp"
+#include "bench/sampled_loop.hpp"
 #include "bench/sundials_by_hand.hpp"
 #include "bench/worm_drive.hpp"
 #include "control/sliding.hpp"
@@ -27,63 +28,10 @@ namespace {
 
 using namespace wormdrive;
 using ByHand = Plant<closed_loop, double>;
-using Torques = std::vector<double>;
-
-constexpr double duration = 10.0;  ///< [s]
-
-/// What the controller sees of a program that is not wormdrive's.
-struct Sensor {
-  struct Instant {
-    double t;
-    std::array<double, 2> x;
-  };
-  static Moment<double> moment(const Instant& now) { return {now.t, now.x[0], now.x[1], 0.0}; }
-  static double measured_angle(const Instant& now) { return now.x[0]; }
-  static double torque_limit() { return never; }
-};
-
 struct Nobody {
   void operator()(const ControlRecord&) const {}
 };
-ClosedLoop<SlidingController, Nobody> controller(double period) {
-  const GearMesh<double> mesh = table_1();
-  const NominalModel nominal{
-      .C1 = mesh.C1(), .C2 = mesh.C2(), .Jw_i = mesh.Jw * mesh.i, .Jg = mesh.Jg, .load_torque = 0.0196};
-  const SlidingParameters fig_10{.lambda_c = 30 * pi, .Phi = 0.3, .eta = 30.0};
-  return {SlidingController(fig_10, nominal, wormdrive::Variations{}),
-          wormdrive::Reference{{SinusoidReference{.amplitude = 0.14, .frequency = 2.0}}},
-          SensorSettings{.filter_cutoff = 200.0},
-          SamplingSettings{.period = period},
-          DisturbanceSettings{},
-          Nobody{}};
-}
-
-/// Torques that were recorded, in the place of a controller.
-struct Replay {
-  const Torques& torques;
-  std::size_t next = 0;
-
-  double sample(const auto&, const auto&) { return torques[next++]; }
-};
-
-/// The sampled loop around any program with begin, hold, advance, t and y.
-template <class Loop, class Controller>
-void run_sampled(Loop& loop, double period, Controller control) {
-  const long samples = std::lround(duration / period);
-  loop.begin();
-  for (long k = 0; k < samples; ++k) {
-    const double end = static_cast<double>(k + 1) * period;
-    const Sensor::Instant now{static_cast<double>(loop.t()),
-                              {static_cast<double>(loop.y()[0]), static_cast<double>(loop.y()[1])}};
-    loop.hold(control.sample(Sensor{}, now), end);
-    loop.advance(end, end);
-  }
-}
-
-template <class Loop>
-Outcome outcome(const Loop& loop) {
-  return {static_cast<double>(loop.y()[0]), static_cast<double>(loop.y()[1]), loop.evaluations(), loop.events()};
-}
+ClosedLoop<SlidingController, Nobody> controller(double period) { return bench::controller(period, Nobody{}); }
 
 /// A program for this case alone.
 template <class Loop>

@@ -4,10 +4,11 @@
 #include <deque>
 #include <utility>
 
-#include "control/controller_signals.hpp"
+#include "control/control_record.hpp"
 #include "control/disturbance.hpp"
 #include "control/reference.hpp"
 #include "control/sensor.hpp"
+#include "control/speed_estimator.hpp"
 
 namespace wormdrive {
 
@@ -25,14 +26,7 @@ struct SamplingSettings {
         Field{&P::offset, "sample_offset", unit::second, bounds::not_negative, "time of the first sample", o},
         Field{&P::delay, "delay_samples", unit::none, bounds::between(0, 1), "computation time in samples, 0 or 1", o}};
   }
-};
-
-/// What happened at one sample.
-struct ControlRecord {
-  double gear_angle;  ///< the true one [rad]
-  Measurement measured;
-  ControlSignals decided;
-  double applied;  ///< motor torque held from this sample on: delayed, disturbed, limited [N m]
+  bool operator==(const SamplingSettings&) const = default;
 };
 
 /// A sampled controller with its sensor, reference and disturbance: everything between the gear angle and the held

@@ -27,4 +27,19 @@ inline std::optional<Lemma1Monitor> make_monitor(const ControllerParameters& law
   return sliding ? std::optional(Lemma1Monitor(*sliding, lemma)) : std::nullopt;
 }
 
+/// Takes what a controlled run amounts to while it goes on.
+struct ControlWatch {
+  MetricsMeter meter;
+  std::optional<Lemma1Monitor> lemma;
+
+  ControlWatch(const MetricsWindow& window, const ControllerParameters& law, const Lemma1& numbers)
+      : meter(window, boundary_layer(law)), lemma(make_monitor(law, numbers)) {}
+
+  void sample(const ControlRecord& record) {
+    meter.sample(record);
+    if (lemma) lemma->sample(record);
+  }
+  ControlSummary summary() const { return {meter.result(), lemma}; }
+};
+
 }  // namespace wormdrive

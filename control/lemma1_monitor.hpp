@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "control/closed_loop.hpp"
+#include "control/control_record.hpp"
 #include "control/lemma1_conditions.hpp"
 
 namespace wormdrive {
@@ -20,6 +20,19 @@ struct Violation {
   double limit = 0.0;                                       ///< what was promised
 };
 
+/// At which samples a monitor has nothing to note, of one trial or of several at once.
+template <class V>
+struct Lemma1Quiet {
+  V layer;      ///< within which |s| has to be [rad/s]; not a number before it was reached
+  V settled;    ///< from when on |e| is bounded [s]
+  V precision;  ///< its bound [rad]
+
+  [[gnu::always_inline]] MaskOf<V> operator()(const ControlRecordOf<V>& record) const {
+    const V e = abs(record.gear_angle - record.measured.desired.angle);
+    return (abs(record.decided.s) < layer) & ((settled > record.measured.t) | (e <= precision));
+  }
+};
+
 /// Watches what Lemma 1 promises: |s| stays in the layer once it has reached it, |e| stays below the guaranteed
 /// precision a few time constants later, and outside the layer u lies on the side of the surface it was designed for.
 class Lemma1Monitor {
@@ -31,11 +44,32 @@ class Lemma1Monitor {
         violations_{{{.name = "layer", .promise = "|s| <= Phi after reaching", .limit = p.Phi},
                      {.name = "precision", .promise = "|e| <= 2 Phi/lambda_c", .limit = guaranteed_precision(p)},
                      {.name = "sharp_precision", .promise = "|e| <= 2 Phi/(e lambda_c)", .limit = sharp_precision(p)},
-                     {.name = "definition", .promise = "|u| >= M outside the layer", .limit = lemma.M}}} {}
+                     {.name = "definition", .promise = "|u| >= M outside the layer", .limit = lemma.M}}},
+        quiet_{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+               std::min(violations_[1].limit, violations_[2].limit)} {}
 
   void sample(const ControlRecord& record) {
+    if (!quiet_(record)) note(record);
+  }
+  const Lemma1Quiet<double>& quiet() const { return quiet_; }
+
+  /// When |s| first was within the layer [s]; not a number if never.
+  double reached() const { return reached_; }
+  const std::array<Violation, 4>& violations() const { return violations_; }
+  bool clean() const {
+    for (const Violation& v : violations_)
+      if (v.count > 0) return false;
+    return true;
+  }
+
+ private:
+  [[gnu::noinline]] void note(const ControlRecord& record) {
     const double t = record.measured.t, s = record.decided.s, u = record.decided.u;
-    if (std::abs(s) <= Phi_ && std::isnan(reached_)) reached_ = t;
+    if (std::abs(s) <= Phi_ && std::isnan(reached_)) {
+      reached_ = t;
+      quiet_.layer = Phi_;
+      quiet_.settled = reached_ + settling_;
+    }
     if (std::abs(s) >= Phi_) {
       const double beyond = s > 0.0 ? -u : u;
       if (beyond < M_) note(3, t, beyond);
@@ -48,16 +82,6 @@ class Lemma1Monitor {
       if (e > violations_[k].limit) note(k, t, e);
   }
 
-  /// When |s| first was within the layer [s]; not a number if never.
-  double reached() const { return reached_; }
-  const std::array<Violation, 4>& violations() const { return violations_; }
-  bool clean() const {
-    for (const Violation& v : violations_)
-      if (v.count > 0) return false;
-    return true;
-  }
-
- private:
   void note(int k, double t, double value) {
     Violation& v = violations_[k];
     if (v.count++ == 0) {
@@ -70,6 +94,7 @@ class Lemma1Monitor {
   double Phi_, M_, settling_;
   double reached_ = std::numeric_limits<double>::quiet_NaN();
   std::array<Violation, 4> violations_;
+  Lemma1Quiet<double> quiet_;
 };
 
 }  // namespace wormdrive

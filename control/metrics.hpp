@@ -4,8 +4,9 @@
 #include <limits>
 #include <tuple>
 
-#include "control/closed_loop.hpp"
+#include "control/control_record.hpp"
 #include "core/field.hpp"
+#include "core/lanes.hpp"
 #include "core/mode.hpp"
 
 namespace wormdrive {
@@ -22,6 +23,7 @@ struct MetricsWindow {
         Field{&P::to, "to", unit::second, bounds::positive, "end of the window; that of the run if not stated",
               Presence::optional}};
   }
+  bool operator==(const MetricsWindow&) const = default;
   bool contains(double t) const { return t >= from && t <= to; }
 };
 
@@ -49,24 +51,42 @@ struct Metrics {
   }
 };
 
+/// What metrics need of the samples, of one trial or of several at once.
+template <class V>
+struct SampleSums {
+  V layer;  ///< half width of the boundary layer [rad/s], infinity for a controller without one
+  V lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+  V squares = 0.0, torque_squares = 0.0, peak = 0.0, outside = 0.0;
+
+  [[gnu::always_inline]] void add(const ControlRecordOf<V>& record) {
+    const V e = record.gear_angle - record.measured.desired.angle;
+    lowest = least(lowest, e);
+    highest = greatest(highest, e);
+    squares += e * e;
+    torque_squares += record.applied * record.applied;
+    peak = greatest(peak, abs(record.applied));
+    const auto out = abs(record.decided.s) > layer;
+    if (any(out)) outside = select(out, outside + record.measured.period, outside);
+  }
+};
+
 /// Takes the metrics while a run goes on; errors are those of the true angle at the samples.
 class MetricsMeter {
  public:
   /// layer: half width of the boundary layer [rad/s], infinity for a controller without one.
-  MetricsMeter(const MetricsWindow& window, double layer) : window_(window), layer_(layer) {}
+  MetricsMeter(const MetricsWindow& window, double layer) : window_(window), sums_{.layer = layer} {}
 
   void sample(const ControlRecord& record) {
-    const double t = record.measured.t;
-    if (!window_.contains(t)) return;
-    const double e = record.gear_angle - record.measured.desired.angle;
-    lowest_ = std::min(lowest_, e);
-    highest_ = std::max(highest_, e);
-    squares_ += e * e;
-    torque_squares_ += record.applied * record.applied;
-    peak_ = std::max(peak_, std::abs(record.applied));
-    if (std::abs(record.decided.s) > layer_) outside_ += record.measured.period;
+    if (!window_.contains(record.measured.t)) return;
+    sums_.add(record);
     ++samples_;
   }
+  /// Takes the sums of samples that were added up elsewhere, and how many they are.
+  void sampled(const SampleSums<double>& sums, long samples) {
+    sums_ = sums;
+    samples_ = samples;
+  }
+  const SampleSums<double>& sums() const { return sums_; }
 
   /// Takes an instant of the run, both sides of events included.
   void instant(double t, Mode mode) {
@@ -85,23 +105,21 @@ class MetricsMeter {
       return {none, none, none, none, none, none, none, none, none};
     }
     const double n = static_cast<double>(samples_);
-    return {highest_ - lowest_,
-            std::sqrt(squares_ / n),
-            std::max(std::abs(highest_), std::abs(lowest_)),
-            peak_,
-            std::sqrt(torque_squares_ / n),
+    return {sums_.highest - sums_.lowest,
+            std::sqrt(sums_.squares / n),
+            std::max(std::abs(sums_.highest), std::abs(sums_.lowest)),
+            sums_.peak,
+            std::sqrt(sums_.torque_squares / n),
             static_cast<double>(reversals_),
             static_cast<double>(flank_changes_),
             stuck_,
-            outside_};
+            sums_.outside};
   }
 
  private:
   MetricsWindow window_;
-  double layer_;
-  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
-  double squares_ = 0.0, torque_squares_ = 0.0, peak_ = 0.0, stuck_ = 0.0, outside_ = 0.0;
-  double t_ = 0.0;
+  SampleSums<double> sums_;
+  double t_ = 0.0, stuck_ = 0.0;
   Mode mode_{};
   long samples_ = 0, reversals_ = 0, flank_changes_ = 0;
 };

@@ -20,6 +20,8 @@ using ReferenceTerm = std::variant<SinusoidReference, StepReference, TrapezoidRe
 struct Reference {
   std::vector<ReferenceTerm> terms;
 
+  bool operator==(const Reference&) const = default;
+
   ReferencePoint at(double t) const {
     ReferencePoint sum;
     for (const ReferenceTerm& term : terms) {

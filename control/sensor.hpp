@@ -52,24 +52,4 @@ class Encoder {
   bool exact_;
 };
 
-/// Backward difference of the measured angle behind a one-pole low-pass.
-class SpeedEstimator {
- public:
-  SpeedEstimator(double cutoff, double period)
-      : gain_(cutoff > 0.0 ? 1.0 - portable::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0),
-        rate_(1.0 / period) {}
-
-  /// Starts from an angle [rad] at which nothing has moved yet.
-  void start(double angle) { previous_ = angle; }
-  /// The speed [rad/s] after one more sample.
-  double operator()(double angle) {
-    speed_ += gain_ * ((angle - previous_) * rate_ - speed_);
-    previous_ = angle;
-    return speed_;
-  }
-
- private:
-  double gain_, rate_, previous_ = 0.0, speed_ = 0.0;
-};
-
 }  // namespace wormdrive

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -11,7 +11,7 @@
 #include "control/lemma1.hpp"
 #include "control/nominal.hpp"
 #include "core/field.hpp"
-#include "core/pair.hpp"
+#include "core/lanes.hpp"
 
 namespace wormdrive {
 
@@ -57,70 +57,73 @@ struct SlidingBounds {
         E{p.E1.value_or(lemma.branch[0].E), p.E2.value_or(lemma.branch[1].E)} {}
 };
 
-/// The sliding controller with smoothing inside the boundary layer [YehWu2009, eq. 20-24] and compensation [eq. 25].
-class SlidingController {
+/// The sliding controller with smoothing inside the boundary layer [YehWu2009, eq. 20-24] and compensation [eq. 25], of
+/// one trial or of several at once. It holds everything that no sample changes, and the integral of the error.
+template <class V>
+class SlidingLawOf {
  public:
-  SlidingController(const SlidingParameters& parameters, const NominalModel& nominal, const Variations& variations)
-      : SlidingController(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))) {}
-
-  ControlSignals operator()(const Measurement& m) {
-    const double load = nominal_.load(m.angle);
-    const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
-    integral_ += e * m.period;
-    const double s = e_rate + twice_lambda_ * e + lambda_squared_ * integral_;
-    const double wanted = m.desired.acceleration - twice_lambda_ * e_rate - lambda_squared_ * e;
-    const bool forward = branch(m.speed, m.desired.speed) == Motion::forward;
-    const Pair u12 = laws_[forward ? 0 : 1].inputs(load, wanted);
-    const double share = std::clamp(s * per_layer_, -1.0, 1.0);
-    const double u = 0.5 * (1.0 + share) * u12[0] + 0.5 * (1.0 - share) * u12[1];  // [eq. 24]
-    const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
-    return {u + (surface_ * load + compensation), s, u, compensation};
-  }
-
- private:
-  /// The law for one direction of motion, side by side: u1 carries the left flank and is used for s >= Phi, u2 the
-  /// right one for s <= -Phi [eq. 22-23]. It holds everything that no sample changes.
-  class Law {
-   public:
-    /// left, right: 0 where C1 acts on that flank, 1 where C2 does.
-    Law(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds, int left, int right) {
-      for (const int lane : {0, 1}) {
-        const int k = lane == 0 ? left : right;
-        const double C = k == 0 ? nominal.C1 : nominal.C2, beta = k == 0 ? p.beta1 : p.beta2;
-        inertia_[lane] = nominal.inertia(C);
-        d_[lane] = (C + nominal.surface()) / inertia_[lane];
-        const double against = (lane == 0 ? -1.0 : 1.0) * inertia_[lane];
-        of_load_[lane] = against * (beta * bounds.D[k]);
-        of_input_[lane] = against * (beta - 1.0);
-        constant_[lane] = against * (beta * (bounds.E[k] + p.eta));
-      }
-    }
-
-    /// (u_hat -+ k) / b_hat [N m], with the gain k = beta (D |tau_l_hat| + E + eta) + (beta - 1) |u_hat|.
-    Pair inputs(double load, double wanted) const {
-      const Pair u_hat = wanted - d_ * load;
-      return inertia_ * u_hat + ((of_load_ * std::abs(load) + constant_) + of_input_ * abs(u_hat));
-    }
-
-   private:
-    Pair inertia_{}, d_{};
-    Pair of_load_{}, of_input_{}, constant_{};  ///< what -+ k / b_hat has of |tau_l_hat|, of |u_hat| and without them
-  };
-
-  SlidingController(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds)
-      : p_(p),
-        nominal_(nominal),
+  SlidingLawOf() = default;
+  SlidingLawOf(const SlidingParameters& p, const NominalModel& nominal, const SlidingBounds& bounds)
+      : C_{nominal.C1, nominal.C2},
         surface_(nominal.surface()),
         twice_lambda_(2.0 * p.lambda_c),
         lambda_squared_(p.lambda_c * p.lambda_c),
         per_layer_(1.0 / p.Phi),
-        laws_{Law(p, nominal, bounds, 0, 1), Law(p, nominal, bounds, 1, 0)} {}
+        epsilon_(p.epsilon) {
+    for (const std::size_t k : {0, 1}) {
+      const double beta = k == 0 ? p.beta1 : p.beta2;
+      inertia_[k] = nominal.inertia(C_[k]);
+      d_[k] = (C_[k] + nominal.surface()) / inertia_[k];
+      of_load_[k] = inertia_[k] * (beta * bounds.D[k]);
+      of_input_[k] = inertia_[k] * (beta - 1.0);
+      constant_[k] = inertia_[k] * (beta * (bounds.E[k] + p.eta));
+    }
+  }
 
-  SlidingParameters p_;
+  /// load: estimated load torque tau_l_hat at the measured angle [N m].
+  [[gnu::always_inline]] ControlSignalsOf<V> operator()(const MeasurementOf<V>& m, const V& load) {
+    const V e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
+    integral_ += e * m.period;
+    const V s = e_rate + twice_lambda_ * e + lambda_squared_ * integral_;
+    const V wanted = m.desired.acceleration - twice_lambda_ * e_rate - lambda_squared_ * e;
+
+    // Both branches side by side, u_hat / b_hat and the gain k / b_hat with k = beta (D |tau_l_hat| + E + eta) +
+    // (beta - 1) |u_hat|. Forward C1 acts on the left flank, for s >= Phi, and C2 on the right one, for s <= -Phi;
+    // backward they change sides [eq. 22-23].
+    const Both<V> u_hat = wanted - load * d_, input = inertia_ * u_hat;
+    const Both<V> gain = (abs(load) * of_load_ + constant_) + of_input_ * abs(u_hat);
+    const Both<V> below = input - gain, above = input + gain;
+    const auto forward = goes_forward(m.speed, m.desired.speed);
+    const V u1 = select_steady<V>(forward, below[0], below[1]), u2 = select_steady<V>(forward, above[1], above[0]);
+
+    const V share = within_limits<V>(s * per_layer_, -1.0, 1.0);
+    const V u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
+    const V compensation = break_in_compensation<V>(C_[0], C_[1], load, m.speed, m.desired.speed, epsilon_);
+    return {u + (surface_ * load + compensation), s, u, compensation};
+  }
+
+ private:
+  Both<V> inertia_, d_;
+  Both<V> of_load_, of_input_, constant_;  ///< what k / b_hat has of |tau_l_hat|, of |u_hat| and without them
+  std::array<V, 2> C_;
+  V surface_, twice_lambda_, lambda_squared_, per_layer_, epsilon_;
+  V integral_ = 0.0;
+};
+
+/// The law with its estimate of the load.
+class SlidingController {
+ public:
+  SlidingController(const SlidingParameters& parameters, const NominalModel& nominal, const Variations& variations)
+      : nominal_(nominal), law_(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))) {}
+
+  ControlSignals operator()(const Measurement& m) { return law_(m, nominal_.load(m.angle)); }
+  /// As it was before its first sample.
+  const SlidingLawOf<double>& law() const { return law_; }
+  const NominalModel& nominal() const { return nominal_; }
+
+ private:
   NominalModel nominal_;
-  double surface_, twice_lambda_, lambda_squared_, per_layer_;
-  std::array<Law, 2> laws_;  ///< forward, backward
-  double integral_ = 0.0;
+  SlidingLawOf<double> law_;
 };
 
 inline SlidingController make_controller(const SlidingParameters& p, const NominalModel& nominal,

@@ -36,6 +36,8 @@ class CubicTable {
     return y_[k] + s * (slopes_[k] + s * (second + s * third));
   }
 
+  bool operator==(const CubicTable&) const = default;
+
   /// Where one cubic ends and the next begins.
   const std::vector<double>& points() const { return x_; }
   const std::vector<double>& values() const { return y_; }

@@ -5,14 +5,22 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/pair.hpp"
+#include "core/lanes.hpp"
 
 namespace wormdrive {
 
 /// Sine and cosine of one angle.
-struct SineAndCosine {
-  double sine, cosine;
+template <class V>
+struct SineAndCosineOf {
+  V sine, cosine;
 };
+using SineAndCosine = SineAndCosineOf<double>;
+
+/// Those of the sum of two angles.
+template <class V>
+[[gnu::always_inline]] inline SineAndCosineOf<V> of_sum(const SineAndCosineOf<V>& a, const SineAndCosineOf<V>& b) {
+  return {a.sine * b.cosine + a.cosine * b.sine, a.cosine * b.cosine - a.sine * b.sine};
+}
 
 /// sin x and cos x, x in rad: wrong by less than one unit in the last place for |x| < 1e6, and the same bits on every
 /// machine, for it takes IEEE additions and multiplications alone. A C library picks its variant by the processor.
@@ -44,21 +52,25 @@ struct Reduced {
 
 /// Sine and cosine behind their first terms, in z = x^2 for x in [-pi/4, pi/4]:
 /// x - (x^3 third - x^5 tail[0]) and 1 - z/2 + z^2 tail[1].
-[[gnu::always_inline]] inline Pair tail(double z) {
+template <class V>
+[[gnu::always_inline]] inline Both<V> tail(const V& z) {
   // Best approximations, side by side in one register: relative errors 4e-18 and 6e-20.
   constexpr Pair c0{0x1.111111110f7cap-7, 0x1.555555555554bp-5}, c1{-0x1.a01a019bfd185p-13, -0x1.6c16c16c14f8ap-10},
       c2{0x1.71de356712922p-19, 0x1.a01a019c83914p-16}, c3{-0x1.ae5e59f5bb6eep-26, -0x1.27e4f7ea37c18p-22},
       c4{0x1.5d8fa329313c3p-33, 0x1.1ee9d752aa1dcp-29}, c5{0.0, -0x1.8fa465f95b916p-37};
-  const double z2 = z * z;
-  return ((c0 + z * c1) + z2 * (c2 + z * c3)) + (z2 * z2) * (c4 + z * c5);
+  const V z2 = z * z;
+  return ((both<V>(c0) + z * both<V>(c1)) + z2 * (both<V>(c2) + z * both<V>(c3))) +
+         (z2 * z2) * (both<V>(c4) + z * both<V>(c5));
 }
-inline constexpr double third = 0x1.5555555555548p-3;  ///< near 1/3!
+inline constexpr double third = 0x1.5555555555548p-3;     ///< near 1/3!
+inline constexpr double furthest = 0x1.921fb54442d18p-1;  ///< pi/4, up to which nothing has to be reduced [rad]
 
 /// Sine and cosine of an angle in [-pi/4, pi/4].
-[[gnu::always_inline]] inline Pair within(double x) {
-  const double z = x * x, half = 0.5 * z, near_one = 1.0 - half, cube = z * x;
-  const Pair rest = tail(z);
-  return Pair{x - (cube * third - (cube * z) * rest[0]), near_one + (((1.0 - near_one) - half) + (z * z) * rest[1])};
+template <class V>
+[[gnu::always_inline]] inline Both<V> within(const V& x) {
+  const V z = x * x, half = 0.5 * z, near_one = 1.0 - half, cube = z * x;
+  const Both<V> rest = tail(z);
+  return Both<V>{x - (cube * third - (cube * z) * rest[0]), near_one + (((1.0 - near_one) - half) + (z * z) * rest[1])};
 }
 /// The same with the rounding error of the angle: sin(x + low) = sin x + low cos x, cos(x + low) = cos x - low sin x.
 [[gnu::always_inline]] inline Pair within(Reduced r) {
@@ -98,7 +110,7 @@ inline constexpr double to_whole = 0x1.8p52;  ///< added to a double it leaves t
 
 [[gnu::always_inline]] inline SineAndCosine sine_and_cosine(double x) {
   using namespace quarter_turn;
-  const Pair both = std::abs(x) < 0x1.921fb54442d18p-1 ? within(x) : turned(x);
+  const Pair both = std::abs(x) < furthest ? within(x) : turned(x);
   return {both[0], both[1]};
 }
 

@@ -51,7 +51,17 @@ typename System::Instant jump(const System& system, Solver& solver, const typena
     return system.jump(now, guard);
 }
 
-/// Runs a hybrid system to the end of its timetable and returns its last instant.
+/// How far a run has come: where it is, what it does there next, and what lies ahead.
+template <class System>
+struct Progress {
+  Timetable timetable;
+  typename System::Instant now;
+  EventLog log;
+  Cause cause{timetable.pop()};
+};
+
+/// Runs a hybrid system on, to the end of its timetable: then it returns true. A controller that has a pause() is asked
+/// before every sample; when it tells to, the run is left there, false returned, and may be taken up again.
 ///
 /// controller: sample(system, now) returns the motor torque [N m] held from a sample of the timetable to the next;
 /// latch(system, now), if it has one, comes before it where samples see an older angle.
@@ -59,17 +69,19 @@ typename System::Instant jump(const System& system, Solver& solver, const typena
 /// returns the guard at which it stopped, or no_guard. record(system, now) sees every report and both sides of every
 /// event, in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
 template <class System, class Solver, class Controller, class Recorder>
-typename System::Instant simulate(System& system, Solver& solver, Controller& controller, Timetable timetable,
-                                  typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
-  EventLog log(chatter);
-  const auto tell = [&](const Cause& cause) {
+[[gnu::always_inline]] inline bool go_on(System& system, Solver& solver, Controller& controller,
+                                         Progress<System>& progress, Recorder&& record) {
+  Timetable& timetable = progress.timetable;
+  typename System::Instant& now = progress.now;
+  EventLog& log = progress.log;
+  Cause& cause = progress.cause;
+  const auto tell = [&] {
     if constexpr (std::invocable<Recorder&, const System&, const typename System::Instant&, const Cause&>)
       record(system, now, cause);
     else
       record(system, now);
   };
-  int guard = no_guard;
-  for (Cause cause{timetable.pop()};;) {
+  for (;;) {
     switch (cause.reason) {
       case Reason::knot:
         system.enter(now.t);
@@ -80,6 +92,8 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
         if constexpr (requires { controller.latch(system, now); }) controller.latch(system, now);
         break;
       case Reason::sample: {
+        if constexpr (requires { controller.pause(); })
+          if (controller.pause()) return false;
         const double tau_m = controller.sample(system, now);
         if (!std::isfinite(tau_m))
           throw log.halt(now.t, now.mode, "the controller returned a torque that is no number");
@@ -90,26 +104,36 @@ typename System::Instant simulate(System& system, Solver& solver, Controller& co
       }
       case Reason::guard: {
         const auto before = now.mode;
-        now = jump(system, solver, now, guard);
-        log.count(now.t, std::string(System::guard_name(before, guard)), before, now.mode);
+        now = jump(system, solver, now, cause.guard);
+        log.count(now.t, std::string(System::guard_name(before, cause.guard)), before, now.mode);
         break;
       }
       case Reason::report: break;
-      case Reason::end: return now;
+      case Reason::end: return true;
     }
     if (cause.reason != Reason::report && cause.reason != Reason::latch) {
-      tell(cause);
+      tell();
       if (!System::at_rest(now.mode)) solver.restart(now);
     }
     const double next = timetable.next_time();
+    int guard = no_guard;
     try {
       guard = System::at_rest(now.mode) ? rest(system, now, next) : solver.advance(now, next, timetable.next_stop());
     } catch (const SolverFault& fault) {
       throw log.halt(now.t, now.mode, fault.what());
     }
     cause = {guard != no_guard ? Reason::guard : timetable.pop(), guard};
-    if (cause.reason != Reason::latch) tell(cause);
+    if (cause.reason != Reason::latch) tell();
   }
+}
+
+/// Runs a hybrid system to the end of its timetable and returns its last instant; what takes part in it see go_on().
+template <class System, class Solver, class Controller, class Recorder>
+typename System::Instant simulate(System& system, Solver& solver, Controller& controller, Timetable timetable,
+                                  typename System::Instant now, Recorder&& record, ChatterLimit chatter = {}) {
+  Progress<System> progress{timetable, now, EventLog(chatter)};
+  go_on(system, solver, controller, progress, record);
+  return progress.now;
 }
 
 template <class System, class Solver, class Recorder>

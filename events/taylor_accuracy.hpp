@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/lanes.hpp"
 #include "events/solver_settings.hpp"
 #include "events/taylor_expansion.hpp"
 
@@ -33,7 +34,10 @@ class TaylorAccuracy {
         order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), least_order, highest_order)) {}
 
   /// Error of the speed [rad/s] that a second may bring.
-  double allowed(double speed) const { return absolute_ + relative_ * std::abs(speed); }
+  template <class V>
+  [[gnu::always_inline]] V allowed(const V& speed) const {
+    return absolute_ + relative_ * abs(speed);
+  }
   /// The same for a quantity of which the terms of its series add up to this size.
   double relative() const { return relative_; }
   /// The order with the least work where the step is free: it grows with the digits that are asked for.

@@ -63,19 +63,21 @@ class NominalFlow<WormDrive<double, Load>> {
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
         const double C = mesh.C(motion * flank * mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
-        equations_[index(motion, flank)] = {
-            .mode = {wormdrive::Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}},
-            .held = {.motion = static_cast<double>(motion),
-                     .flank = static_cast<double>(flank),
-                     .gravity = amplitude() * C * inverse,
-                     .drag = (worm_viscous + C * gear_viscous) * inverse,
-                     .lift = amplitude() * surface_,
-                     .skew = worm_viscous - surface_ * gear_viscous},
-            .per_worm_torque = inverse,
-            .per_gear_torque = C * inverse,
-            .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
-                         -motion * (worm_coulomb - surface_ * gear_coulomb)},
-            .fall = curve_.branch(mesh, system.Jg(), motion * flank)};
+        Equation& m = equations_[index(motion, flank)];
+        m = {.driven = {.held = {.motion = static_cast<double>(motion),
+                                 .flank = static_cast<double>(flank),
+                                 .gravity = amplitude() * C * inverse,
+                                 .drag = (worm_viscous + C * gear_viscous) * inverse,
+                                 .lift = amplitude() * surface_,
+                                 .skew = worm_viscous - surface_ * gear_viscous},
+                        .per_worm_torque = inverse,
+                        .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
+                                     -motion * (worm_coulomb - surface_ * gear_coulomb)}},
+             .mode = {wormdrive::Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}},
+             .rubs = false,
+             .per_gear_torque = C * inverse,
+             .fall = curve_.branch(mesh, system.Jg(), motion * flank)};
+        m.rubs = m.driven.held.drag != 0.0 || m.driven.held.skew != 0.0;
       }
   }
 
@@ -85,12 +87,15 @@ class NominalFlow<WormDrive<double, Load>> {
   /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
   /// the switching surface. Otherwise the equations of core/ have to decide.
   bool goes_on(const Instant& now) {
-    const HeldMotion& m = mode_->held;
-    if (!(m.motion * now.x[1] > 0.0) || !inputs_are_constant()) return false;
-    const double skew = m.skew * now.x[1],
-                 distance = held_torques(*mode_).beyond - m.lift * arm_at(now.x[0]).cosine - skew;
-    return -m.flank * distance > 1e-3 * (std::abs(m.lift) + std::abs(skew));
+    return inputs_are_constant() && mode_->driven.held.goes_on(now.x[1], held_torques(*mode_), arm_at(now.x[0]));
   }
+  /// A moving mode under a held torque and how its arm is turned against the gear, where a leap is in closed form.
+  std::optional<DrivenMotion> driven(Mode mode) const {
+    const Equation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
+    return swings && covers_ && !curve_.falls() && !m.rubs ? std::optional(m.driven) : std::nullopt;
+  }
+  const SineAndCosine& arm_offset() const { return offset_; }
+
   /// The latest mode.
   Mode mode() const { return mode_->mode; }
 
@@ -103,13 +108,16 @@ class NominalFlow<WormDrive<double, Load>> {
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     if (!inputs_are_constant()) return false;
-    const HeldMotion& m = mode_->held;
+    const HeldTorques held = held_torques(*mode_);
+    const SineAndCosine& arm = arm_at(now.x[0]);
     const double h = next - now.t;
+    double &theta = now.x[0], &omega = now.x[1];
     if (curve_.falls()) {
-      if (!curve_.template leap<swings>(m, mode_->fall, now.x[0], now.x[1], h, held_torques(*mode_), arm_at(now.x[0]),
-                                        accuracy))
+      if (!curve_.template leap<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
         return false;
-    } else if (!m.template leap<swings>(now.x[0], now.x[1], h, held_torques(*mode_), arm_at(now.x[0]), accuracy)) {
+    } else if (mode_->rubs) {
+      if (!mode_->driven.held.template leap<swings, true>(theta, omega, h, held, arm, accuracy)) return false;
+    } else if (!mode_->driven.held.template leap<swings, false>(theta, omega, h, held, arm, accuracy)) {
       return false;
     }
     now.t = next;
@@ -125,7 +133,7 @@ class NominalFlow<WormDrive<double, Load>> {
   template <bool falls>
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const Equation& m = *mode_;
-    if constexpr (falls) curve_.begin(m.held, m.fall, now.x[1]);
+    if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
     const int last = accuracy.order();
     input(motor_, now.t, last, worm_torque_);
     if constexpr (swings) {
@@ -137,7 +145,7 @@ class NominalFlow<WormDrive<double, Load>> {
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
     const double allowed = accuracy.allowed(e.omega[0]);
-    double power = 1.0 / h, alpha = m.friction.push;  // power: h^(k-1)
+    double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
     bool suffices = false;
     const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {
       if constexpr (swings && k > 0) arm_.turn(e.omega, k);
@@ -150,9 +158,9 @@ class NominalFlow<WormDrive<double, Load>> {
         }
       power *= h;
       // What is known first comes first: the series waits for the load.
-      alpha += worm_torque_[k] * m.per_worm_torque - m.held.drag * e.omega[k];
+      alpha += worm_torque_[k] * m.driven.per_worm_torque - m.driven.held.drag * e.omega[k];
       if constexpr (swings)
-        alpha += m.held.gravity * arm_.cosine(k);
+        alpha += m.driven.held.gravity * arm_.cosine(k);
       else
         alpha += gear_torque_[k] * m.per_gear_torque;
       if constexpr (falls) alpha += curve_.term(k, e.omega, beyond(m, k, e));
@@ -180,10 +188,10 @@ class NominalFlow<WormDrive<double, Load>> {
   /// A mode: theta'' = per_worm_torque tau_w + per_gear_torque tau_g - drag theta', its distance from the switching
   /// surface tau_w - (Jw i/Jg) tau_g - skew theta'; tau_w and tau_g hold the dry friction, not the viscous. All in SI.
   struct Equation {
+    DrivenMotion driven;
     Mode mode;
-    HeldMotion held;
-    double per_worm_torque, per_gear_torque;
-    HeldTorques friction;  ///< what dry friction of the bearings does to the drive
+    bool rubs;
+    double per_gear_torque;
     StribeckCurve::Branch fall;
   };
 
@@ -196,7 +204,7 @@ class NominalFlow<WormDrive<double, Load>> {
       return is_constant(motor_) && is_constant(load_.piece);
   }
   HeldTorques held_torques(const Equation& m) const {
-    HeldTorques held{motor_.constant * m.per_worm_torque + m.friction.push, motor_.constant + m.friction.beyond};
+    HeldTorques held = m.driven.under(motor_.constant);
     if constexpr (!swings) {
       held.push += load_.piece.constant * m.per_gear_torque;
       held.beyond -= load_.piece.constant * surface_;
@@ -214,8 +222,7 @@ class NominalFlow<WormDrive<double, Load>> {
   /// way of the controller, which waits for the angle and nothing else: that costs a tenth of the time of a sample.
   [[gnu::always_inline]] void look(double theta_g) {
     if constexpr (swings) {
-      const auto [sine, cosine] = sine_and_cosine(theta_g);
-      arm_now_ = {sine * offset_.cosine + cosine * offset_.sine, cosine * offset_.cosine - sine * offset_.sine};
+      arm_now_ = of_sum(sine_and_cosine(theta_g), offset_);
       arm_now_at_ = theta_g;
     }
   }
@@ -245,19 +252,19 @@ class NominalFlow<WormDrive<double, Load>> {
   void complete(const Equation& m, int order, Motion& e) const {
     e.order = order;
     Coefficients &speed = e.guards[System::speed_guard], &flank = e.guards[System::flank_guard];
-    const double side = -m.held.flank;
+    const double side = -m.driven.held.flank;
     for (int k = 0; k <= order; ++k) {
       e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
-      speed[k] = m.held.motion * e.omega[k];
+      speed[k] = m.driven.held.motion * e.omega[k];
       flank[k] = side * beyond(m, k, e);
     }
     if (side == 0.0) flank[0] = 1.0;
   }
   /// Coefficient k of the distance from the switching surface.
   double beyond(const Equation& m, int k, const Motion& e) const {
-    const double load = swings ? m.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
-    const double distance = worm_torque_[k] - load - m.held.skew * e.omega[k];
-    return k == 0 ? distance + m.friction.beyond : distance;
+    const double load = swings ? m.driven.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
+    const double distance = worm_torque_[k] - load - m.driven.held.skew * e.omega[k];
+    return k == 0 ? distance + m.driven.friction.beyond : distance;
   }
 
   const Piece& motor_;

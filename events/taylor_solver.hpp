@@ -56,6 +56,15 @@ class TaylorSolver {
     return advance_step_by_step(now, next, limit);
   }
 
+  /// The formulas by which it leaps.
+  const NominalFlow<System>& nominal() const { return nominal_; }
+  /// Counts leaps that were made elsewhere by the same formulas, each after a restart.
+  void count_leaps(long leaps) {
+    count_.restarts += leaps;
+    count_.steps += leaps;
+    count_.evaluations += leaps;
+  }
+
   /// What the solver did since it was made; an evaluation is one power series of the motion.
   SolverStatistics statistics() const {
     SolverStatistics sum = count_;

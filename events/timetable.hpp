@@ -54,6 +54,22 @@ class Timetable {
     find_next();
   }
 
+  /// Leaves out what comes before the k-th sample and takes that.
+  void skip_to_sample(long k) {
+    samples_ = k + 1;
+    schedule_sample();
+    while (report_ < sample_time(k)) {
+      ++reports_;
+      schedule_report();
+    }
+    find_next();
+  }
+  /// When the k-th sample is due [s].
+  double sample_time(long k) const {
+    // Counted, not accumulated, so that it is where its number says; 0 times an infinite period would be no number.
+    return begin_ + sampling_.offset + (k == 0 ? 0.0 : static_cast<double>(k) * sampling_.period);
+  }
+
  private:
   Reason next() {
     if (knot_ <= next_ && knot_ < end_) {
@@ -82,19 +98,20 @@ class Timetable {
     next_ = std::min({next_stop_, latch_, report_});
   }
 
-  // Counted, not accumulated, so that the k-th sample or report is where its number says.
-  double sample_time(long k) const {
-    // 0 times an infinite period would not be a number
-    return begin_ + sampling_.offset + (k == 0 ? 0.0 : static_cast<double>(k) * sampling_.period);
-  }
   void schedule_sample() { sample_ = sample_time(samples_); }
   /// What a sample sees from before the begin is the angle at the begin.
   void schedule_latch() {
     if (sampling_.age > 0.0) latch_ = std::max(begin_, sample_time(latches_) - sampling_.age);
   }
-  /// A report on the end is the end's own row.
+  /// A report on the end is the end's own row; one that rounding keeps from a sample is on it, so that no solver sees
+  /// it.
   void schedule_report() {
-    const double t = begin_ + static_cast<double>(reports_) * interval_;
+    double t = begin_ + static_cast<double>(reports_) * interval_;
+    const double samples = std::round((t - begin_ - sampling_.offset) / sampling_.period);
+    if (samples >= 0.0 && samples < 0x1p52) {
+      const double sample = sample_time(static_cast<long>(samples));
+      if (std::abs(t - sample) <= 2.0 * std::numeric_limits<double>::epsilon() * t) t = sample;
+    }
     report_ = t < end_ - 1e-9 * interval_ ? t : std::numeric_limits<double>::infinity();
   }
 

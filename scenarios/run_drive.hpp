@@ -33,6 +33,40 @@ class DriveRun {
       finish_rows();
       throw;
     }
+    return finish();
+  }
+
+  // ---- the parts, for a run that others carry on ---------------------------------------------------------------
+
+  Timetable timetable(const ControlScenario& control) const {
+    return {0.0,
+            scenario_.run.duration,
+            scenario_.run.rows_every(),
+            {control.sampling.period, control.sampling.offset, drive_.effects().measuring_delay()}};
+  }
+  Instant start() const {
+    const auto& [theta_g, omega_g] = scenario_.initial;
+    Instant start;
+    if constexpr (requires { carrying(drive_, 0.0, theta_g, omega_g); }) {
+      drive_.enter(0.0);
+      start.x = carrying(drive_, 0.0, theta_g, omega_g);
+    } else {
+      start.x = {theta_g, omega_g};
+    }
+    return start;
+  }
+  void record(const Drive& drive, const Instant& now) {
+    if (listeners_.rows)
+      recorder_(drive, now);
+    else
+      counter_(drive, now);
+    if (listeners_.audit) trail_(drive, now);
+    if (recorder_.trajectory().rows.size() > portion || samples_.size() > portion) hand_over();
+    if (listeners_.time) listeners_.time(now.t);
+  }
+
+  /// What a run amounts to that has come to its end.
+  RunSummary finish() {
     if (listeners_.rows) {
       summary_.end = recorder_.trajectory().rows.back().at;
     } else {
@@ -46,16 +80,6 @@ class DriveRun {
   }
 
  private:
-  void record(const Drive& drive, const Instant& now) {
-    if (listeners_.rows)
-      recorder_(drive, now);
-    else
-      counter_(drive, now);
-    if (listeners_.audit) trail_(drive, now);
-    if (recorder_.trajectory().rows.size() > portion || samples_.size() > portion) hand_over();
-    if (listeners_.time) listeners_.time(now.t);
-  }
-
   void open_loop() {
     simulate(drive_, solver_, Timetable(0.0, scenario_.run.duration, scenario_.run.rows_every()), start(),
              [this](const Drive& drive, const Instant& now) { record(drive, now); });
@@ -64,39 +88,23 @@ class DriveRun {
   void controlled(const ControlScenario& control) {
     const NominalModel nominal = make_nominal(scenario_);
     const Variations variations = make_variations(scenario_);
-    MetricsMeter meter(control.window, boundary_layer(control.law));
-    std::optional<Lemma1Monitor> monitor = make_monitor(control.law, lemma1(nominal, variations));
+    ControlWatch watch(control.window, control.law, lemma1(nominal, variations));
     const auto listen = [&](const ControlRecord& sample) {
-      meter.sample(sample);
-      if (monitor) monitor->sample(sample);
+      watch.sample(sample);
       if (listeners_.samples) samples_.push_back(sample);
       if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied});
     };
-    const Timetable timetable(0.0, scenario_.run.duration, scenario_.run.rows_every(),
-                              {control.sampling.period, control.sampling.offset, drive_.effects().measuring_delay()});
     std::visit(
         [&](const auto& law) {
           ClosedLoop loop(make_controller(law, nominal, variations), control.reference, control.sensor,
                           control.sampling, control.disturbance, listen);
-          simulate(drive_, solver_, loop, timetable, start(), [&](const Drive& drive, const Instant& now) {
-            meter.instant(now.t, now.mode);
+          simulate(drive_, solver_, loop, timetable(control), start(), [&](const Drive& drive, const Instant& now) {
+            watch.meter.instant(now.t, now.mode);
             record(drive, now);
           });
         },
         control.law);
-    summary_.control = ControlSummary{meter.result(), monitor};
-  }
-
-  Instant start() {
-    const auto& [theta_g, omega_g] = scenario_.initial;
-    Instant start;
-    if constexpr (requires { carrying(drive_, 0.0, theta_g, omega_g); }) {
-      drive_.enter(0.0);
-      start.x = carrying(drive_, 0.0, theta_g, omega_g);
-    } else {
-      start.x = {theta_g, omega_g};
-    }
-    return start;
+    summary_.control = watch.summary();
   }
 
   void hand_over() {

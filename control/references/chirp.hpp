@@ -28,6 +28,7 @@ struct ChirpReference {
         Field{&P::last_frequency, "last_frequency", unit::hertz, bounds::not_negative, "frequency at the end"},
         Field{&P::duration, "duration", unit::second, bounds::positive, "time of the sweep"}};
   }
+  bool operator==(const ChirpReference&) const = default;
   ReferencePoint at(double t) const {
     const double rate = t < duration ? 2.0 * std::numbers::pi * (last_frequency - first_frequency) / duration : 0.0;
     const double swept = std::min(t, duration), after = t - swept;

@@ -25,6 +25,7 @@ struct MultisineReference {
         Field{&P::highest_frequency, "highest_frequency", unit::hertz, bounds::positive, "highest frequency"},
         Field{&P::count, "count", unit::none, bounds::between(1, 1000), "number of sines", Presence::optional}};
   }
+  bool operator==(const MultisineReference&) const = default;
   ReferencePoint at(double t) const {
     ReferencePoint sum;
     const int n = static_cast<int>(count);

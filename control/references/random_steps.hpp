@@ -25,6 +25,7 @@ struct RandomStepsReference {
                       Field{&P::interval, "interval", unit::second, bounds::positive, "time between two steps"},
                       Field{&P::seed, "seed", unit::none, seeds, "seed of the random angles", Presence::optional}};
   }
+  bool operator==(const RandomStepsReference&) const = default;
   ReferencePoint at(double t) const {
     const auto k = static_cast<std::uint64_t>(std::max(0.0, std::floor(t / interval)));
     return {amplitude * (2.0 * uniform(static_cast<std::uint64_t>(seed), Stream::reference, k) - 1.0), 0.0, 0.0};

@@ -22,6 +22,7 @@ struct SinusoidReference {
                       Field{&P::frequency, "frequency", unit::hertz, bounds::positive, "frequency"},
                       Field{&P::phase, "phase", unit::degrees, bounds::any, "phase at t = 0", Presence::optional}};
   }
+  bool operator==(const SinusoidReference&) const = default;
   ReferencePoint at(double t) const {
     return sine_point(amplitude, frequency * t + phase * (0.5 * std::numbers::inv_pi), frequency);
   }

@@ -19,6 +19,7 @@ struct StepReference {
     return std::tuple{Field{&P::angle, "angle", unit::radian, bounds::any, "angle after the step"},
                       Field{&P::time, "time", unit::second, bounds::any, "time of the step"}};
   }
+  bool operator==(const StepReference&) const = default;
   ReferencePoint at(double t) const { return {t >= time ? angle : 0.0, 0.0, 0.0}; }
 };
 

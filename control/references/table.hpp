@@ -13,6 +13,7 @@ struct TableReference {
   static constexpr std::string_view meaning = "table of angles over time, smooth between its points";
   CubicTable table;  ///< angles [rad] over times [s]
 
+  bool operator==(const TableReference&) const = default;
   ReferencePoint at(double t) const {
     const auto x = table(Series<double, 2>::variable(t));
     return {x[0], x[1], 2.0 * x[2]};

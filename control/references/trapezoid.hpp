@@ -27,6 +27,7 @@ struct TrapezoidReference {
               "acceleration and deceleration"},
         Field{&P::start, "start", unit::second, bounds::any, "time at which the move begins", Presence::optional}};
   }
+  bool operator==(const TrapezoidReference&) const = default;
   ReferencePoint at(double t) const {
     const double sign = angle < 0.0 ? -1.0 : 1.0, distance = std::abs(angle);
     const double ramp = std::min(max_speed / acceleration, std::sqrt(distance / acceleration));

@@ -124,3 +124,29 @@ TEST_CASE("a run reports each of its times once, though steps of the torque fall
   for (int k = 1; k < 30; ++k) REQUIRE(std::count(times.begin(), times.end(), k * 0.1) == 1);
   REQUIRE(times.back() == 3.0);
 }
+
+TEST_CASE("a report that rounding keeps from a sample is on it") {
+  const double period = 1e-3;
+  const std::vector<double> reports = reports_of(Timetable(0.0, 2.0, 0.01, {period, 0.0}));
+  REQUIRE(reports.size() == 199);
+  for (std::size_t k = 0; k < reports.size(); ++k) REQUIRE(reports[k] == static_cast<double>(10 * (k + 1)) * period);
+}
+
+TEST_CASE("a timetable that skips to a sample goes on as the one that went there") {
+  const Timetable whole(0.5, 3.0, 0.07, {0.03, 0.01});
+  for (long sample : {0, 1, 29, 70}) {
+    std::vector<Due> rest = all_of(whole);
+    long taken = -1;
+    while (taken < sample) {
+      taken += rest.front().reason == Reason::sample;
+      rest.erase(rest.begin());
+    }
+    Timetable skipped = whole;
+    skipped.pop();
+    skipped.skip_to_sample(sample);
+    const auto calls = all_of(skipped);
+    REQUIRE(calls.size() == rest.size());
+    for (std::size_t k = 0; k < calls.size(); ++k)
+      REQUIRE((calls[k].t == rest[k].t && calls[k].reason == rest[k].reason));
+  }
+}

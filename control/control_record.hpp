@@ -1,0 +1,16 @@
+#pragma once
+#include "control/controller_signals.hpp"
+
+namespace wormdrive {
+
+/// What happened at one sample, of one trial or of several at once.
+template <class V>
+struct ControlRecordOf {
+  V gear_angle;  ///< the true one [rad]
+  MeasurementOf<V> measured;
+  ControlSignalsOf<V> decided;
+  V applied;  ///< motor torque held from this sample on: delayed, disturbed, limited [N m]
+};
+using ControlRecord = ControlRecordOf<double>;
+
+}  // namespace wormdrive

@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "control/lane_batch.hpp"
+#include "scenarios/run_scenario.hpp"
+
+namespace wormdrive {
+
+/// What a run amounts to, or why it could not go on.
+using BatchResult = std::variant<RunSummary, std::string>;
+
+/// Simulates scenarios as run_scenario() does, with the same bits: those that differ in numbers of drive and controller
+/// alone, sampled by a sliding controller and solved by power series, several at once in the lanes of one register.
+std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind kind = widest_lanes());
+
+}  // namespace wormdrive

@@ -1,0 +1,162 @@
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "catch.hpp"
+#include "cli/program.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/run_batch.hpp"
+#include "support.hpp"
+
+// Several closed-loop runs in the lanes of one register: each gets the bits that it gets alone.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+Scenario figure_10(std::vector<std::string> changes = {}) {
+  changes.insert(changes.begin(), {"run.solver=taylor", "run.duration_s=2", "run.relative_tolerance=1e-8"});
+  return load_scenario(shipped("fig10_sliding_014rad_bare.toml"), changes, Purpose::run);
+}
+
+/// A scenario with other numbers of drive, load and start, each within a share.
+Scenario varied(Scenario scenario, std::mt19937_64& random, double share) {
+  const auto vary = [&](double& x) { x *= 1.0 + share * std::uniform_real_distribution(-1.0, 1.0)(random); };
+  auto& mesh = std::get<MeshParameters<double>>(scenario.mesh);
+  auto& arm = std::get<GravityArm>(scenario.load);
+  for (double* number : {&mesh.mu, &mesh.Jw, &mesh.Jg, &*arm.amplitude}) vary(*number);
+  arm.offset += share * std::uniform_real_distribution(-1.0, 1.0)(random);
+  scenario.initial.theta_g = 0.05 * share * std::uniform_real_distribution(-1.0, 1.0)(random);
+  return scenario;
+}
+
+/// Everything that a sweep can ask of a run, and what its solver did, bit by bit.
+std::vector<std::uint64_t> bits(const RunSummary& run) {
+  std::vector<std::uint64_t> all;
+  const auto add = [&](double x) { all.push_back(std::bit_cast<std::uint64_t>(x)); };
+  const auto count = [&](long n) { all.push_back(static_cast<std::uint64_t>(n)); };
+  for_each_field<Metrics>([&](const auto& field) { add(run.control->metrics.*field.member); });
+  add(run.control->lemma->reached());
+  for (const Violation& v : run.control->lemma->violations()) {
+    count(v.count);
+    add(v.worst);
+    add(v.first);
+  }
+  for (const long events : run.events) count(events);
+  for (const double x : {run.end.theta_g, run.end.omega_g, run.end.alpha_g, run.end.tau_m, run.end.normal_force})
+    add(x);
+  const SolverStatistics& s = run.statistics;
+  for (const long n : {s.steps, s.evaluations, s.guard_evaluations, s.restarts}) count(n);
+  return all;
+}
+
+/// How many of the results are not those of run_scenario().
+int strangers(const std::vector<Scenario>& scenarios, const std::vector<BatchResult>& results) {
+  int differ = 0;
+  for (std::size_t k = 0; k < scenarios.size(); ++k) try {
+      const RunSummary alone = run_scenario(scenarios[k]);
+      const auto* const run = std::get_if<RunSummary>(&results[k]);
+      differ += !run || bits(*run) != bits(alone);
+    } catch (const Halt& halt) {
+      const auto* const reason = std::get_if<std::string>(&results[k]);
+      differ += !reason || *reason != halt.what();
+    }
+  return differ;
+}
+
+std::vector<LaneKind> available() {
+  std::vector<LaneKind> kinds;
+  for (const LaneKind kind : lane_kinds)
+    if (is_available(kind)) kinds.push_back(kind);
+  return kinds;
+}
+
+void require_the_same(const std::vector<Scenario>& scenarios) {
+  for (const LaneKind kind : available()) {
+    CAPTURE(static_cast<int>(kind));
+    REQUIRE(strangers(scenarios, run_batch(scenarios, kind)) == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lanes: trials of fig. 10 with random numbers have the bits of runs alone, events included") {
+  std::mt19937_64 random(10);
+  std::vector<Scenario> scenarios;
+  for (int k = 0; k < 21; ++k) scenarios.push_back(varied(figure_10(), random, 0.2));  // 16 and a rest
+  long events = 0;
+  for (const BatchResult& result : run_batch(scenarios)) events += std::get<RunSummary>(result).total_events();
+  REQUIRE(events > 21 * 8);
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: the same with reports on and between samples, a late start, a window, a tighter solver") {
+  std::mt19937_64 random(11);
+  std::vector<Scenario> scenarios;
+  for (const char* tolerance : {"run.relative_tolerance=1e-10", "run.relative_tolerance=1e-12"})
+    for (int k = 0; k < 4; ++k)
+      scenarios.push_back(
+          varied(figure_10({tolerance, "run.report_interval_s=0.0017", "controller.sample_offset_s=0.0123",
+                            "metrics.from_s=0.4", "metrics.to_s=1.7", "controller.sample_time_s=0.0021"}),
+                 random, 0.1));
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: the same far from the horizontal, at rest, and where Lemma 1 is broken") {
+  std::mt19937_64 random(12);
+  std::vector<Scenario> scenarios;
+  for (int k = 0; k < 8; ++k) {
+    Scenario scenario = figure_10({"reference.amplitude_rad=1.7", "reference.frequency_Hz=0.7", "metrics.from_s=0"});
+    if (k % 4 == 1) scenario.initial.theta_g = 40.0;
+    if (k % 4 == 2) {  // too weak to move for most of the time
+      std::get<SinusoidReference>(scenario.control->reference.terms.front()).amplitude = 0.01;
+      auto& law = std::get<SlidingParameters>(scenario.control->law);
+      law.Phi = 50.0;
+      law.eta = 0.01;
+      scenario.control->nominal.load_torque = 0.0;
+    }
+    if (k % 4 == 3) std::get<GravityArm>(scenario.load).amplitude = 0.4;
+    scenarios.push_back(varied(scenario, random, 0.2));
+  }
+  long broken = 0;
+  double stuck = 0.0;
+  for (const Scenario& scenario : scenarios) {
+    const ControlSummary run = *run_scenario(scenario).control;
+    broken += !run.lemma->clean();
+    stuck += run.metrics.time_stuck;
+  }
+  REQUIRE(broken > 0);
+  REQUIRE(stuck > 0.0);
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: scenarios that do not fit into a lane, or not with the others, run all the same") {
+  std::mt19937_64 random(13);
+  std::vector<Scenario> scenarios;
+  for (const std::vector<std::string>& change :
+       std::vector<std::vector<std::string>>{{},
+                                             {"reference.frequency_Hz=2.1"},
+                                             {"sensor.counts=10000"},
+                                             {"effect.worm_viscous.coefficient_Nms_per_rad=1e-6"},
+                                             {"effect.worm_coulomb.torque_Nm=1e-4"},
+                                             {"effect.torque_saturation.limit_Nm=0.03"},
+                                             {"effect.encoder_offset.angle_deg=0.01"},
+                                             {"run.solver=cvode"},
+                                             {"controller.delay_samples=1"},
+                                             {}})
+    scenarios.push_back(varied(figure_10(change), random, 0.1));
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: a run that cannot go on fails alone, for the reason that it has alone") {
+  std::mt19937_64 random(14);
+  std::vector<Scenario> scenarios;
+  for (int k = 0; k < 7; ++k) scenarios.push_back(varied(figure_10(), random, 0.1));
+  scenarios[2].control->nominal.load_torque = 1e308;
+  const auto results = run_batch(scenarios);
+  for (std::size_t k = 0; k < results.size(); ++k) REQUIRE(std::holds_alternative<std::string>(results[k]) == (k == 2));
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: nothing comes of nothing") { REQUIRE(run_batch({}).empty()); }
