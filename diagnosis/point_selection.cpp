@@ -61,11 +61,15 @@ class Selector {
   }
 
   /// Level effects stand in for each other, so the way to the best model is full of traps: one search among effects
-  /// that nobody has stated, one among all.
+  /// that nobody has stated, one among all. Of the two, the one with more causes needs decisive evidence for each of them.
   FittedModel search(const FittedModel& nominal) const {
     const FittedModel unstated = improved(best_of_sizes(nominal, comparison_.limits().unstated, false));
     const FittedModel all = improved(best_of_sizes(nominal, comparison_.limits().together, true));
-    return unstated.rank() < all.rank() ? unstated : all;
+    constexpr double decisive = 20.0;  // of BIC
+    const auto dear = [](const FittedModel& m) {
+      return m.rank() + decisive * static_cast<double>(m.model.causes.size());
+    };
+    return dear(unstated) < dear(all) ? unstated : all;
   }
 
   FittedModel best_of_sizes(const FittedModel& nominal, std::size_t largest, bool stated_too) const {

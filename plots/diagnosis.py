@@ -16,7 +16,7 @@ MOST_BARS = 15  # effects in the ranking
 def legend_above(figure, handles):
     """One legend for all panels, in a strip of its own."""
     figure.get_layout_engine().set(rect=(0, 0, 1, 0.95))
-    figure.legend(handles=handles, loc="upper right", ncol=len(handles))
+    figure.legend(handles=handles, loc="upper right", bbox_to_anchor=(1, 0.955), ncol=len(handles))
 
 
 def texts(table, name):
