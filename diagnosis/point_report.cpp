@@ -173,8 +173,8 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     d.sentence += fmt::format(" These data cannot tell {} from {}.", d.equivalents.front(),
                               fmt::join(d.equivalents.begin() + 1, d.equivalents.end(), " or "));
   else if (!classed.empty())
-    d.sentence += fmt::format("{}{} of {} are at work; these data cannot tell which.", names.empty() ? "" : " Beside, ",
-                              classed.size(), fmt::join(d.equivalents, ", "));
+    d.sentence += fmt::format("{}ome of {} are at work; these data cannot tell which.",
+                              names.empty() ? "S" : " Beside, s", fmt::join(d.equivalents, ", "));
   d.sentence += gain + left;
 }
 

