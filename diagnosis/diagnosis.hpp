@@ -93,7 +93,8 @@ struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;  ///< for people: what is wrong, by how much, what is gained
   std::vector<EstimatedEffect> causes;
-  std::vector<std::string> equivalents;      ///< ids of the class, if ambiguous, those in `causes` first: the causes are as many of them
+  std::vector<std::string>
+      equivalents;  ///< ids of the class, if ambiguous, those in `causes` first: the causes are as many of them
   std::vector<Candidate> ranking;            ///< best first
   std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved within their tolerance
   std::vector<PredictionError> prediction;
@@ -104,8 +105,8 @@ struct Diagnosis {
   std::string experiment_reason;       ///< a sentence
   ResidualTorque residual;
   std::vector<PredictionExample> examples;
-  PredictedTorques torques;           ///< of records at constant speed and of break-in tables
-  std::vector<Estimate> identified;   ///< constants that the data state directly: C1, C2, mu_s of a break-in table
+  PredictedTorques torques;          ///< of records at constant speed and of break-in tables
+  std::vector<Estimate> identified;  ///< constants that the data state directly: C1, C2, mu_s of a break-in table
   std::vector<std::string> remarks;  ///< on the data and on the diagnosis
   double noise_torque{};             ///< of the process, rms [N m]
   double noise_angle{};              ///< of the sensor, rms [rad]
