@@ -33,7 +33,8 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
           fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
     all.push_back(prepared(r, {}, blocks));
     blocks += all.back().blocks();
-    if (all.back().rms_speed == 0.0) throw std::invalid_argument("nothing moves in the recording");
+    const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
+    if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
   }
   return all;
 }

@@ -1,7 +1,9 @@
 #include "diagnosis/evaluation.hpp"
 
+#include <cmath>
 #include <utility>
 
+#include "diagnosis/predictor.hpp"
 #include "scenarios/build.hpp"
 
 namespace wormdrive {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "diagnosis/coordinates.hpp"
+#include "diagnosis/filtered_states.hpp"
 #include "diagnosis/noise_model.hpp"
 #include "diagnosis/observer_gains.hpp"
-#include "diagnosis/predictor.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace wormdrive {

@@ -48,7 +48,14 @@ Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h) {
   const Eigen::MatrixXd inverse = H.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   Eigen::VectorXd scales(n);
   for (Eigen::Index k = 0; k < n; ++k) scales[k] = h.free[static_cast<std::size_t>(k)].scale;
-  return scales.asDiagonal() * (inverse * B * inverse) * scales.asDiagonal();
+  Eigen::MatrixXd spread = scales.asDiagonal() * (inverse * B * inverse) * scales.asDiagonal();
+  // Where the likelihood has no slope at all, as over a friction at rest between two break-aways, it tells no size.
+  constexpr double flat = 1e-6;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Coordinate& c = h.free[static_cast<std::size_t>(k)];
+    if (H(k, k) < flat) spread(k, k) = std::pow(c.high - c.low, 2);
+  }
+  return spread;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/worm_drive.hpp"
+#include "diagnosis/filtered_states.hpp"
 #include "diagnosis/observer_gains.hpp"
 #include "diagnosis/prepared_recording.hpp"
 #include "events/short_step_solver.hpp"
@@ -21,11 +22,6 @@ struct CommandPath {
 
 /// The effects of a drive for its predictor, and what was taken out.
 CommandPath take_out_command_path(Effects<double>& effects);
-
-/// The state by which the predictor met each sample, for maps and predictions further ahead.
-struct FilteredStates {
-  std::vector<double> angle, speed, torque;  ///< [rad, rad/s, N m]; torque is the coloured one
-};
 
 /// Predicts every sample of a recording from the ones before: the hybrid model runs from sample to sample with the
 /// recorded command, exact at events, and the innovation corrects its state.
@@ -134,7 +130,7 @@ class Predictor {
         int guard;
         if (Drive::at_rest(now.mode)) {
           now.x[1] = 0.0;
-          guard = rest(drive_, now, stop);
+          guard = rest_until(now, stop);
         } else {
           solver_.restart(now);
           guard = solver_.advance(now, stop, stop);
@@ -148,6 +144,20 @@ class Predictor {
       drive_.enter(stop);
       now.mode = drive_.settle(now);
     }
+  }
+
+  /// Rests until released. A torque that is held is constant, or approaches what is held as its lag decays: margins
+  /// that are positive at both ends are so between, and no search in steps of the lag is needed.
+  int rest_until(Instant& now, double stop) {
+    Instant then = now;
+    then.t = stop;
+    const auto holds = [this](const Instant& at) {
+      const auto margins = drive_.guards(drive_.moment(at), at.mode);
+      return std::all_of(margins.begin(), margins.end(), [](double m) { return m > 0.0; });
+    };
+    if (drive_.load().fastest() > 0.0 || !holds(now) || !holds(then)) return rest(drive_, now, stop);
+    now.t = stop;
+    return no_guard;
   }
 
   /// Torque on the worm that gives the gear an acceleration of 1 rad/s^2, without friction [kg m^2].

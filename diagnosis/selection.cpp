@@ -154,12 +154,16 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
 }
 
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
+  // What stands at a bound is not what its name says; it must not keep others out.
+  std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
   const double best = tried.front().evidence.delta_bic;
   // Among equals the one with the fewest parameters comes first.
   constexpr double as_good = 6.0;
   auto first = tried.begin();
   for (auto t = tried.begin(); t != tried.end(); ++t)
-    if (best - t->evidence.delta_bic < as_good && t->model.free.size() < first->model.free.size()) first = t;
+    if (!t->evidence.at_bound && best - t->evidence.delta_bic < as_good &&
+        t->model.free.size() < first->model.free.size())
+      first = t;
   std::rotate(tried.begin(), first, first + 1);
 
   for (std::size_t k = 0; k < tried.size(); ++k) {
@@ -173,8 +177,8 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     if (!accepted(t.evidence, suspect)) continue;
     Found found{t.suspect, {}};
     for (const Tried& other : tried)
-      if (other.suspect != t.suspect && t.evidence.delta_bic - other.evidence.delta_bic < reach(best) &&
-          all_[other.suspect].frees != suspect.effect)
+      if (other.suspect != t.suspect && !other.evidence.at_bound &&
+          t.evidence.delta_bic - other.evidence.delta_bic < reach(best) && all_[other.suspect].frees != suspect.effect)
         found.equals.push_back(other.suspect);
     s_.causes.push_back(found);
     s_.model = t.model;

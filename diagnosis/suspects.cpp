@@ -92,7 +92,7 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
   all.push_back(linear("bearing_asymmetry", "coefficient", 0.02 * friction_per_speed, -3.0 * friction_per_speed,
                        3.0 * friction_per_speed));
   all.push_back(cogging(m));
-  all.push_back(finite("actuator_lag", "time_constant", m.period, 1e-3 * m.period, 30.0 * m.period,
+  all.push_back(finite("actuator_lag", "time_constant", m.period, 0.02 * m.period, 30.0 * m.period,
                        {0.5 * m.period, 3.0 * m.period}));
   all.push_back(finite("actuator_delay", "delay", m.period, 0.0, 30.0 * m.period, {0.5 * m.period, 3.0 * m.period}));
   all.back().twins = {"encoder_delay"};
