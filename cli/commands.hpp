@@ -47,6 +47,12 @@ struct PlotOptions {
 };
 int plot_command(const PlotOptions& options);
 
+struct FmuOptions {
+  ScenarioOptions scenario;
+  std::string output;  ///< empty: named after the scenario
+};
+int fmu_command(const FmuOptions& options);
+
 int list_command(const std::string& what);
 
 }  // namespace wormdrive

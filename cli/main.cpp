@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
+#include "cli/help_commands.hpp"
 #include "events/halt.hpp"
 #include "output/part_file.hpp"
 #include "scenarios/faults.hpp"
@@ -87,14 +88,18 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return fmt::format("wormdrive: error: unknown command '{}'; the commands are {}", first, fmt::join(names, ", "));
 }
 
-/// CLI::PositiveNumber prints the largest double in full.
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool good = CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value);
-      return good ? "" : "'" + text + "' is not a number greater than 0";
-    },
-    "POSITIVE");
+/// A finite number that is greater than 0, or at least 0; CLI::PositiveNumber prints the largest double in full.
+CLI::Validator number(bool zero_too) {
+  const std::string rule = zero_too ? "of at least 0" : "greater than 0";
+  return CLI::Validator(
+      [zero_too, rule](const std::string& text) {
+        double value = 0.0;
+        const bool read = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        return read && (value > 0.0 || (zero_too && value == 0.0)) ? "" : "'" + text + "' is not a number " + rule;
+      },
+      zero_too ? "NOT NEGATIVE" : "POSITIVE");
+}
+const CLI::Validator positive = number(false), not_negative = number(true);
 
 }  // namespace
 
@@ -146,6 +151,44 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"motor_torque"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
 
+  FmuOptions fmu;
+  CLI::App* const fmu_app =
+      app.add_subcommand("fmu", "write the plant of a scenario as an FMU (FMI 2.0, model exchange)");
+  add_scenario_options(*fmu_app, fmu.scenario);
+  fmu_app->add_option("-o,--output", fmu.output, "FMU; default: the scenario's name with .fmu");
+
+  CLI::App* const schema_app = app.add_subcommand("schema", "print the JSON schema of scenarios, for editors");
+
+  NewOptions fresh;
+  fresh.kind = new_kinds().front();
+  CLI::App* const new_app = app.add_subcommand("new", "write a commented scenario to start from");
+  new_app->add_option("file", fresh.file, "scenario to write (.toml)")->required();
+  new_app->add_option("--kind", fresh.kind, "what it is about")
+      ->check(CLI::IsMember(new_kinds()))
+      ->capture_default_str();
+
+  DiffOptions diff;
+  CLI::App* const diff_app = app.add_subcommand(
+      "diff", "compare two results by signal and event; exit code 0 if they agree, 1 if they differ");
+  diff_app->add_option("first", diff.first, "result file (.h5)")->required();
+  diff_app->add_option("second", diff.second, "result file (.h5)")->required();
+  diff_app->add_option("--relative", diff.relative, "difference allowed, as a share of the signal's largest magnitude")
+      ->check(not_negative)
+      ->capture_default_str();
+  diff_app->add_option("--absolute", diff.absolute, "difference allowed beside, in the signal's units")
+      ->check(not_negative)
+      ->capture_default_str();
+  diff_app->add_option("--time", diff.time, "difference allowed between the times of an event [s]")
+      ->check(not_negative)
+      ->capture_default_str();
+  diff_app->add_flag("-q,--quiet", diff.quiet, "tell by the exit code only");
+  diff_app->add_flag("--json", diff.json, "print the result as JSON");
+
+  ReportOptions report;
+  CLI::App* const report_app = app.add_subcommand("report", "make one HTML page of a run, which needs no network");
+  report_app->add_option("file", report.file, "result of run (.h5)")->required();
+  report_app->add_option("-o,--output", report.output, "page; default: the file's name with .html");
+
   std::string what;
   CLI::App* const list_app =
       app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
@@ -164,7 +207,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
-  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario})
+  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario, &fmu.scenario})
     options->command_line = typed;
   return if_printed(guarded([&] {
     if (run_app->parsed()) return run_command(run);
@@ -172,6 +215,11 @@ int main(int argc, char** argv) {
     if (statics_app->parsed()) return statics_command(statics);
     if (steady_app->parsed()) return steady_command(steady);
     if (plot_app->parsed()) return plot_command(plot);
+    if (fmu_app->parsed()) return fmu_command(fmu);
+    if (schema_app->parsed()) return schema_command();
+    if (new_app->parsed()) return new_command(fresh);
+    if (diff_app->parsed()) return diff_command(diff);
+    if (report_app->parsed()) return report_command(report);
     return list_command(what);
   }));
 }

@@ -1,12 +1,10 @@
 #include "scenarios/load_scenario.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/elastic_teeth.hpp"
-#include "scenarios/build.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/read_control.hpp"
 #include "scenarios/read_effects.hpp"
@@ -14,6 +12,7 @@
 #include "scenarios/read_reference.hpp"
 #include "scenarios/read_signal.hpp"
 #include "scenarios/table_reader.hpp"
+#include "scenarios/unmovable.hpp"
 
 namespace wormdrive {
 namespace {
@@ -35,7 +34,8 @@ class ScenarioReader {
     read_run(purpose);
     read_control(root_, scenario_, folder());
     root_.finish();
-    if (purpose == Purpose::run) refuse_what_does_not_move();
+    if (purpose == Purpose::run && faults_.empty())
+      if (const auto why = why_it_cannot_move(scenario_)) faults_.add(friction_at_, *why);
     return std::move(scenario_);
   }
 
@@ -99,44 +99,6 @@ class ScenarioReader {
                               "written",
                               every, duration / every, most_rows));
     });
-  }
-
-  /// Beyond mu_g the worm brakes itself, for C2 has passed through infinity; without eq. 17 no motion is unique.
-  void refuse_what_does_not_move() {
-    const auto* const parameters = std::get_if<MeshParameters<double>>(&scenario_.mesh);
-    if (!parameters || !faults_.empty()) return;
-    GearMesh<double> mesh = make_mesh(scenario_);
-    const double stated = parameters->mu;
-    const FrictionRange range = scenario_.effects.friction_range({stated, stated}, scenario_.run.duration);
-    if (range.low < 0.0) {
-      faults_.add(friction_at_, fmt::format("mesh.friction = {} may fall to {:.6g} with its effects; friction must be "
-                                            "at least 0",
-                                            stated, range.low));
-      return;
-    }
-    if (has_elastic_teeth(scenario_.effects)) return;  // which have one motion for every friction
-    mesh.mu = range.high;
-    std::string friction = fmt::format("mesh.friction = {}", stated);
-    if (mesh.mu != stated) friction += fmt::format(", which may rise to {:.6g} with its effects,", mesh.mu);
-    if (mesh.mu >= mesh.mu_g()) {
-      faults_.add(friction_at_, fmt::format("{} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would "
-                                            "lock itself; only elastic teeth, [effect.tooth_compliance], can follow it",
-                                            friction, mesh.mu_g()));
-      return;
-    }
-    const double slope = scenario_.effects.least_slope(), Jw_i = mesh.Jw * mesh.i * slope * slope;
-    const double Jg = total_gear_inertia(scenario_), surface = Jw_i / Jg;
-    const std::string limit =
-        slope < 1.0 ? fmt::format("-Jw i k^2/Jg where the worm is slowest, k = {:.6g},", slope) : "-Jw i/Jg";
-    if (mesh.C1() <= -surface)
-      faults_.add(
-          friction_at_,
-          fmt::format(
-              "{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, {} = {:.6g} with "
-              "Jg = {:.6g} kg m^2; the rigid drive would jam. Lower the friction, raise worm_inertia_kgm2, "
-              "lower the gear-side inertia below {:.6g} kg m^2, or add [effect.tooth_compliance]: elastic teeth "
-              "can jam",
-              friction, mesh.C1(), limit, -surface, Jg, -Jw_i / mesh.C1()));
   }
 
   std::string name_;
