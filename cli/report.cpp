@@ -14,6 +14,7 @@
 #include "cli/report_assets.hpp"
 #include "cli/result_file.hpp"
 #include "output/trajectory.hpp"
+#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/quantities.hpp"
 

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings/python/run_result.hpp"
+#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/quantities.hpp"
 #include "scenarios/steady_scenario.hpp"
