@@ -21,7 +21,8 @@ namespace {
 /// A zip archive that disappears unless it is finished.
 class Zip {
  public:
-  explicit Zip(std::string path) : path_(std::move(path)), part_(path_ + ".part"), archive_(archive_write_new(), archive_write_free) {
+  explicit Zip(std::string path)
+      : path_(std::move(path)), part_(path_ + ".part"), archive_(archive_write_new(), archive_write_free) {
     if (!archive_) throw std::bad_alloc();
     if (std::error_code none; std::filesystem::exists(path_, none) && !std::filesystem::is_regular_file(path_, none))
       throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path_));

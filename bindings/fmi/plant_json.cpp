@@ -17,6 +17,7 @@ using Json = nlohmann::json;
 /// One description of the file for both directions: it puts what it is given into the JSON, or takes it from there.
 struct Writer {
   static constexpr bool reads = false;
+  Axis axis;
   void operator()(Json& at, std::string_view key, const double& value) const {
     if (std::isfinite(value)) at[std::string(key)] = value;  // an infinite default is stated by absence
   }
@@ -29,6 +30,7 @@ struct Writer {
 };
 struct Reader {
   static constexpr bool reads = true;
+  Axis axis;
   void operator()(Json& at, std::string_view key, double& value) const {
     if (const auto found = at.find(key); found != at.end()) value = found->get<double>();
   }
@@ -42,7 +44,8 @@ template <class Direction, class Parameters>
 void transfer(const Direction& pass, Json& at, Parameters& parameters) {
   using P = std::remove_const_t<Parameters>;
   if constexpr (requires { P::fields(); }) {
-    for_each_field<P>([&](const auto& field) { pass(at, field.name, parameters.*field.member); });
+    for_each_field<P>(
+        [&](const auto& field) { pass(at, si_spelling(field, pass.axis).key, parameters.*field.member); });
   } else if constexpr (requires { parameters.interpolation; }) {
     pass(at, "times", parameters.times);
     pass(at, "values", parameters.values);
@@ -57,18 +60,18 @@ void transfer(const Direction& pass, Json& at, Parameters& parameters) {
 }
 
 template <class Kind>
-Json kind_to_json(const Kind& parameters) {
+Json kind_to_json(const Kind& parameters, Axis axis) {
   Json at{{"kind", std::string(Kind::kind)}};
-  transfer(Writer{}, at, parameters);
+  transfer(Writer{axis}, at, parameters);
   return at;
 }
 
-LoadParameters load_from_json(Json& at) {
+LoadParameters load_from_json(Json& at, Axis axis) {
   if (at.is_array()) {
     Signal signal;
     for (Json& one : at) {
       SignalTerm term = make_kind<SignalTerm>(one.at("kind").get<std::string>());
-      std::visit([&](auto& parameters) { transfer(Reader{}, one, parameters); }, term);
+      std::visit([&](auto& parameters) { transfer(Reader{axis}, one, parameters); }, term);
       signal.terms.push_back(std::move(term));
     }
     return signal;
@@ -77,7 +80,7 @@ LoadParameters load_from_json(Json& at) {
   for_each_load([&]<class Load>() {
     if (at.at("kind").get<std::string>() != Load::kind) return;
     Load parameters;
-    transfer(Reader{}, at, parameters);
+    transfer(Reader{axis}, at, parameters);
     load = parameters;
   });
   if (!load) throw std::invalid_argument("a load of an unknown kind");
@@ -87,11 +90,12 @@ LoadParameters load_from_json(Json& at) {
 }  // namespace
 
 std::string plant_to_json(const Scenario& scenario) {
+  const Writer write{scenario.axis};
   Json plant{{"axis", scenario.axis == Axis::linear ? "linear" : "rotary"}, {"effect", Json::object()}};
   std::visit(
       [&]<class Mesh>(const Mesh& mesh) {
         plant["mesh"] = {{"kind", std::is_same_v<Mesh, MeshParameters<double>> ? "worm" : "none"}};
-        transfer(Writer{}, plant["mesh"], mesh);
+        transfer(write, plant["mesh"], mesh);
       },
       scenario.mesh);
   std::visit(
@@ -99,19 +103,19 @@ std::string plant_to_json(const Scenario& scenario) {
         if constexpr (requires { load.terms; }) {
           plant["load"] = Json::array();
           for (const SignalTerm& term : load.terms)
-            plant["load"].push_back(std::visit([](const auto& t) { return kind_to_json(t); }, term));
+            plant["load"].push_back(std::visit([&](const auto& t) { return kind_to_json(t, scenario.axis); }, term));
         } else {
-          plant["load"] = kind_to_json(load);
+          plant["load"] = kind_to_json(load, scenario.axis);
         }
       },
       scenario.load);
   scenario.effects.for_each([&](const auto& effect) {
     if (!effect) return;
     Json& at = plant["effect"][std::string(effect->id)] = Json::object();
-    transfer(Writer{}, at, *effect);
+    transfer(write, at, *effect);
   });
   plant["initial"] = Json::object();
-  transfer(Writer{}, plant["initial"], scenario.initial);
+  transfer(write, plant["initial"], scenario.initial);
   return plant.dump(1) + "\n";
 }
 
@@ -119,22 +123,23 @@ Scenario plant_from_json(const std::string& text) {
   Json plant = Json::parse(text);
   Scenario scenario;
   scenario.axis = plant.at("axis") == "linear" ? Axis::linear : Axis::rotary;
+  const Reader read{scenario.axis};
   if (plant.at("mesh").at("kind") == "none") scenario.mesh = SingleInertia<double>{};
-  std::visit([&](auto& mesh) { transfer(Reader{}, plant.at("mesh"), mesh); }, scenario.mesh);
-  scenario.load = load_from_json(plant.at("load"));
+  std::visit([&](auto& mesh) { transfer(read, plant.at("mesh"), mesh); }, scenario.mesh);
+  scenario.load = load_from_json(plant.at("load"), scenario.axis);
   scenario.effects.for_each([&]<class Effect>(std::optional<Effect>& effect) {
     const auto found = plant.at("effect").find(Effect::id);
     if (found == plant.at("effect").end()) return;
     effect.emplace();
-    transfer(Reader{}, *found, *effect);
+    transfer(read, *found, *effect);
   });
-  transfer(Reader{}, plant.at("initial"), scenario.initial);
+  transfer(read, plant.at("initial"), scenario.initial);
   return scenario;
 }
 
 std::string guid_of(const std::string& plant) {
   const auto name_space = boost::uuids::ns::oid();
-  return "{" + boost::uuids::to_string(boost::uuids::name_generator_sha1(name_space)(plant)) + "}";
+  return fmt::format("{{{}}}", boost::uuids::to_string(boost::uuids::name_generator_sha1(name_space)(plant)));
 }
 
 }  // namespace wormdrive
