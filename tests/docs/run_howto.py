@@ -38,7 +38,8 @@ def command_faults(page, text, program):
         script += f"block={name(page)}:{line}\n{code}"
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "scenarios", Path(folder, "scenarios"))
-        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
+        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}",
+                       "PYTHONPATH": str(program.parent / "python"), "HOWTO": str(ROOT / "docs/howto")}
         run = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True)
     return [run.stderr.rstrip()] if run.returncode else []
