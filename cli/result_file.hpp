@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "output/hdf5.hpp"
@@ -17,6 +18,8 @@ class ResultFile {
   std::vector<double> column(const std::string& name) const { return read_column(file_, name); }
   /// The columns of numbers of a table, flags included.
   std::vector<std::string> columns(const std::string& table) const;
+  /// The attributes of an object that are one number, by their names.
+  std::vector<std::pair<std::string, double>> numbers(const std::string& object) const;
   /// A text attribute of an object of the file, "/" for the file itself; empty if there is none.
   std::string attribute(const std::string& object, const std::string& name) const;
 

@@ -11,16 +11,16 @@ constexpr const char* flanks = "right none left";
 
 /// The columns of a rigid drive's table or, with those of elastic teeth behind them, of a compliant one's.
 template <class Source>
-std::vector<Column<Source>> joined(std::vector<Column<Source>> columns, bool elastic,
-                                   const std::vector<Column<Source>>& of_elastic_teeth) {
+std::vector<RunColumn<Source>> joined(std::vector<RunColumn<Source>> columns, bool elastic,
+                                      const std::vector<RunColumn<Source>>& of_elastic_teeth) {
   if (elastic) columns.insert(columns.end(), of_elastic_teeth.begin(), of_elastic_teeth.end());
   return columns;
 }
 /// Whose speed has the sign of the motion.
 std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
 
-std::vector<Column<Row>> make_trajectory_columns(bool elastic) {
-  const std::vector<Column<Row>> columns{
+std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic) {
+  const std::vector<RunColumn<Row>> columns{
       {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
       {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
       {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Row& r) { return r.at.omega_g; }},
@@ -56,8 +56,8 @@ ColumnDescription kinds_column(bool elastic) {
   return column;
 }
 
-std::vector<Column<Event>> make_event_columns(bool elastic) {
-  const std::vector<Column<Event>> columns{
+std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
+  const std::vector<RunColumn<Event>> columns{
       {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
       {kinds_column(elastic), [](const Event& e) { return static_cast<double>(e.kind()); }},
       {{"motion_before", "", fmt::format("{} before", sign_of_speed(elastic)), motions, signs},
@@ -90,18 +90,18 @@ std::vector<Column<Event>> make_event_columns(bool elastic) {
 
 }  // namespace
 
-const std::vector<Column<Row>>& trajectory_columns(bool elastic) {
-  static const std::vector<Column<Row>> columns[] = {make_trajectory_columns(false), make_trajectory_columns(true)};
+const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic) {
+  static const std::vector<RunColumn<Row>> columns[] = {make_trajectory_columns(false), make_trajectory_columns(true)};
   return columns[elastic ? 1 : 0];
 }
-const std::vector<Column<Event>>& event_columns(bool elastic) {
-  static const std::vector<Column<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
+const std::vector<RunColumn<Event>>& event_columns(bool elastic) {
+  static const std::vector<RunColumn<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
   return columns[elastic ? 1 : 0];
 }
 
-const std::vector<Column<ControlRecord>>& controller_columns() {
+const std::vector<RunColumn<ControlRecord>>& controller_columns() {
   using C = ControlRecord;
-  static const std::vector<Column<C>> columns{
+  static const std::vector<RunColumn<C>> columns{
       {{"time", "s", "time of the sample"}, [](const C& c) { return c.measured.t; }},
       {{"reference_angle", "rad", "reference theta_d"}, [](const C& c) { return c.measured.desired.angle; }},
       {{"reference_speed", "rad/s", "reference speed theta_d'"}, [](const C& c) { return c.measured.desired.speed; }},

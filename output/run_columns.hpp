@@ -11,13 +11,13 @@ namespace wormdrive {
 
 /// A column and where its value comes from.
 template <class Source>
-struct Column {
+struct RunColumn {
   ColumnDescription description;
   std::function<double(const Source&)> value;
 };
 
 template <class Source>
-std::vector<ColumnDescription> descriptions(const std::vector<Column<Source>>& columns, Axis axis) {
+std::vector<ColumnDescription> descriptions(const std::vector<RunColumn<Source>>& columns, Axis axis) {
   std::vector<ColumnDescription> list;
   for (const auto& column : columns) {
     list.push_back(column.description);
@@ -27,7 +27,8 @@ std::vector<ColumnDescription> descriptions(const std::vector<Column<Source>>& c
 }
 
 template <class Source>
-std::vector<std::vector<double>> values(const std::vector<Column<Source>>& columns, const std::vector<Source>& rows) {
+std::vector<std::vector<double>> values(const std::vector<RunColumn<Source>>& columns,
+                                        const std::vector<Source>& rows) {
   std::vector<std::vector<double>> table;
   for (const auto& column : columns) {
     std::vector<double>& list = table.emplace_back();
@@ -38,8 +39,8 @@ std::vector<std::vector<double>> values(const std::vector<Column<Source>>& colum
 }
 
 /// The columns of a run's tables, those of elastic teeth included.
-const std::vector<Column<Row>>& trajectory_columns(bool elastic);
-const std::vector<Column<Event>>& event_columns(bool elastic);
-const std::vector<Column<ControlRecord>>& controller_columns();
+const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic);
+const std::vector<RunColumn<Event>>& event_columns(bool elastic);
+const std::vector<RunColumn<ControlRecord>>& controller_columns();
 
 }  // namespace wormdrive

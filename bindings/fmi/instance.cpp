@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bindings/fmi/plant_parameters.hpp"
+#include "core/elastic_teeth.hpp"
 #include "scenarios/refusal.hpp"
 
 namespace wormdrive {

@@ -1,13 +1,9 @@
 // The module _core of the Python package: scenarios, runs and their columns; wormdrive/__init__.py makes it handy.
-#include <chrono>
-#include <filesystem>
+#include "bindings/python/module.hpp"
 
-#include <fmt/format.h>
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-
+#include "bindings/python/numpy_table.hpp"
 #include "bindings/python/run_result.hpp"
+#include "bindings/python/signals.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/quantities.hpp"
@@ -20,54 +16,20 @@ using namespace wormdrive;
 
 namespace {
 
-struct Interrupted {};
-
-/// Lets Python look for signals now and then, so that Ctrl-C ends a run.
-class SignalWatch {
- public:
-  void operator()(double) {
-    const auto now = Clock::now();
-    if (now < next_) return;
-    next_ = now + std::chrono::milliseconds(50);
-    const py::gil_scoped_acquire python;
-    if (PyErr_CheckSignals() != 0) throw Interrupted{};
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(50);
-};
-
-/// Runs a scenario without holding Python up.
 RunResult run(std::shared_ptr<const Scenario> scenario) {
   RunResult result(std::move(scenario));
-  try {
-    const py::gil_scoped_release others_may_run;
-    result.run(SignalWatch());
-  } catch (const Interrupted&) {
-    throw py::error_already_set();
-  }
+  without_python([&](SignalWatch& watch) { result.run([&](double) { watch(); }); });
   return result;
 }
 
-/// A column that Python owns: the vector lives as long as an array looks into it.
-template <class T>
-py::array own(std::vector<T>&& values) {
-  auto* const kept = new std::vector<T>(std::move(values));
-  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return py::array_t<T>(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
-}
-
-/// A table as (name, units, long_name, flag_meanings, array) for each column, described as in a result file.
+/// A table, described as in a result file.
 template <class Source>
-py::list table(const std::vector<Column<Source>>& columns, Axis axis, const std::vector<Source>& rows) {
+py::list table(const std::vector<RunColumn<Source>>& columns, Axis axis, const std::vector<Source>& rows) {
   py::list list;
-  const std::vector<ColumnDescription> described = descriptions(columns, axis);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    const ColumnDescription& d = described[k];
-    py::array array = d.is_flag() ? own(column<std::int8_t>(columns[k], rows)) : own(column<double>(columns[k], rows));
-    list.append(py::make_tuple(d.name, d.units, d.long_name, d.flag_meanings, std::move(array)));
-  }
+  const std::vector<ColumnDescription> all = descriptions(columns, axis);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    list.append(described(
+        all[k], all[k].is_flag() ? own(column<std::int8_t>(columns[k], rows)) : own(column<double>(columns[k], rows))));
   return list;
 }
 
@@ -129,4 +91,6 @@ PYBIND11_MODULE(_core, m) {
       .def("parameters", [](const Scenario& s) { return as_dict(parameters(s)); })
       .def("derived", [](const Scenario& s) { return as_dict(derived(s)); })
       .def("warnings", &warnings);
+  add_sweep(m);
+  add_diagnosis(m);
 }

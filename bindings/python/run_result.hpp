@@ -43,7 +43,7 @@ class RunResult {
 
 /// The values of one column.
 template <class T, class Source>
-std::vector<T> column(const Column<Source>& of, const std::vector<Source>& rows) {
+std::vector<T> column(const RunColumn<Source>& of, const std::vector<Source>& rows) {
   std::vector<T> values;
   values.reserve(rows.size());
   for (const Source& row : rows) values.push_back(static_cast<T>(of.value(row)));

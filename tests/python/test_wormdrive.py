@@ -110,6 +110,60 @@ class Runs(unittest.TestCase):
             self.assertEqual(ours[key], told[key])
 
 
+STUDY = {
+    "title": "Friction", "scenario": "short.toml",
+    "sweep": {"design": "monte_carlo", "trials": 40, "seed": 3},
+    "parameter": [{"path": "mesh.friction", "distribution": "uniform", "low": 0.2, "high": 0.3}],
+    "threshold": [{"metric": "final_gear_speed", "above_rad_per_s": 0.0}],
+}
+
+
+class Studies(unittest.TestCase):
+    def test_a_sweep_has_the_rows_of_the_program(self):
+        import h5py
+
+        with tempfile.TemporaryDirectory() as folder:
+            study = SCENARIOS / "studies/fig10_sliding.toml"
+            shorter = study.read_text().replace("trials = 200", "trials = 20").replace("../", f"{SCENARIOS}/")
+            Path(folder, "study.toml").write_text(shorter)
+            subprocess.run([PROGRAM, "sweep", "study.toml", "-q", "-o", "theirs.h5"], check=True, cwd=folder)
+            ours = wormdrive.sweep(Path(folder, "study.toml"), threads=2)
+            ours.write(Path(folder, "ours.h5"))
+            with h5py.File(Path(folder, "theirs.h5")) as theirs, h5py.File(Path(folder, "ours.h5")) as written:
+                self.assertEqual(set(theirs["trials"]), set(ours.trials))
+                for name, column in theirs["trials"].items():
+                    np.testing.assert_array_equal(ours.trials[name], column[:], err_msg=name)
+                    np.testing.assert_array_equal(written["trials"][name][:], column[:], err_msg=name)
+                np.testing.assert_array_equal(written["summary/thresholds/missed"][:], theirs["summary/thresholds/missed"][:])
+
+    def test_a_study_is_a_dict_or_text_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            Path("short.toml").write_text(wormdrive.Scenario(SHORT).toml)
+            sweep = wormdrive.sweep(STUDY)
+            self.assertEqual(len(sweep.trials.index), 40)
+            self.assertTrue(np.all((sweep.trials["mesh.friction"] >= 0.2) & (sweep.trials["mesh.friction"] <= 0.3)))
+            self.assertEqual(sweep.reasons, [])
+            friction = sweep.trials["mesh.friction"]
+            del sweep
+            gc.collect()
+            self.assertLessEqual(friction.max(), 0.3)  # an array keeps its sweep alive
+            with self.assertRaises(wormdrive.InputError) as caught:
+                wormdrive.sweep({**STUDY, "scenario": "no.toml"})
+            self.assertIn("no.toml", str(caught.exception))
+            os.chdir("/")
+
+    def test_a_diagnosis_says_what_the_program_says(self):
+        bench = SCENARIOS / "example_bench.toml", SCENARIOS / "example_bench.csv"
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
+            theirs = json.loads(Path(folder, "diagnosis.json").read_text())
+            ours = wormdrive.diagnose(*bench)
+            self.assertEqual(ours.findings, theirs)
+            self.assertEqual(ours.extended, Path(folder, "extended.toml").read_text())
+            self.assertLess(np.nanstd(ours.residual.after), np.nanstd(ours.residual.before))
+
+
 class Faults(unittest.TestCase):
     def test_errors_are_the_usual_exceptions_too(self):
         with self.assertRaises(ValueError):

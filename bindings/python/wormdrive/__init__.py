@@ -16,13 +16,15 @@ import json
 import numbers
 import os
 import sys
+import tempfile
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union
 
 from . import _core
 from ._core import InputError, OutputError, SimulationHalted
 
-__all__ = ["run", "steady", "check", "Scenario", "Result", "Table", "InputError", "OutputError", "SimulationHalted"]
+__all__ = ["run", "steady", "check", "sweep", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
+           "InputError", "OutputError", "SimulationHalted"]
 __version__ = _core.version().split()[1]
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scenario"]
@@ -59,7 +61,7 @@ class Table(Mapping):
         return [*super().__dir__(), *self._arrays]
 
     def to_xarray(self) -> Any:
-        """The table as an xarray.Dataset over time, units as attributes; needs xarray."""
+        """The table as an xarray.Dataset over its first column, units as attributes; needs xarray."""
         import xarray
 
         def attributes(name: str) -> dict[str, str]:
@@ -67,9 +69,9 @@ class Table(Mapping):
                          "flag_meanings": " ".join(self.flag_meanings.get(name, []))}
             return {key: text for key, text in described.items() if text}
 
-        data = {name: ("time", array, attributes(name)) for name, array in self.items()}
-        return xarray.Dataset({name: column for name, column in data.items() if name != "time"},
-                              coords={"time": data["time"]})
+        over = next(iter(self))
+        data = {name: (over, array, attributes(name)) for name, array in self.items()}
+        return xarray.Dataset({name: column for name, column in data.items() if name != over}, coords={over: data[over]})
 
 
 class Result:
@@ -124,10 +126,55 @@ class Result:
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the HDF5 file that `wormdrive run` writes; raises OutputError."""
-        self._run.write(os.fspath(path), f"python {sys.argv[0] if sys.argv else ''}".strip())
+        self._run.write(os.fspath(path), _command_line())
 
     def __repr__(self) -> str:
         return f"<wormdrive.Result '{self.title}': {len(self.trajectory.time)} rows, {len(self.events.time)} events>"
+
+
+class Sweep:
+    """The trials of a study: `trials` has one row per trial, by the names of output/schema.md; `trials.reason` k > 0 stands
+    for `reasons[k - 1]`."""
+
+    def __init__(self, sweep: _core.Sweep):
+        self._sweep = sweep
+        self.title = sweep.title
+        self.trials = Table(sweep.trials())
+        self.reasons = sweep.reasons()
+
+    def to_xarray(self) -> Any:
+        """The trials as an xarray.Dataset over their index."""
+        return self.trials.to_xarray()
+
+    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the HDF5 file that `wormdrive sweep` writes, without a referee's verdicts; raises OutputError."""
+        self._sweep.write(os.fspath(path), _command_line())
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"
+
+
+class Diagnosis:
+    """What a scenario lacks to explain data: `verdict`, `sentence`, `findings` (all of docs/diagnosis_json.md).
+
+    `extended` is the scenario with the causes as TOML text; `experiment`, if a class of causes remains, one that would
+    split it. `residual` is the torque that the model lacks, sample by sample, before and after.
+    """
+
+    def __init__(self, found: dict[str, Any]):
+        self.findings: dict[str, Any] = json.loads(found["findings"])
+        self.verdict: str = self.findings["verdict"]
+        self.sentence: str = self.findings["sentence"]
+        self.extended: str = found["extended"]
+        self.experiment: Optional[str] = found["experiment"]
+        self.residual = Table(found["residual"])
+
+    def to_xarray(self) -> Any:
+        """The residual torque as an xarray.Dataset over time."""
+        return self.residual.to_xarray()
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Diagnosis {self.verdict}: {self.sentence}>"
 
 
 class Scenario:
@@ -138,8 +185,7 @@ class Scenario:
         if isinstance(source, Scenario):
             self._core = _core.Scenario.parse(source.toml, "scenario", assignments, _look) if assignments else source._core
         elif isinstance(source, Mapping):
-            text = "".join(f"{_key(key)} = {_toml(value)}\n" for key, value in source.items())
-            self._core = _core.Scenario.parse(text, "dict", assignments, _look)
+            self._core = _core.Scenario.parse(_document(source), "dict", assignments, _look)
         elif isinstance(source, str) and "\n" in source:
             self._core = _core.Scenario.parse(source, "text", assignments, _look)
         else:
@@ -185,6 +231,39 @@ def check(scenario: Source, /, **overrides: Any) -> dict[str, Any]:
     core = Scenario(scenario, _look=True, **overrides)._core
     return {"title": core.title, "parameters": core.parameters(), "derived": core.derived(),
             "warnings": core.warnings(), "scenario": core.toml}
+
+
+def sweep(study: Union[str, "os.PathLike[str]", Mapping[str, Any]], /, *, threads: int = 0) -> Sweep:
+    """Makes the trials of a study: a path (.toml), TOML text or a dict; of the latter two the scenario is looked for in the
+    working directory. threads=0: as many as the machine has; the rows do not depend on it."""
+    if isinstance(study, Mapping):
+        return Sweep(_core.sweep_text(_document(study), "dict", threads))
+    if isinstance(study, str) and "\n" in study:
+        return Sweep(_core.sweep_text(study, "text", threads))
+    return Sweep(_core.sweep_file(os.fspath(study), threads))
+
+
+def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0, **overrides: Any) -> Diagnosis:
+    """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
+    names of a CSV file, {"time_s": array, ...}."""
+    core = Scenario(scenario, _look=True, **overrides)._core
+    if isinstance(data, Mapping):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "data.csv")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(",".join(data) + "\n")
+                file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
+            return Diagnosis(_core.diagnose(core, [path], seed, threads))
+    files = [data] if isinstance(data, (str, os.PathLike)) else data
+    return Diagnosis(_core.diagnose(core, [os.fspath(file) for file in files], seed, threads))
+
+
+def _command_line() -> str:
+    return f"python {sys.argv[0] if sys.argv else ''}".strip()
+
+
+def _document(tables: Mapping[str, Any]) -> str:
+    return "".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items())
 
 
 def _key(key: str) -> str:
