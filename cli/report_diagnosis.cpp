@@ -2,6 +2,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -133,18 +135,27 @@ std::vector<ReportBand> held_out_bands(const ResultFile& file, const std::vector
   return bands;
 }
 
-/// The error of predictions of one horizon over time, a gap between two stretches.
-ReportPanel prediction_panel(double horizon, const std::vector<double>& horizons, const std::vector<double>& example,
-                             const std::vector<double>& over, const std::vector<double>& measured,
-                             const std::vector<double>& before, const std::vector<double>& after) {
+struct Predictions {
+  std::vector<double> horizon, example, time, measured, before, after;
+};
+
+/// The error of predictions of one horizon over time, one stretch after the other with a gap between them.
+ReportPanel prediction_panel(const Predictions& p, double horizon) {
   const std::string what = fmt::format("error of the angle predicted {:g} s ahead", horizon);
   ReportPanel panel{{}, {{"before", "rad", what + ", before", {}}, {"after", "rad", "after", {}}}};
-  for (std::size_t k = 0; k < over.size(); ++k) {
-    if (horizons[k] != horizon) continue;
-    const bool gap = k > 0 && example[k] != example[k - 1];
-    panel.over.push_back(over[k]);
-    panel.series[0].values.push_back(gap ? NAN : before[k] - measured[k]);
-    panel.series[1].values.push_back(gap ? NAN : after[k] - measured[k]);
+  std::map<double, double> start;  // of each stretch
+  for (std::size_t k = 0; k < p.time.size(); ++k) start.try_emplace(p.example[k], p.time[k]);
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < p.time.size(); ++k)
+    if (p.horizon[k] == horizon) rows.push_back(k);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](std::size_t a, std::size_t b) { return start.at(p.example[a]) < start.at(p.example[b]); });
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const std::size_t k = rows[n];
+    const bool gap = n > 0 && p.example[k] != p.example[rows[n - 1]];
+    panel.over.push_back(p.time[k]);
+    panel.series[0].values.push_back(gap ? NAN : p.before[k] - p.measured[k]);
+    panel.series[1].values.push_back(gap ? NAN : p.after[k] - p.measured[k]);
   }
   return panel;
 }
@@ -152,13 +163,10 @@ ReportPanel prediction_panel(double horizon, const std::vector<double>& horizons
 void add_predictions(const ResultFile& file, ReportGroup& group) {
   if (!file.has("examples")) return;
   const auto column = [&](const std::string& name) { return file.column("examples/" + name); };
-  const std::vector<double> horizons = column("horizon"), time = column("time");
-  std::vector<double> different = horizons;
-  std::sort(different.begin(), different.end());
-  different.erase(std::unique(different.begin(), different.end()), different.end());
-  for (const double horizon : different) {
-    ReportPanel panel = prediction_panel(horizon, horizons, column("example"), time, column("measured"),
-                                         column("before"), column("after"));
+  const Predictions p{column("horizon"),  column("example"), column("time"),
+                      column("measured"), column("before"),  column("after")};
+  for (const double horizon : std::set<double>(p.horizon.begin(), p.horizon.end())) {
+    ReportPanel panel = prediction_panel(p, horizon);
     if (rises(panel.over)) group.panels.insert(group.panels.begin(), std::move(panel));
   }
 }

@@ -171,11 +171,13 @@ ReportPage report_of_sweep(const ResultFile& file) {
   if (!spread.panels.empty()) page.groups.push_back(std::move(spread));
   if (!drawn.empty() && drawn.front()->metric.name == summary.ranked_by)
     for (std::size_t k = 0; k < std::min(most_parameters, summary.influences.size()); ++k) {
-      const std::string& parameter = summary.influences[k].parameter;
-      page.groups.push_back({fmt::format("{} over {}", words(summary.ranked_by), parameter),
-                             parameter,
-                             file.attribute("trials/" + parameter, "units"),
-                             {cloud(file, drawn.front()->metric, parameter)}});
+      const auto parameter =
+          std::find_if(study.parameters.begin(), study.parameters.end(),
+                       [&](const UncertainParameter& p) { return p.path == summary.influences[k].parameter; });
+      page.groups.push_back({fmt::format("{} over {}", words(summary.ranked_by), parameter->name),
+                             parameter->name,
+                             std::string(parameter->si_unit.symbol),
+                             {cloud(file, drawn.front()->metric, parameter->name)}});
     }
   page.tables = {metric_table(summary), influence_table(summary), worst_table(sweep, summary)};
   page.texts.push_back({"Study", study.text});

@@ -95,7 +95,8 @@
         labels: [group.over, ...panel.series.map((s) => s.name)], series: cloud, colors: panel.series.map((_, k) => css(colors[k])),
         gridLineColor: css("--grid"), axisLineColor: css("--rule"), dateWindow: [begin, end], legend: "never", strokeWidth: 1.4,
         labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
-        axes: { x: { axisLabelFormatter: (x) => show(x) + (group.units !== "1" ? " " + group.units : "") },
+        xlabel: panel === panels[panels.length - 1] ? with_unit(group.over, group.units) : undefined, xLabelHeight: 16,
+        axes: { x: { axisLabelFormatter: (x) => show(x) },
                 y: { axisLabelWidth: 72, axisLabelFormatter: (y) => show(y) } },
         highlightCallback: (event, x, points) => tell(x, points, chart_box), unhighlightCallback: () => tell(null),
         drawCallback: (drawn, initial) => { if (!initial) follow(drawn.xAxisRange(), drawn); }

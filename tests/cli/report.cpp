@@ -111,8 +111,8 @@ TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   REQUIRE(folder
-              .run({"diagnose", shipped("fig07_break_in_07cm_forward.toml"), "b.csv", "--set", "mesh.friction=0.2", "-o",
-                    "out", "-q", "--no-pictures"})
+              .run({"diagnose", shipped("fig07_break_in_07cm_forward.toml"), "b.csv", "--set", "mesh.friction=0.2",
+                    "-o", "out", "-q", "--no-pictures"})
               .exit == 0);
   REQUIRE(folder.run({"report", "out"}).exit == 0);
   const nlohmann::json data = data_in(folder.read("out/report.html"));

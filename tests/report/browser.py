@@ -47,7 +47,7 @@ QUESTIONS = """<script>
       g.choose(g.events.length - 1);
       const box = g.charts[0].canvas_.closest(".chart"), rect = box.getBoundingClientRect();
       const x = rect.left + g.charts[0].toDomXCoord(first.at), y = rect.top + rect.height / 2;
-      g.charts[0].mouseMoveHandler_(new MouseEvent("mousemove", { clientX: x, clientY: y, bubbles: true }));
+      g.charts[0].mouseEventElement_.dispatchEvent(new MouseEvent("mousemove", { clientX: x, clientY: y, bubbles: true }));
       say(now().includes(first.what + " at"), "hovering an event does not tell it: " + now());
     });
     const count = (selector) => document.querySelectorAll(selector).length;
@@ -132,7 +132,7 @@ def main(program, browser, scenarios, screenshots=None):
         for name, result in results(program, Path(scenarios).resolve(), folder):
             report, pages = Path(folder, f"{name}.html"), pages + 1
             subprocess.run([program, "report", result, "-o", report], check=True, stdout=subprocess.DEVNULL)
-            if re.search(r'(src|href)="', report.read_text(encoding="utf-8")):
+            if re.search(r'(src|href)="(?!data:)', report.read_text(encoding="utf-8")):
                 faults.append(f"{name}: refers to other files")
             found, seconds = faults_of(browser, report)
             if seconds > 1.0:  # once more, where the machine was busy
