@@ -10,7 +10,7 @@ _wormdrive() {
     mapfile -t COMPREPLY < <(compgen -W "$words --help --version" -- "$current")
     return
   fi
-  help=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null) || return
+  help=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null) || return 0
   if [[ $current == -* ]]; then
     words=$(sed -n '/^Options:/,$ s/^  \(-[a-zA-Z],\)\{0,1\}\(--[a-z-]*\).*/\2/p' <<<"$help")
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
