@@ -43,6 +43,8 @@ int report_command(const ReportOptions& options) {
   const bool folder = std::filesystem::is_directory(options.file);
   const std::filesystem::path path =
       folder ? std::filesystem::path(options.file) / "diagnosis.h5" : std::filesystem::path(options.file);
+  if (folder && !std::filesystem::exists(path))
+    refuse({options.file}, "holds no diagnosis.h5; wormdrive diagnose -o writes one");
   const ResultFile file(path.string());
   std::string output = options.output;
   if (output.empty() && folder) output = (std::filesystem::path(options.file) / "report.html").string();

@@ -83,7 +83,7 @@ ReportPanel cloud(const ResultFile& file, const Metric& metric, const std::strin
   return panel;
 }
 
-std::string with_interval(const Estimate& e, double scale) {
+std::string with_interval(const auto& e, double scale) {
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
 }
 

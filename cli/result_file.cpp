@@ -1,10 +1,18 @@
 #include "cli/result_file.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
 
 ResultFile::ResultFile(const std::string& path) : path_(path) {
+  if (std::error_code why; !std::filesystem::exists(path, why))
+    refuse({path}, fmt::format("cannot be read: {}", std::strerror(ENOENT)));
   if (!is_hdf5(path)) refuse({path}, "is no result file (HDF5); wormdrive run writes one");
   try {
     file_ = open_hdf5(path);

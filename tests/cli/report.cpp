@@ -132,15 +132,22 @@ TEST_CASE("what is no result, or no longer whole, gets no report") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"steady", "s.toml", "-q", "-o", "curve.h5"}).exit == 0);
-  refuse_all(folder, {{"steady",
-                       "",
-                       "curve.h5: error: is the result of 'steady'; a report shows a run, statics, a sweep or a "
-                       "diagnosis",
-                       {"report", "curve.h5"},
-                       true},
-                      {"a scenario",
-                       "",
-                       "s.toml: error: is no result file (HDF5); wormdrive run writes one",
-                       {"report", "s.toml"},
-                       true}});
+  refuse_all(folder,
+             {{"steady",
+               "",
+               "curve.h5: error: is the result of 'steady'; a report shows a run, statics, a sweep or a "
+               "diagnosis",
+               {"report", "curve.h5"},
+               true},
+              {"a scenario",
+               "",
+               "s.toml: error: is no result file (HDF5); wormdrive run writes one",
+               {"report", "s.toml"},
+               true},
+              {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
+              {"a folder of something else",
+               "",
+               ".: error: holds no diagnosis.h5; wormdrive diagnose -o writes one",
+               {"report", "."},
+               true}});
 }

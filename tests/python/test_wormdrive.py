@@ -43,11 +43,11 @@ class Runs(unittest.TestCase):
         import h5py
 
         with tempfile.TemporaryDirectory() as folder:
-            for name in (FIG09, SCENARIOS / "fig09_backlash.toml", FIG10):
-                scenario = wormdrive.Scenario(name, run={"duration_s": 0.3})
+            for name, end in ((FIG09, 0.3), (SCENARIOS / "fig09_backlash.toml", 0.3), (FIG10, 1.2)):
+                scenario = wormdrive.Scenario(name, run={"duration_s": end})
                 result = scenario.run()
                 path = Path(folder, "theirs.h5")
-                subprocess.run([PROGRAM, "run", name, "--set", "run.duration_s=0.3", "-o", path, "--quiet"], check=True)
+                subprocess.run([PROGRAM, "run", name, "--set", f"run.duration_s={end}", "-o", path, "--quiet"], check=True)
                 result.write(Path(folder, "ours.h5"))
                 with h5py.File(path) as theirs, h5py.File(Path(folder, "ours.h5")) as ours:
                     self.assertEqual(set(theirs), set(ours))
@@ -159,6 +159,7 @@ class Studies(unittest.TestCase):
             subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
             theirs = json.loads(Path(folder, "diagnosis.json").read_text())
             ours = wormdrive.diagnose(*bench)
+            del ours.findings["program"], theirs["program"]
             self.assertEqual(ours.findings, theirs)
             self.assertEqual(ours.extended, Path(folder, "extended.toml").read_text())
             self.assertLess(np.nanstd(ours.residual.after), np.nanstd(ours.residual.before))
@@ -169,7 +170,7 @@ class Faults(unittest.TestCase):
         with self.assertRaises(ValueError):
             wormdrive.run(SHORT, mesh={"frction": 1})
         self.assertTrue(issubclass(wormdrive.OutputError, OSError))
-        with self.assertRaisesRegex(wormdrive.OutputError, "cannot write /nowhere/a.h5.part"):
+        with self.assertRaisesRegex(wormdrive.OutputError, "cannot create /nowhere/a.h5.part: No such file or directory"):
             wormdrive.run(SHORT).write("/nowhere/a.h5")
         with self.assertRaisesRegex(wormdrive.InputError, r"no.toml: error: cannot be read: No such file or directory"):
             wormdrive.run("no.toml")
@@ -181,9 +182,11 @@ class Faults(unittest.TestCase):
 
     def test_a_halt_keeps_the_run_up_to_there(self):
         with self.assertRaises(wormdrive.SimulationHalted) as caught:
-            wormdrive.run(SHORT, run={"duration_s": 1.0, "max_step_s": 1e-9})
-        self.assertTrue(str(caught.exception).startswith("cannot go on at t = "))
-        self.assertGreaterEqual(len(caught.exception.result.trajectory.time), 1)
+            wormdrive.run({**SHORT, "load": {"kind": "constant", "torque_Nm": 0.5}, "motor": {"torque": [
+                {"kind": "ramp", "rate_Nm_per_s": 1.0}, {"kind": "step", "time_s": 0.1, "torque_Nm": 1e308}]}},
+                run={"duration_s": 0.2})
+        self.assertTrue(str(caught.exception).startswith("cannot go on at t = 0.1 s, forward, "), str(caught.exception))
+        self.assertEqual(caught.exception.result.trajectory.time[-1], 0.1)
 
     def test_malformed_scenarios_say_what_the_program_says(self):
         tests = os.environ.get("WORMDRIVE_TESTS")
@@ -196,6 +199,7 @@ class Faults(unittest.TestCase):
             cases = [json.loads(line) for line in listed.read_text().splitlines()]
             self.assertGreater(len(cases), 100)
             os.chdir(folder)
+            os.mkdir("folder")  # which a case takes for a file
             for case in cases:
                 for name, content in {**case["beside"], "s.toml": case["scenario"]}.items():
                     Path(name).write_bytes(bytes.fromhex(content))
