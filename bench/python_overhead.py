@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a run costs from Python beside the run itself: PYTHONPATH=build/release/python bench/python_overhead.py SCENARIO...
 
-CPU time of this process. The run itself is timed by the smallest one: a motor that never starts, one row, taylor.
+CPU time of this process, medians; bench/prepared_run.cpp prints the same from C++. The smallest run is a motor that never
+starts, one row, taylor.
 """
 
 import sys

@@ -1,5 +1,5 @@
 #pragma once
-#include <chrono>
+#include <ctime>
 #include <exception>
 
 #include <pybind11/pybind11.h>
@@ -13,17 +13,21 @@ struct Interrupted : std::exception {};
 class SignalWatch {
  public:
   void operator()() {
-    const auto now = Clock::now();
-    if (now < next_) return;
-    next_ = now + interval;
+    if (now() < next_) return;
+    next_ = now() + interval;
     const pybind11::gil_scoped_acquire python;
     if (PyErr_CheckSignals() != 0) throw Interrupted{};
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr auto interval = std::chrono::milliseconds(50);
-  Clock::time_point next_ = Clock::now() + interval;
+  /// Of the coarse clock, for this is asked at every row of a run.
+  static double now() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  static constexpr double interval = 0.05;  ///< [s]
+  double next_ = now() + interval;
 };
 
 /// Calls work(watch) without holding Python up; other threads of Python run meanwhile.
