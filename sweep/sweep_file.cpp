@@ -15,22 +15,6 @@ namespace {
 
 constexpr std::size_t rows_at_once = 4096;  ///< handed to the file, as far as a second does not pass before
 
-std::vector<ColumnDescription> descriptions(const Study& study) {
-  const auto units = [](const Unit& unit) { return std::string(unit.symbol); };
-  std::vector<ColumnDescription> list{{"index", "1", "number of the trial, counted from 0"}};
-  for (const UncertainParameter& p : study.parameters)
-    list.push_back({p.name, units(p.si_unit), "parameter " + p.path});
-  for (const Metric& m : study.metrics) list.push_back({m.name, units(m.unit), m.meaning});
-  ColumnDescription status{"status", "", "how the trial ended", "", {}};
-  for (const TrialStatus value : trial_statuses) {
-    status.flag_meanings += fmt::format("{}{}", status.flag_meanings.empty() ? "" : " ", name(value));
-    status.flag_values.push_back(static_cast<std::int8_t>(value));
-  }
-  list.push_back({"reason", "1", "why it is not done: k stands for the k-th text of /reasons, 0 for none"});
-  list.push_back(std::move(status));  // the last one: it says that the row is there
-  return list;
-}
-
 /// Calls visit(part) for parts of a range so large that memory does not grow with it.
 template <class Visit>
 void for_each_block(TrialRange range, Visit&& visit) {
@@ -49,6 +33,22 @@ std::vector<ColumnDescription> verdict_descriptions() {
 }
 
 }  // namespace
+
+std::vector<ColumnDescription> trial_columns(const Study& study) {
+  const auto units = [](const Unit& unit) { return std::string(unit.symbol); };
+  std::vector<ColumnDescription> list{{"index", "1", "number of the trial, counted from 0"}};
+  for (const UncertainParameter& p : study.parameters)
+    list.push_back({p.name, units(p.si_unit), "parameter " + p.path});
+  for (const Metric& m : study.metrics) list.push_back({m.name, units(m.unit), m.meaning});
+  ColumnDescription status{"status", "", "how the trial ended", "", {}};
+  for (const TrialStatus value : trial_statuses) {
+    status.flag_meanings += fmt::format("{}{}", status.flag_meanings.empty() ? "" : " ", name(value));
+    status.flag_values.push_back(static_cast<std::int8_t>(value));
+  }
+  list.push_back({"reason", "1", "why it is not done: k stands for the k-th text of /reasons, 0 for none"});
+  list.push_back(std::move(status));  // the last one: it says that the row is there
+  return list;
+}
 
 ReasonTable::ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts) {
   for (std::size_t k = 0; k < examples.size(); ++k) {
@@ -84,7 +84,7 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   write_attribute(file.file(), "end_trial", static_cast<std::int64_t>(range.end));
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
-  FixedTable::create(file.file(), "trials", descriptions(study), range.size());
+  FixedTable::create(file.file(), "trials", trial_columns(study), range.size());
   FixedTable::create(file.file(), "referee", verdict_descriptions(), most_verdicts);
   create_summary_tables(file.file(), study);
   file.finish();
@@ -96,7 +96,7 @@ SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange ran
       reasons_(std::move(reasons)),
       reasons_written_(reasons_.entries().size()),
       flushed_(Clock::now()) {
-  table_.emplace(file_.file(), "trials", descriptions(study));
+  table_.emplace(file_.file(), "trials", trial_columns(study));
   reason_texts_.emplace(file_.file(), "reasons");
   columns_.resize(study.parameters.size() + study.metrics.size() + 3);
 }

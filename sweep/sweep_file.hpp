@@ -40,6 +40,9 @@ class ReasonTable {
   std::vector<Entry> entries_;
 };
 
+/// The columns of the table /trials.
+std::vector<ColumnDescription> trial_columns(const Study& study);
+
 /// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
 /// that the sweep can be resumed.
 class SweepFile {
