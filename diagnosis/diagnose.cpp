@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -45,6 +46,21 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
   return InnovationLayout(std::move(all));
 }
 
+/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
+/// search without one is made, and kept if it predicts clearly better.
+Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base,
+                 const DiagnosisSettings& settings) {
+  const auto causes = [&](const Hypothesis& from) {
+    return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
+  };
+  Selection found = causes(base);
+  constexpr double much = 0.5, clearly = 0.9;
+  if (swallowed_share(found.model.noise_model) < much) return found;
+  Selection plain = causes(without_noise_model(base));
+  const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
+  return error(plain) < clearly * error(found) ? plain : found;
+}
+
 /// What the scenario states, with the noise that suits it.
 Hypothesis as_stated(const Evaluation& by, Hypothesis base) {
   for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
@@ -78,9 +94,10 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     for (const Coordinate& x : all[s.suspect].coordinates) {
       const int k = index_of(s.model, x);
       if (k < 0 || x.form != CoordinateForm::plain) continue;
-      const double value = s.model.values[static_cast<std::size_t>(k)];
-      c.effect.parameters.push_back(
-          {std::string(x.field), field_of({}, x.effect, x.field).unit, value, 0.0, value, value});
+      // one step of a linear fit has no error that is worth telling
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+      c.effect.parameters.push_back({std::string(x.field), field_of({}, x.effect, x.field).unit,
+                                     s.model.values[static_cast<std::size_t>(k)], unknown, unknown, unknown});
     }
     c.delta_bic = s.gain;
     c.named = is_cause(s.suspect);
@@ -92,6 +109,16 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
   });
   return list;
+}
+
+/// What a model predicts and leaves, against the scenario as it is stated.
+void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
+  d.prediction = prediction_errors(by, before, after, d.seed);
+  d.examples = prediction_examples(by, before, after);
+  d.residual = residual_torque(by, before, after);
+  const NoiseSizes noise = noise_sizes(by, after);
+  d.noise_angle = noise.angle;
+  d.noise_torque = noise.torque;
 }
 
 /// Looks for a motion that splits the class of a diagnosis.
@@ -139,7 +166,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
       base.free.push_back(c);
       base.values.push_back(c.centre);
     }
-  const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
+  const Selection found = search(by, all, base, settings);
 
   Diagnosis d;
   d.seed = settings.seed;
@@ -149,12 +176,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("predicting ahead");
   const Hypothesis before = as_stated(by, found.base);
-  d.prediction = prediction_errors(by, before, found.model, settings.seed);
-  d.examples = prediction_examples(by, before, found.model);
-  d.residual = residual_torque(by, before, found.model);
-  const NoiseSizes noise = noise_sizes(by, found.model);
-  d.noise_angle = noise.angle;
-  d.noise_torque = noise.torque;
+  describe(d, by, before, found.model);
 
   tell("fitting all data");
   const Evaluation by_all(scenario, with_nothing_held_out(by.layout()), settings.threads);
@@ -173,10 +195,15 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  judge(d, found, all);
+  judge(d, found, all, sizes.torque);
 
   d.extended = scenario;
-  d.extended.effects = extended(last);
+  if (!d.causes.empty())
+    d.extended.effects = extended(last);
+  else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+    d.calibration.clear();
+    describe(d, by, before, found.base);
+  }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));

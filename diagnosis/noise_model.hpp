@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,10 @@ struct NoiseModel {
   bool whitens = true;  ///< false: the weights are zero
 };
 
+/// Share of a steady innovation while moving that whitening takes for noise, the largest of all recordings: at 1 it
+/// hides whatever is slow.
+double swallowed_share(const NoiseModel& noise);
+
 /// What innovations come to under a noise model, negative log likelihoods in nats.
 struct Misfit {
   double fitted = 0.0, held_out = 0.0;
@@ -62,6 +67,11 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
 /// Innovations less what the ones before predict of them.
 std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,
                              const NoiseModel& noise);
+
+/// Innovations as random as the noise model takes them: the whitened ones in another order, with signs drawn, samples
+/// of one kind among themselves, and coloured as they were.
+std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<const double> whitened,
+                                      const NoiseModel& noise, std::uint64_t seed);
 
 /// Of whitened innovations.
 Misfit misfit(const InnovationLayout& layout, std::span<const double> whitened, const NoiseModel& noise);

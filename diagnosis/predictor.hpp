@@ -39,6 +39,8 @@ class Predictor {
         recording_(recording),
         gains_(gains),
         extra_(extra),
+        held_torque_((drive_.mesh().Jw * drive_.mesh().i + drive_.mesh().C(0.0) * drive_.Jg()) /
+                     (recording.data.period * recording.data.period)),
         solver_(drive_, std::numeric_limits<double>::infinity()) {}
   Predictor(const Predictor&) = delete;
   Predictor& operator=(const Predictor&) = delete;
@@ -46,7 +48,6 @@ class Predictor {
   /// Innovations of the gear angle [rad], the first is 0. Throws SolverFault where the model has no motion.
   void operator()(std::span<double> innovations, FilteredStates* states = nullptr) {
     const Recording& data = recording_.data;
-    const double Ts = data.period, per_torque = torque_per_acceleration() / (Ts * Ts);
     Instant now = start(0, recording_.speed[0]);
     double w = 0.0;
     innovations[0] = 0.0;
@@ -61,19 +62,17 @@ class Predictor {
       w *= gains_.keep;
       const double e = data.gear_angle[k + 1] - drive_.measured_angle(now);
       innovations[k + 1] = e;
-      if (!data.valid.empty() && !data.valid[k + 1]) {
+      if (!data.valid.empty() && !data.valid[k + 1])
         innovations[k + 1] = 0.0;
-        continue;
-      }
-      now.x[0] += gains_.angle * e;
-      if (!recording_.moving[k + 1] && Drive::at_rest(now.mode)) continue;  // data and model agree that it stands
-      now.x[1] += gains_.speed * e / Ts;
-      if (recording_.moving[k + 1]) w += gains_.torque * e * per_torque;
+      else
+        correct(now, w, k + 1, e);
     }
   }
 
-  /// The angles that the sensor would show at the samples from begin + 1 on, without correction, from a state.
-  void run_free(std::size_t begin, double angle, double speed, double w, std::span<double> angles) {
+  /// The angles that the sensor would show at the samples from begin + 1 on, from a state, if these were the
+  /// innovations there; without any it is the prediction.
+  void run_on(std::size_t begin, double angle, double speed, double w, std::span<const double> innovations,
+              std::span<double> angles) {
     rewind(begin);
     Instant now;
     now.t = static_cast<double>(begin) * recording_.data.period;
@@ -82,6 +81,9 @@ class Predictor {
       run_sample(now, begin + k, w);
       w *= gains_.keep;
       angles[k] = drive_.measured_angle(now);
+      if (innovations.empty()) continue;
+      angles[k] += innovations[begin + k + 1];
+      correct(now, w, begin + k + 1, innovations[begin + k + 1]);
     }
   }
 
@@ -111,6 +113,14 @@ class Predictor {
       drive_.command(t, command(j, 0.0));
       for (double knot = drive_.next_knot(t); knot < end; knot = drive_.next_knot(knot)) drive_.enter(knot);
     }
+  }
+
+  /// What an innovation at a sample tells of state and coloured torque.
+  void correct(Instant& now, double& w, std::size_t k, double e) const {
+    now.x[0] += gains_.angle * e;
+    if (!recording_.moving[k] && Drive::at_rest(now.mode)) return;  // data and model agree that it stands
+    now.x[1] += gains_.speed * e / recording_.data.period;
+    if (recording_.moving[k]) w += gains_.torque * e * held_torque_;
   }
 
   double command(std::size_t k, double w) const {
@@ -160,17 +170,12 @@ class Predictor {
     return no_guard;
   }
 
-  /// Torque on the worm that gives the gear an acceleration of 1 rad/s^2, without friction [kg m^2].
-  double torque_per_acceleration() const {
-    const GearMesh<double>& mesh = drive_.mesh();
-    return mesh.Jw * mesh.i + mesh.C(0.0) * drive_.Jg();
-  }
-
   Drive drive_;
   CommandPath path_;
   const PreparedRecording& recording_;
   ObserverGains gains_;
   std::span<const double> extra_;
+  double held_torque_;  ///< on the worm, of an acceleration by 1 rad per period squared, without friction [N m]
   ShortStepSolver<Drive> solver_;
 };
 

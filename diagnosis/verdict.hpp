@@ -5,8 +5,8 @@
 namespace wormdrive {
 
 /// Decides what a diagnosis may claim, from its causes, what remains and the gain of prediction; fills verdict,
-/// equivalents and sentence, and withdraws names that the data do not bear out.
-void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all);
+/// equivalents and sentence, and withdraws names that the data do not bear out. torque: rms of the motor's [N m].
+void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all, double torque);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect);
