@@ -171,7 +171,7 @@ std::vector<Visibility> certificate(const Evaluation& by, const Hypothesis& base
     }
   }
   for (const NotExamined& n : not_examined(sizes)) {
-    if (n.effect != "backlash" && n.effect != "tooth_compliance") continue;
+    if (n.effect != "tooth_compliance") continue;
     Visibility v;
     v.effect = n.effect;
     v.detectable = v.nameable = never;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/adequacy.hpp"
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/fit.hpp"
@@ -164,6 +165,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
+  fit_bounces(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last);
   for (const Found& f : found.causes)
@@ -177,6 +179,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   d.extended = scenario;
   d.extended.effects = extended(last);
+  give_teeth_to_bounce(d.extended, last.noise.restitution);
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));

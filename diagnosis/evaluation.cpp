@@ -15,16 +15,17 @@ Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
 }
 
 template <class Use>
-void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
                                 std::span<const double> extra, Use&& use) const {
   Effects<double> followed = effects;
-  const CommandPath path = take_out_command_path(followed);
+  const TakenOut out = take_out(followed);
   const PreparedRecording& prepared = layout_.recordings[recording];
   std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
         WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(drive), path, prepared, gains, extra);
+        Predictor<Load> predictor(std::move(drive), out, noise.restitution, prepared,
+                                  observer_gains(noise, prepared.data.period), extra);
         use(predictor);
       },
       prepared.data.load ? *prepared.data.load : scenario_.load);
@@ -40,9 +41,8 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
       ++passes_;
       const PreparedRecording& recording = layout_.recordings[r];
       FilteredStates* kept = states ? &(*states)[r] : nullptr;
-      if (kept) kept->angle = kept->speed = kept->torque = std::vector<double>(recording.samples());
-      with_predictor(effects, r, observer_gains(noise, recording.data.period),
-                     extra.empty() ? extra : layout_.of(r, extra),
+      if (kept) *kept = FilteredStates(recording.samples());
+      with_predictor(effects, r, noise, extra.empty() ? extra : layout_.of(r, extra),
                      [&](auto& predictor) { predictor(layout_.of(r, std::span<double>(e)), kept); });
     }
   } catch (const SolverFault&) {
@@ -53,16 +53,16 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
   return e;
 }
 
-std::vector<std::vector<double>> Evaluation::ahead(const Effects<double>& effects, std::size_t recording,
-                                                   const FilteredStates& states, std::span<const std::size_t> begins,
+std::vector<std::vector<double>> Evaluation::ahead(const Effects<double>& effects, const ProcessNoise& noise,
+                                                   std::size_t recording, const FilteredStates& states, std::span<const std::size_t> begins,
                                                    std::size_t steps) const {
   std::vector<std::vector<double>> errors;
-  with_predictor(effects, recording, {}, {}, [&](auto& predictor) {
+  with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
     const std::vector<double>& measured = layout_.recordings[recording].data.gear_angle;
     for (const std::size_t begin : begins) {
       std::vector<double> angles(std::min(steps, measured.size() - 1 - begin));
       try {
-        predictor.run_free(begin, states.angle[begin], states.speed[begin], states.torque[begin], angles);
+        predictor.run_free(begin, states, angles);
       } catch (const SolverFault&) {
         // what was predicted up to there counts
       }

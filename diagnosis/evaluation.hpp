@@ -31,13 +31,13 @@ class Evaluation {
 
   /// Errors of predicting the gear angle `steps` samples ahead from samples of one recording, without correction [rad]:
   /// row by row the prediction less the measurement.
-  std::vector<std::vector<double>> ahead(const Effects<double>& effects, std::size_t recording,
-                                         const FilteredStates& states, std::span<const std::size_t> begins,
+  std::vector<std::vector<double>> ahead(const Effects<double>& effects, const ProcessNoise& noise,
+                                         std::size_t recording, const FilteredStates& states, std::span<const std::size_t> begins,
                                          std::size_t steps) const;
 
  private:
   template <class Use>
-  void with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+  void with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;
 
   Scenario scenario_;

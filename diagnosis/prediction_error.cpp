@@ -31,7 +31,7 @@ std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double
     const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
     for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
       if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
-    auto errors = by.ahead(extended(h), r, states[r], begins, steps);
+    auto errors = by.ahead(extended(h), h.noise, r, states[r], begins, steps);
     for (std::size_t q = 0; q < begins.size(); ++q) {
       double sum = 0.0;
       for (const double e : errors[q]) sum += e * e;

@@ -105,7 +105,7 @@ TEST_CASE("a prediction ahead from the state of a sample starts where the record
   std::vector<FilteredStates> states;
   REQUIRE(by.innovations(arm.effects, {0.1, 0.0}, {}, &states));
   const std::vector<std::size_t> begins{1500, 2600};
-  const auto errors = by.ahead(arm.effects, 0, states[0], begins, 250);
+  const auto errors = by.ahead(arm.effects, {0.1, 0.0}, 0, states[0], begins, 250);
   for (const auto& row : errors) {
     REQUIRE(row.size() == 250);
     Deviation worst;

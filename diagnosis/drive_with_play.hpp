@@ -1,0 +1,191 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/worm_drive.hpp"
+#include "diagnosis/flight.hpp"
+#include "events/rest.hpp"
+#include "events/short_step_solver.hpp"
+#include "events/simulate.hpp"
+
+namespace wormdrive {
+
+/// A drive as the predictor follows it from sample to sample. In contact it is the rigid one. With backlash the teeth
+/// part where the rigid drive would change its flank; then both shafts fly free until the teeth meet again, bounce, and
+/// at last stay together.
+template <class Load>
+class DriveWithPlay {
+ public:
+  using Drive = WormDrive<double, Load>;
+  using Instant = typename Drive::Instant;
+
+  struct State {
+    Instant now;                 ///< of the gear; its mode holds in contact
+    Flank contact = Flank::none;  ///< that carries; none in the gap, and always without backlash
+    Shaft worm{};                ///< in the gap [rad, rad/s], counted at the gear: divided by the ratio
+  };
+
+  /// gap: backlash [rad]; restitution: speed at which the teeth part over that at which they met.
+  DriveWithPlay(Drive drive, double gap, double restitution)
+      : drive_(std::move(drive)),
+        half_(0.5 * gap),
+        restitution_(restitution),
+        solver_(drive_, std::numeric_limits<double>::infinity()) {}
+  DriveWithPlay(const DriveWithPlay&) = delete;
+  DriveWithPlay& operator=(const DriveWithPlay&) = delete;
+
+  Drive& drive() { return drive_; }
+  const Drive& drive() const { return drive_; }
+  double measured_angle(const State& s) const { return drive_.measured_angle(s.now); }
+  bool at_rest(const State& s) const { return !flies(s) && Drive::at_rest(s.now.mode); }
+
+  /// The worm, counted at the gear.
+  Shaft worm(const State& s) const {
+    if (flies(s)) return s.worm;
+    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
+    return {turned.angle - sign(s.contact) * half_, turned.slope * s.now.x[1]};
+  }
+
+  /// The state in which the gear stands here and the worm there; the inputs are those of the time.
+  State at(double t, const Shaft& gear, const Shaft& worm) const {
+    State s;
+    s.now.t = t;
+    s.now.x = {gear.angle, gear.speed};
+    s.worm = worm;
+    const double play = drive_.effects().transmission(gear.angle).angle - worm.angle;
+    if (std::abs(play) >= (1.0 - 1e-9) * half_) s.contact = play > 0.0 ? Flank::left : Flank::right;
+    return s;
+  }
+  /// The state in contact with the flank that carries; the inputs are those of the time.
+  State at(double t, const Shaft& gear) const {
+    State s;
+    s.now.t = t;
+    s.now.x = {gear.angle, gear.speed};
+    s.now.mode = drive_.settle(s.now);
+    s.contact = half_ > 0.0 ? carrying(s.now) : Flank::none;
+    return s;
+  }
+
+  /// Moves both shafts: what an observer finds out.
+  void shift(State& s, double angle, double speed) const {
+    s.now.x[0] += angle;
+    s.now.x[1] += speed;
+    s.worm.angle += angle;
+    s.worm.speed += speed;
+  }
+
+  /// Runs to an end over which inputs that are not known beforehand are held.
+  void run(State& s, double end) {
+    settle(s);
+    int events = 0;
+    while (true) {
+      const double stop = std::min(end, drive_.next_knot(s.now.t));
+      while (!already_there(s.now.t, stop)) {
+        if (!advance(s, stop)) break;
+        if (++events > most_events) throw SolverFault("too many events within one sample");
+      }
+      s.now.t = stop;
+      if (stop == end) return;
+      drive_.enter(stop);
+      settle(s);
+    }
+  }
+
+ private:
+  /// More mode changes than this within a sample are no mechanics.
+  static constexpr int most_events = 60;
+
+  bool flies(const State& s) const { return half_ > 0.0 && s.contact == Flank::none; }
+
+  /// The flank that carries in contact: while moving that of the rigid drive, at rest by the torques of both sides
+  /// [YehWu2009, eq. 6-7].
+  Flank carrying(const Instant& now) const {
+    if (now.mode.motion != Motion::stuck) return now.mode.flank;
+    const auto tau = drive_.inputs(drive_.moment(now));
+    return tau.worm <= drive_.mesh().H() * tau.gear ? Flank::left : Flank::right;
+  }
+
+  /// The mode after inputs or state were set from outside, or after an event in contact.
+  void settle(State& s) const {
+    if (flies(s)) return;
+    s.now.mode = drive_.settle(s.now);
+    part_where_another_carries(s);
+  }
+  void part_where_another_carries(State& s) const {
+    if (half_ == 0.0 || carrying(s.now) == s.contact) return;
+    s.worm = worm(s);
+    s.contact = Flank::none;
+  }
+
+  /// To the next event or to the stop; whether there was an event.
+  bool advance(State& s, double stop) {
+    if (flies(s)) return fly(s, stop);
+    int guard;
+    if (Drive::at_rest(s.now.mode)) {
+      s.now.x[1] = 0.0;
+      guard = rest_until(s.now, stop);
+    } else {
+      solver_.restart(s.now);
+      guard = solver_.advance(s.now, stop, stop);
+    }
+    if (guard == no_guard) return false;
+    s.now = drive_.jump(s.now, guard);
+    part_where_another_carries(s);
+    return true;
+  }
+
+  /// Rests until released. A torque that is held is constant, or approaches what is held as its lag decays: margins
+  /// that are positive at both ends are so between, and no search in steps of the lag is needed.
+  int rest_until(Instant& now, double stop) {
+    Instant then = now;
+    then.t = stop;
+    const auto holds = [this](const Instant& at) {
+      const auto margins = drive_.guards(drive_.moment(at), at.mode);
+      return std::all_of(margins.begin(), margins.end(), [](double m) { return m > 0.0; });
+    };
+    if (drive_.load().fastest() > 0.0 || !holds(now) || !holds(then)) return rest(drive_, now, stop);
+    now.t = stop;
+    return no_guard;
+  }
+
+  /// Through the gap to the next impact or to the stop; whether there was an impact.
+  bool fly(State& s, double stop) const {
+    Shaft gear{s.now.x[0], s.now.x[1]};
+    const FreeFlight flight = free_flight(drive_, s.now.t, gear, s.worm, stop - s.now.t);
+    const double play = drive_.effects().transmission(gear.angle).angle - s.worm.angle;
+    const auto impact = flight.impact(play, half_);
+    const double h = impact ? impact->after : flight.duration;
+    flight.gear.move(gear, h);
+    flight.worm.move(s.worm, h);
+    s.now.t += h;
+    s.now.x = {gear.angle, gear.speed};
+    if (impact) meet(s, *impact, flight.worm.acceleration - flight.gear.acceleration);
+    return true;
+  }
+
+  /// The teeth of a flank meet: momentum is kept, friction between them taken in, and either they bounce or, where the
+  /// next bounce would be short, stay together.
+  void meet(State& s, const Impact& impact, double closing) const {
+    constexpr double shortest_bounce = 5e-4;  // [s]
+    const double side = sign(impact.flank), parting = restitution_ * impact.speed, pressing = -side * closing;
+    const bool stays = pressing > 0.0 && 2.0 * parting < shortest_bounce * pressing;
+    const Motion motion = s.worm.speed == 0.0 ? Motion::stuck : s.worm.speed > 0.0 ? Motion::forward : Motion::backward;
+    const auto at = drive_.moment(s.now.t, s.now.x[0], s.now.x[1]);
+    const GearMesh<double>& mesh = drive_.mesh();
+    const double share = mesh.C(drive_.signed_friction(at, Mode{motion, impact.flank})) * drive_.Jg() / (mesh.Jw * mesh.i);
+    const double change = -side * (impact.speed + (stays ? 0.0 : parting)) / (1.0 + share);
+    s.now.x[1] += change;
+    s.worm.speed -= share * change;
+    if (!stays) return;
+    s.contact = impact.flank;
+    settle(s);
+  }
+
+  Drive drive_;
+  double half_, restitution_;
+  ShortStepSolver<Drive> solver_;
+};
+
+}  // namespace wormdrive
