@@ -24,7 +24,7 @@ void fit_bounces(const Evaluation& by, Hypothesis& h) {
       for (const double more : {-0.06, 0.0, 0.06}) {
         Hypothesis trial = h;
         trial.values[index] = std::clamp(factor * h.values[index], gap.low, gap.high);
-        trial.noise.restitution = std::clamp(h.noise.restitution + more, 0.0, 0.95);
+        trial.noise.bounce.restitution = std::clamp(h.noise.bounce.restitution + more, 0.0, 0.95);
         trials.push_back(std::move(trial));
       }
     parallel_for(trials.size(), by.threads(), [&](std::size_t k) { evaluate(by, trials[k]); });

@@ -179,7 +179,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   d.extended = scenario;
   d.extended.effects = extended(last);
-  give_teeth_to_bounce(d.extended, last.noise.restitution);
+  give_teeth_to_bounce(d.extended, last.noise.bounce);
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/worm_drive.hpp"
+#include "diagnosis/bounce.hpp"
 #include "diagnosis/flight.hpp"
 #include "events/rest.hpp"
 #include "events/short_step_solver.hpp"
@@ -22,17 +23,16 @@ class DriveWithPlay {
   using Instant = typename Drive::Instant;
 
   struct State {
-    Instant now;                 ///< of the gear; its mode holds in contact
+    Instant now;                  ///< of the gear; its mode holds in contact
     Flank contact = Flank::none;  ///< that carries; none in the gap, and always without backlash
-    Shaft worm{};                ///< in the gap [rad, rad/s], counted at the gear: divided by the ratio
+    Shaft worm{};                 ///< in the gap [rad, rad/s], counted at the gear: divided by the ratio
+    double parts_at = never;      ///< when an impact ends [s]
+    double parting{};             ///< speed of the gear against the worm then [rad/s]
   };
 
-  /// gap: backlash [rad]; restitution: speed at which the teeth part over that at which they met.
-  DriveWithPlay(Drive drive, double gap, double restitution)
-      : drive_(std::move(drive)),
-        half_(0.5 * gap),
-        restitution_(restitution),
-        solver_(drive_, std::numeric_limits<double>::infinity()) {}
+  /// gap: backlash [rad].
+  DriveWithPlay(Drive drive, double gap, const Bounce& bounce)
+      : drive_(std::move(drive)), half_(0.5 * gap), bounce_(bounce), solver_(drive_, never) {}
   DriveWithPlay(const DriveWithPlay&) = delete;
   DriveWithPlay& operator=(const DriveWithPlay&) = delete;
 
@@ -64,7 +64,7 @@ class DriveWithPlay {
     s.now.t = t;
     s.now.x = {gear.angle, gear.speed};
     s.now.mode = drive_.settle(s.now);
-    s.contact = half_ > 0.0 ? carrying(s.now) : Flank::none;
+    if (half_ > 0.0) s.contact = carrying(s);
     return s;
   }
 
@@ -81,12 +81,13 @@ class DriveWithPlay {
     settle(s);
     int events = 0;
     while (true) {
-      const double stop = std::min(end, drive_.next_knot(s.now.t));
+      const double stop = std::min({end, drive_.next_knot(s.now.t), s.parts_at});
       while (!already_there(s.now.t, stop)) {
         if (!advance(s, stop)) break;
         if (++events > most_events) throw SolverFault("too many events within one sample");
       }
       s.now.t = stop;
+      if (stop == s.parts_at) part(s);
       if (stop == end) return;
       drive_.enter(stop);
       settle(s);
@@ -94,17 +95,17 @@ class DriveWithPlay {
   }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
   /// More mode changes than this within a sample are no mechanics.
   static constexpr int most_events = 60;
 
   bool flies(const State& s) const { return half_ > 0.0 && s.contact == Flank::none; }
 
-  /// The flank that carries in contact: while moving that of the rigid drive, at rest by the torques of both sides
-  /// [YehWu2009, eq. 6-7].
-  Flank carrying(const Instant& now) const {
-    if (now.mode.motion != Motion::stuck) return now.mode.flank;
-    const auto tau = drive_.inputs(drive_.moment(now));
-    return tau.worm <= drive_.mesh().H() * tau.gear ? Flank::left : Flank::right;
+  /// The flank that carries, or goes on to: against which gear and worm would accelerate each other without teeth.
+  Flank carrying(const State& s) const {
+    if (s.now.mode.motion != Motion::stuck) return s.now.mode.flank;
+    const double closing = free_flight(drive_, s.now.t, {s.now.x[0], 0.0}, worm(s), 0.0).closing_acceleration();
+    return closing > 0.0 ? Flank::left : closing < 0.0 ? Flank::right : s.contact;
   }
 
   /// The mode after inputs or state were set from outside, or after an event in contact.
@@ -114,9 +115,24 @@ class DriveWithPlay {
     part_where_another_carries(s);
   }
   void part_where_another_carries(State& s) const {
-    if (half_ == 0.0 || carrying(s.now) == s.contact) return;
+    if (half_ > 0.0 && s.parts_at == never && carrying(s) != s.contact) part(s);
+  }
+  /// The teeth leave each other with the speed that an impact has left them.
+  void part(State& s) const {
     s.worm = worm(s);
-    s.contact = Flank::none;
+    const Flank flank = std::exchange(s.contact, Flank::none);
+    push(s, flank, -sign(flank) * s.parting);
+    s.parts_at = never;
+    s.parting = 0.0;
+  }
+  /// Changes the speed of the gear against the worm by an impulse between their teeth, friction taken in [rad/s].
+  void push(State& s, Flank flank, double change) const {
+    const Motion motion = s.worm.speed == 0.0 ? Motion::stuck : s.worm.speed > 0.0 ? Motion::forward : Motion::backward;
+    const auto at = drive_.moment(s.now.t, s.now.x[0], s.now.x[1]);
+    const GearMesh<double>& mesh = drive_.mesh();
+    const double share = mesh.C(drive_.signed_friction(at, {motion, flank})) * drive_.Jg() / (mesh.Jw * mesh.i);
+    s.now.x[1] += change / (1.0 + share);
+    s.worm.speed -= share * change / (1.0 + share);
   }
 
   /// To the next event or to the stop; whether there was an event.
@@ -159,32 +175,29 @@ class DriveWithPlay {
     const double h = impact ? impact->after : flight.duration;
     flight.gear.move(gear, h);
     flight.worm.move(s.worm, h);
-    s.now.t += h;
+    s.now.t = impact ? s.now.t + h : stop;
     s.now.x = {gear.angle, gear.speed};
-    if (impact) meet(s, *impact, flight.worm.acceleration - flight.gear.acceleration);
-    return true;
+    if (impact) meet(s, *impact, sign(impact->flank) * flight.closing_acceleration());
+    return impact.has_value();
   }
 
-  /// The teeth of a flank meet: momentum is kept, friction between them taken in, and either they bounce or, where the
-  /// next bounce would be short, stay together.
-  void meet(State& s, const Impact& impact, double closing) const {
-    constexpr double shortest_bounce = 5e-4;  // [s]
-    const double side = sign(impact.flank), parting = restitution_ * impact.speed, pressing = -side * closing;
-    const bool stays = pressing > 0.0 && 2.0 * parting < shortest_bounce * pressing;
-    const Motion motion = s.worm.speed == 0.0 ? Motion::stuck : s.worm.speed > 0.0 ? Motion::forward : Motion::backward;
-    const auto at = drive_.moment(s.now.t, s.now.x[0], s.now.x[1]);
-    const GearMesh<double>& mesh = drive_.mesh();
-    const double share = mesh.C(drive_.signed_friction(at, Mode{motion, impact.flank})) * drive_.Jg() / (mesh.Jw * mesh.i);
-    const double change = -side * (impact.speed + (stays ? 0.0 : parting)) / (1.0 + share);
-    s.now.x[1] += change;
-    s.worm.speed -= share * change;
-    if (!stays) return;
+  /// The teeth of a flank meet and move on together, until they part again unless what presses them together
+  /// [rad/s^2] makes the next bounce a short one.
+  void meet(State& s, const Impact& impact, double pressing) const {
+    constexpr double shortest = 5e-4;  // [s]
+    const double parting = bounce_.restitution * impact.speed;
+    push(s, impact.flank, -sign(impact.flank) * impact.speed);
     s.contact = impact.flank;
+    if (2.0 * parting >= shortest * pressing) {
+      s.parting = parting;
+      s.parts_at = s.now.t + bounce_.duration;
+    }
     settle(s);
   }
 
   Drive drive_;
-  double half_, restitution_;
+  double half_;
+  Bounce bounce_;
   ShortStepSolver<Drive> solver_;
 };
 

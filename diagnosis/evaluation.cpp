@@ -24,7 +24,7 @@ void Evaluation::with_predictor(const Effects<double>& effects, std::size_t reco
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
         WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(drive), out, noise.restitution, prepared,
+        Predictor<Load> predictor(std::move(drive), out, noise.bounce, prepared,
                                   observer_gains(noise, prepared.data.period), extra);
         use(predictor);
       },

@@ -37,11 +37,13 @@ struct FreeFlight {
   double closing;     ///< speed of the gear against the worm at the start [rad/s]
   double duration{};  ///< for which this holds [s]
 
+  double closing_acceleration() const { return gear.acceleration - worm.acceleration; }  ///< [rad/s^2]
+
   /// The first impact within the duration. play: of the gear against the worm at the start [rad]; half: of the gap.
   std::optional<Impact> impact(double play, double half) const {
     std::optional<Impact> first;
     for (const Flank flank : {Flank::left, Flank::right}) {
-      const double side = sign(flank), a = side * (gear.acceleration - worm.acceleration), v = side * closing;
+      const double side = sign(flank), a = side * closing_acceleration(), v = side * closing;
       const double before = std::min(0.0, side * play - half);  // what was touched a moment ago is touched
       const double square = v * v - 2.0 * a * before;
       if (!(square > 0.0) || (v <= 0.0 && a <= 0.0)) continue;  // they do not approach each other

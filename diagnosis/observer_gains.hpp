@@ -1,4 +1,5 @@
 #pragma once
+#include "diagnosis/bounce.hpp"
 
 namespace wormdrive {
 
@@ -6,9 +7,9 @@ namespace wormdrive {
 /// sensor, as standard deviations of what it does to the angle within one sample in units of the sensor's noise; and how
 /// teeth bounce.
 struct ProcessNoise {
-  double white = 0.005;      ///< torque that is new at every sample
-  double coloured = 0.003;   ///< torque that lasts
-  double restitution = 0.6;  ///< speed at which teeth part over that at which they met across a gap
+  double white = 0.005;     ///< torque that is new at every sample
+  double coloured = 0.003;  ///< torque that lasts
+  Bounce bounce{};
 };
 
 /// What an innovation of the angle adds to the state.

@@ -32,9 +32,9 @@ class Predictor {
   using State = typename Model::State;
 
   /// extra: torque added to the command at every sample [N m], empty for none.
-  Predictor(WormDrive<double, Load> drive, const TakenOut& out, double restitution,
+  Predictor(WormDrive<double, Load> drive, const TakenOut& out, const Bounce& bounce,
             const PreparedRecording& recording, const ObserverGains& gains, std::span<const double> extra = {})
-      : model_(std::move(drive), out.gap, restitution),
+      : model_(std::move(drive), out.gap, bounce),
         out_(out),
         recording_(recording),
         gains_(gains),
