@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -79,9 +80,10 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     for (const Coordinate& x : all[s.suspect].coordinates) {
       const int k = index_of(s.model, x);
       if (k < 0 || x.form != CoordinateForm::plain) continue;
-      const double value = s.model.values[static_cast<std::size_t>(k)];
-      c.effect.parameters.push_back(
-          {std::string(x.field), field_of({}, x.effect, x.field).unit, value, 0.0, value, value});
+      // one step of a linear fit has no error that is worth telling
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+      c.effect.parameters.push_back({std::string(x.field), field_of({}, x.effect, x.field).unit,
+                                     s.model.values[static_cast<std::size_t>(k)], unknown, unknown, unknown});
     }
     c.delta_bic = s.gain;
     c.named = is_cause(s.suspect);
@@ -93,6 +95,16 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
   });
   return list;
+}
+
+/// What a model predicts and leaves, against the scenario as it is stated.
+void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
+  d.prediction = prediction_errors(by, before, after, d.seed);
+  d.examples = prediction_examples(by, before, after);
+  d.residual = residual_torque(by, before, after);
+  const NoiseSizes noise = noise_sizes(by, after);
+  d.noise_angle = noise.angle;
+  d.noise_torque = noise.torque;
 }
 
 /// Looks for a motion that splits the class of a diagnosis.
@@ -150,12 +162,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("predicting ahead");
   const Hypothesis before = as_stated(by, found.base);
-  d.prediction = prediction_errors(by, before, found.model, settings.seed);
-  d.examples = prediction_examples(by, before, found.model);
-  d.residual = residual_torque(by, before, found.model);
-  const NoiseSizes noise = noise_sizes(by, found.model);
-  d.noise_angle = noise.angle;
-  d.noise_torque = noise.torque;
+  describe(d, by, before, found.model);
 
   tell("fitting all data");
   const Evaluation by_all(scenario, with_nothing_held_out(by.layout()), settings.threads);
@@ -178,8 +185,13 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   judge(d, found, all);
 
   d.extended = scenario;
-  d.extended.effects = extended(last);
-  give_teeth_to_bounce(d.extended, last.noise.bounce);
+  if (!d.causes.empty()) {
+    d.extended.effects = extended(last);
+    give_teeth_to_bounce(d.extended, last.noise.bounce);
+  } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+    d.calibration.clear();
+    describe(d, by, before, found.base);
+  }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));

@@ -53,24 +53,25 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
   return e;
 }
 
-std::vector<std::vector<double>> Evaluation::ahead(const Effects<double>& effects, const ProcessNoise& noise,
-                                                   std::size_t recording, const FilteredStates& states, std::span<const std::size_t> begins,
-                                                   std::size_t steps) const {
-  std::vector<std::vector<double>> errors;
+std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effects, const ProcessNoise& noise,
+                                                    std::size_t recording, const FilteredStates& states,
+                                                    std::span<const std::size_t> begins, std::size_t steps,
+                                                    std::span<const double> innovations) const {
+  std::vector<std::vector<double>> rows;
+  const Recording& data = layout_.recordings[recording].data;
   with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
-    const std::vector<double>& measured = layout_.recordings[recording].data.gear_angle;
     for (const std::size_t begin : begins) {
-      std::vector<double> angles(std::min(steps, measured.size() - 1 - begin));
+      // not a number from where the model can no longer move
+      std::vector<double> angles(std::min(steps, data.samples() - 1 - begin), std::nan(""));
       try {
-        predictor.run_free(begin, states, angles);
+        predictor.run_on(begin, states, innovations, angles);
       } catch (const SolverFault&) {
         // what was predicted up to there counts
       }
-      for (std::size_t k = 0; k < angles.size(); ++k) angles[k] -= measured[begin + 1 + k];
-      errors.push_back(std::move(angles));
+      rows.push_back(std::move(angles));
     }
   });
-  return errors;
+  return rows;
 }
 
 }  // namespace wormdrive

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <Eigen/Dense>
 
@@ -155,6 +156,28 @@ std::vector<double> whitened(const InnovationLayout& layout, std::span<const dou
     }
   }
   return w;
+}
+
+std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<const double> whitened,
+                                      const NoiseModel& noise, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<double>> pools(layout.groups());
+  for (std::size_t k = 0; k < layout.size; ++k)
+    if (layout.part[k] != 0) pools[layout.group[k]].push_back(whitened[k]);
+  std::vector<double> e(layout.size, 0.0);
+  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
+    Means z(layout.recordings[r].data.period);
+    const std::size_t begin = layout.begins[r], end = begin + layout.recordings[r].samples();
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::vector<double>& pool = pools[layout.group[k]];
+      if (pool.empty()) continue;
+      const std::uint64_t draw = random();  // its lowest bit is the sign
+      e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
+      if (noise.whitens) e[k] += predicted(noise.groups[layout.group[k]].weights, z.values().data());
+      z.add(e[k]);
+    }
+  }
+  return e;
 }
 
 Misfit misfit(const InnovationLayout& layout, std::span<const double> w, const NoiseModel& noise) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,11 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
 /// Innovations less what the ones before predict of them.
 std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,
                              const NoiseModel& noise);
+
+/// Innovations as random as the noise model takes them: the whitened ones in another order, with signs drawn, samples
+/// of one kind among themselves, and coloured as they were.
+std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<const double> whitened,
+                                      const NoiseModel& noise, std::uint64_t seed);
 
 /// Of whitened innovations.
 Misfit misfit(const InnovationLayout& layout, std::span<const double> whitened, const NoiseModel& noise);

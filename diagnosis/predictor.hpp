@@ -38,12 +38,14 @@ class Predictor {
         out_(out),
         recording_(recording),
         gains_(gains),
-        extra_(extra) {}
+        extra_(extra),
+        held_torque_((model_.drive().mesh().Jw * model_.drive().mesh().i +
+                      model_.drive().mesh().C(0.0) * model_.drive().Jg()) /
+                     (recording.data.period * recording.data.period)) {}
 
   /// Innovations of the gear angle [rad], the first is 0. Throws SolverFault where the model has no motion.
   void operator()(std::span<double> innovations, FilteredStates* states = nullptr) {
     const Recording& data = recording_.data;
-    const double Ts = data.period, per_torque = torque_per_acceleration() / (Ts * Ts);
     State now = start(recording_.speed[0]);
     double w = 0.0;
     innovations[0] = 0.0;
@@ -54,19 +56,17 @@ class Predictor {
       w *= gains_.keep;
       const double e = data.gear_angle[k + 1] - model_.measured_angle(now);
       innovations[k + 1] = e;
-      if (!data.valid.empty() && !data.valid[k + 1]) {
+      if (!data.valid.empty() && !data.valid[k + 1])
         innovations[k + 1] = 0.0;
-        continue;
-      }
-      // where data and model agree that it stands it does not get a speed
-      const bool stands = !recording_.moving[k + 1] && model_.at_rest(now);
-      model_.shift(now, gains_.angle * e, stands ? 0.0 : gains_.speed * e / Ts);
-      if (recording_.moving[k + 1]) w += gains_.torque * e * per_torque;
+      else
+        correct(now, w, k + 1, e);
     }
   }
 
-  /// The angles that the sensor would show at the samples from begin + 1 on, without correction, from the state there.
-  void run_free(std::size_t begin, const FilteredStates& from, std::span<double> angles) {
+  /// The angles that the sensor would show at the samples from begin + 1 on, from a state, if these were the
+  /// innovations there; without any it is the prediction.
+  void run_on(std::size_t begin, const FilteredStates& from, std::span<const double> innovations,
+              std::span<double> angles) {
     rewind(begin);
     double w = from.torque[begin];
     State now = model_.at(time(begin), {from.angle[begin], from.speed[begin]},
@@ -75,6 +75,9 @@ class Predictor {
       run_sample(now, begin + k, w);
       w *= gains_.keep;
       angles[k] = model_.measured_angle(now);
+      if (innovations.empty()) continue;
+      angles[k] += innovations[begin + k + 1];
+      correct(now, w, begin + k + 1, innovations[begin + k + 1]);
     }
   }
 
@@ -108,6 +111,14 @@ class Predictor {
     }
   }
 
+  /// What an innovation at a sample tells of state and coloured torque.
+  void correct(State& now, double& w, std::size_t k, double e) const {
+    // where data and model agree that it stands it does not get a speed
+    const bool stands = !recording_.moving[k] && model_.at_rest(now);
+    model_.shift(now, gains_.angle * e, stands ? 0.0 : gains_.speed * e / recording_.data.period);
+    if (recording_.moving[k]) w += gains_.torque * e * held_torque_;
+  }
+
   double command(std::size_t k, double w) const {
     const double u = std::clamp(recording_.data.motor_torque[k], -out_.limit, out_.limit);
     return u + w + (extra_.empty() ? 0.0 : extra_[k]);
@@ -119,12 +130,6 @@ class Predictor {
     model_.run(now, time(k + 1));
   }
 
-  /// Torque on the worm that gives the gear an acceleration of 1 rad/s^2, without friction [kg m^2].
-  double torque_per_acceleration() const {
-    const GearMesh<double>& mesh = model_.drive().mesh();
-    return mesh.Jw * mesh.i + mesh.C(0.0) * model_.drive().Jg();
-  }
-
   WormDrive<double, Load>& drive() { return model_.drive(); }
 
   Model model_;
@@ -132,6 +137,7 @@ class Predictor {
   const PreparedRecording& recording_;
   ObserverGains gains_;
   std::span<const double> extra_;
+  double held_torque_;  ///< on the worm, of an acceleration by 1 rad per period squared, without friction [N m]
 };
 
 }  // namespace wormdrive
