@@ -39,6 +39,9 @@ struct FreeFlight {
 
   double closing_acceleration() const { return gear.acceleration - worm.acceleration; }  ///< [rad/s^2]
 
+  /// Slower it is no impact [rad/s]: teeth that have just parted, in a flight over which what presses them changes sign.
+  static constexpr double least_speed = 1e-6;
+
   /// The first impact within the duration. play: of the gear against the worm at the start [rad]; half: of the gap.
   std::optional<Impact> impact(double play, double half) const {
     std::optional<Impact> first;
@@ -48,6 +51,7 @@ struct FreeFlight {
       const double square = v * v - 2.0 * a * before;
       if (!(square > 0.0) || (v <= 0.0 && a <= 0.0)) continue;  // they do not approach each other
       const double speed = std::sqrt(square);
+      if (speed < least_speed) continue;
       const double after = v > 0.0 ? -2.0 * before / (v + speed) : (speed - v) / a;
       if (!(after >= 0.0) || after > duration || (first && first->after <= after)) continue;
       first = Impact{after, flank, speed};
