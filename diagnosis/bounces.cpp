@@ -41,9 +41,12 @@ void fit_bounces(const Evaluation& by, Hypothesis& h) {
 
 void give_teeth_to_bounce(Scenario& scenario, const Bounce& bounce) {
   auto& teeth = std::get<std::optional<ToothCompliance<double>>>(scenario.effects.list);
-  if (teeth || !std::get<std::optional<Backlash<double>>>(scenario.effects.list)) return;
+  const bool has_play = std::get<std::optional<Backlash<double>>>(scenario.effects.list).has_value();
+  const bool is_damped = teeth && (teeth->growing_damping || teeth->limited_damping);
+  if (is_damped || (!teeth && !has_play)) return;
   const double mass = effective_mass(stated_mesh(scenario), total_gear_inertia(scenario));
-  const double stiffness = mass * std::pow(std::numbers::pi / bounce.duration, 2);  // half a swing on the teeth
+  // an impact is half a swing on the teeth
+  const double stiffness = teeth ? teeth->stiffness : mass * std::pow(std::numbers::pi / bounce.duration, 2);
   double low = 0.0, high = 2.0 * std::sqrt(stiffness * mass);
   for (int k = 0; k < 20; ++k) {  // the restitution falls with the damping
     const double middle = 0.5 * (low + high);

@@ -18,12 +18,13 @@
 #include "diagnosis/selection.hpp"
 #include "diagnosis/tolerances.hpp"
 #include "diagnosis/verdict.hpp"
+#include "scenarios/build.hpp"
 
 namespace wormdrive {
 
 namespace {
 
-std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings) {
+std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, double ratio) {
   constexpr double shortest = 2.0;  // [s], four blocks
   constexpr std::size_t fewest = 400;
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
@@ -33,7 +34,7 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
     if (r.samples() < fewest || static_cast<double>(r.samples()) * r.period < shortest)
       throw std::invalid_argument(
           fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
-    all.push_back(prepared(r, {}, blocks));
+    all.push_back(prepared(r, {}, blocks, ratio));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
@@ -139,7 +140,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings);
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Suspect> all = suspects(scenario.effects, sizes, stated);

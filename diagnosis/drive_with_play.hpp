@@ -30,9 +30,9 @@ class DriveWithPlay {
     double parting{};             ///< speed of the gear against the worm then [rad/s]
   };
 
-  /// gap: backlash [rad].
-  DriveWithPlay(Drive drive, double gap, const Bounce& bounce)
-      : drive_(std::move(drive)), half_(0.5 * gap), bounce_(bounce), solver_(drive_, never) {}
+  /// gap: backlash [rad]; compliance: of the teeth [m/N], by which the worm lags behind.
+  DriveWithPlay(Drive drive, double gap, double compliance, const Bounce& bounce)
+      : drive_(std::move(drive)), half_(0.5 * gap), compliance_(compliance), bounce_(bounce), solver_(drive_, never) {}
   DriveWithPlay(const DriveWithPlay&) = delete;
   DriveWithPlay& operator=(const DriveWithPlay&) = delete;
 
@@ -41,11 +41,11 @@ class DriveWithPlay {
   double measured_angle(const State& s) const { return drive_.measured_angle(s.now); }
   bool at_rest(const State& s) const { return !flies(s) && Drive::at_rest(s.now.mode); }
 
-  /// The worm, counted at the gear.
+  /// The worm, counted at the gear, as its encoder sees it.
   Shaft worm(const State& s) const {
-    if (flies(s)) return s.worm;
-    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
-    return {turned.angle - sign(s.contact) * half_, turned.slope * s.now.x[1]};
+    Shaft worm = rigid_worm(s);
+    if (compliance_ > 0.0 && !flies(s)) worm.angle -= wind_up(s.now);
+    return worm;
   }
 
   /// The state in which the gear stands here and the worm there; the inputs are those of the time.
@@ -104,8 +104,21 @@ class DriveWithPlay {
   /// The flank that carries, or goes on to: against which gear and worm would accelerate each other without teeth.
   Flank carrying(const State& s) const {
     if (s.now.mode.motion != Motion::stuck) return s.now.mode.flank;
-    const double closing = free_flight(drive_, s.now.t, {s.now.x[0], 0.0}, worm(s), 0.0).closing_acceleration();
+    const double closing = free_flight(drive_, s.now.t, {s.now.x[0], 0.0}, rigid_worm(s), 0.0).closing_acceleration();
     return closing > 0.0 ? Flank::left : closing < 0.0 ? Flank::right : s.contact;
+  }
+
+  /// The worm, counted at the gear, if the teeth do not yield.
+  Shaft rigid_worm(const State& s) const {
+    if (flies(s)) return s.worm;
+    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
+    return {turned.angle - sign(s.contact) * half_, turned.slope * s.now.x[1]};
+  }
+  /// How far the teeth yield to what they carry [rad at the gear].
+  double wind_up(const Instant& now) const {
+    const Observation seen = drive_.observe(now);
+    const double side = now.mode.motion == Motion::stuck ? std::copysign(1.0, seen.tau_l) : sign(now.mode.flank);
+    return side * seen.normal_force * compliance_ / drive_.mesh().gear_arm(0.0);
   }
 
   /// The mode after inputs or state were set from outside, or after an event in contact.
@@ -119,7 +132,7 @@ class DriveWithPlay {
   }
   /// The teeth leave each other with the speed that an impact has left them.
   void part(State& s) const {
-    s.worm = worm(s);
+    s.worm = rigid_worm(s);
     const Flank flank = std::exchange(s.contact, Flank::none);
     push(s, flank, -sign(flank) * s.parting);
     s.parts_at = never;
@@ -196,7 +209,7 @@ class DriveWithPlay {
   }
 
   Drive drive_;
-  double half_;
+  double half_, compliance_;
   Bounce bounce_;
   ShortStepSolver<Drive> solver_;
 };

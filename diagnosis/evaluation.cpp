@@ -42,8 +42,11 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
       const PreparedRecording& recording = layout_.recordings[r];
       FilteredStates* kept = states ? &(*states)[r] : nullptr;
       if (kept) *kept = FilteredStates(recording.samples());
-      with_predictor(effects, r, noise, extra.empty() ? extra : layout_.of(r, extra),
-                     [&](auto& predictor) { predictor(layout_.of(r, std::span<double>(e)), kept); });
+      with_predictor(effects, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
+                     [&](auto& predictor) {
+                       const std::span<double> all(e);
+                       predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
+                     });
     }
   } catch (const SolverFault&) {
     return std::nullopt;
@@ -58,13 +61,18 @@ std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effec
                                                     std::span<const std::size_t> begins, std::size_t steps,
                                                     std::span<const double> innovations) const {
   std::vector<std::vector<double>> rows;
+  std::span<const double> of_gear, of_worm;
+  if (!innovations.empty()) {
+    of_gear = layout_.of(recording, innovations);
+    of_worm = layout_.of_worm(recording, innovations);
+  }
   const Recording& data = layout_.recordings[recording].data;
   with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
     for (const std::size_t begin : begins) {
       // not a number from where the model can no longer move
       std::vector<double> angles(std::min(steps, data.samples() - 1 - begin), std::nan(""));
       try {
-        predictor.run_on(begin, states, innovations, angles);
+        predictor.run_on(begin, states, of_gear, of_worm, angles);
       } catch (const SolverFault&) {
         // what was predicted up to there counts
       }

@@ -39,7 +39,8 @@ struct FreeFlight {
 
   double closing_acceleration() const { return gear.acceleration - worm.acceleration; }  ///< [rad/s^2]
 
-  /// Slower it is no impact [rad/s]: teeth that have just parted, in a flight over which what presses them changes sign.
+  /// Slower it is no impact [rad/s]: teeth that have just parted, in a flight over which what presses them changes
+  /// sign.
   static constexpr double least_speed = 1e-6;
 
   /// The first impact within the duration. play: of the gear against the worm at the start [rad]; half: of the gap.
@@ -69,17 +70,18 @@ double free_acceleration(double speed, double inertia, Torque&& torque) {
   return 0.0;
 }
 
-/// The flight from a state over a short time [s] under the inputs that hold now, by the accelerations in the middle of it.
+/// The flight from a state over a short time [s] under the inputs that hold now, by the accelerations in the middle of
+/// it.
 template <class Drive>
 FreeFlight free_flight(const Drive& drive, double t, const Shaft& gear, const Shaft& worm, double duration) {
   const auto& mesh = drive.mesh();
   const auto accelerations = [&](double time, const Shaft& g, const Shaft& w) {
     const Moment<double> at{time, g.angle, g.speed, mesh.i * w.speed, mesh.i * w.angle};
     const auto input = drive.inputs(at);
-    const double on_worm = free_acceleration(
-        w.speed, mesh.Jw * mesh.i, [&](Motion motion) { return drive.side_torques(input, at, motion).worm; });
-    const double on_gear = free_acceleration(
-        g.speed, drive.Jg(), [&](Motion motion) { return drive.side_torques(input, at, motion).gear; });
+    const double on_worm = free_acceleration(w.speed, mesh.Jw * mesh.i,
+                                             [&](Motion motion) { return drive.side_torques(input, at, motion).worm; });
+    const double on_gear = free_acceleration(g.speed, drive.Jg(),
+                                             [&](Motion motion) { return drive.side_torques(input, at, motion).gear; });
     return std::pair{Throw{on_gear}, Throw{on_worm}};
   };
   const auto [g0, w0] = accelerations(t, gear, worm);

@@ -14,10 +14,11 @@ namespace wormdrive {
 
 /// A drive as the predictor follows it: limits and delays are taken out and done on the recorded command, and a late
 /// sensor is one more delay of the command, for the state that such a sensor shows is one whose inputs are late. The
-/// gap between the teeth is taken out of a drive whose teeth are rigid.
+/// gap between the teeth and their compliance are taken out of a drive whose teeth are rigid.
 struct TakenOut {
-  double limit;  ///< [N m]
-  double gap;    ///< [rad]
+  double limit;       ///< [N m]
+  double gap;         ///< [rad]
+  double compliance;  ///< [m/N]
 };
 
 /// The effects of a drive for its predictor, and what was taken out.
@@ -34,39 +35,42 @@ class Predictor {
   /// extra: torque added to the command at every sample [N m], empty for none.
   Predictor(WormDrive<double, Load> drive, const TakenOut& out, const Bounce& bounce,
             const PreparedRecording& recording, const ObserverGains& gains, std::span<const double> extra = {})
-      : model_(std::move(drive), out.gap, bounce),
+      : model_(std::move(drive), out.gap, out.compliance, bounce),
         out_(out),
         recording_(recording),
         gains_(gains),
         extra_(extra),
-        held_torque_((model_.drive().mesh().Jw * model_.drive().mesh().i +
-                      model_.drive().mesh().C(0.0) * model_.drive().Jg()) /
-                     (recording.data.period * recording.data.period)) {}
+        held_torque_(
+            (model_.drive().mesh().Jw * model_.drive().mesh().i + model_.drive().mesh().C(0.0) * model_.drive().Jg()) /
+            (recording.data.period * recording.data.period)) {}
 
-  /// Innovations of the gear angle [rad], the first is 0. Throws SolverFault where the model has no motion.
-  void operator()(std::span<double> innovations, FilteredStates* states = nullptr) {
+  /// Innovations of the gear angle and, with an encoder on it, of the worm counted at the gear [rad]; the first are 0.
+  /// The worm's correct the state, and the gear's are those that are left then. Throws SolverFault where the model has
+  /// no motion.
+  void operator()(std::span<double> of_gear, std::span<double> of_worm, FilteredStates* states = nullptr) {
     const Recording& data = recording_.data;
     State now = start(recording_.speed[0]);
     double w = 0.0;
-    innovations[0] = 0.0;
     for (std::size_t k = 0;; ++k) {
       if (states) keep(*states, k, now, w);
-      if (k + 1 == data.samples()) return;
+      if (k + 1 == data.samples()) break;
       run_sample(now, k, w);
       w *= gains_.keep;
-      const double e = data.gear_angle[k + 1] - model_.measured_angle(now);
-      innovations[k + 1] = e;
-      if (!data.valid.empty() && !data.valid[k + 1])
-        innovations[k + 1] = 0.0;
-      else
-        correct(now, w, k + 1, e);
+      if (!data.valid.empty() && !data.valid[k + 1]) continue;
+      if (!of_worm.empty()) {
+        of_worm[k + 1] = recording_.worm_angle[k + 1] - model_.worm(now).angle;
+        correct(now, w, k + 1, of_worm[k + 1]);
+      }
+      of_gear[k + 1] = data.gear_angle[k + 1] - model_.measured_angle(now);
+      if (of_worm.empty()) correct(now, w, k + 1, of_gear[k + 1]);
     }
+    if (!of_worm.empty()) align(of_gear);
   }
 
   /// The angles that the sensor would show at the samples from begin + 1 on, from a state, if these were the
   /// innovations there; without any it is the prediction.
-  void run_on(std::size_t begin, const FilteredStates& from, std::span<const double> innovations,
-              std::span<double> angles) {
+  void run_on(std::size_t begin, const FilteredStates& from, std::span<const double> of_gear,
+              std::span<const double> of_worm, std::span<double> angles) {
     rewind(begin);
     double w = from.torque[begin];
     State now = model_.at(time(begin), {from.angle[begin], from.speed[begin]},
@@ -74,10 +78,11 @@ class Predictor {
     for (std::size_t k = 0; k < angles.size(); ++k) {
       run_sample(now, begin + k, w);
       w *= gains_.keep;
+      if (!of_worm.empty()) correct(now, w, begin + k + 1, of_worm[begin + k + 1]);
       angles[k] = model_.measured_angle(now);
-      if (innovations.empty()) continue;
-      angles[k] += innovations[begin + k + 1];
-      correct(now, w, begin + k + 1, innovations[begin + k + 1]);
+      if (of_gear.empty()) continue;
+      angles[k] += of_gear[begin + k + 1];
+      if (of_worm.empty()) correct(now, w, begin + k + 1, of_gear[begin + k + 1]);
     }
   }
 
@@ -117,6 +122,18 @@ class Predictor {
     const bool stands = !recording_.moving[k] && model_.at_rest(now);
     model_.shift(now, gains_.angle * e, stands ? 0.0 : gains_.speed * e / recording_.data.period);
     if (recording_.moving[k]) w += gains_.torque * e * held_torque_;
+  }
+
+  /// Takes out of the gear's innovations what a wrong zero of the worm has put there.
+  void align(std::span<double> of_gear) const {
+    std::vector<double> seen;
+    for (std::size_t k = 0; k < of_gear.size(); ++k)
+      if (recording_.used[k] && !recording_.held_out[k]) seen.push_back(of_gear[k]);
+    if (seen.empty()) return;
+    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+    std::nth_element(seen.begin(), middle, seen.end());
+    for (std::size_t k = 1; k < of_gear.size(); ++k)
+      if (recording_.used[k]) of_gear[k] -= *middle;
   }
 
   double command(std::size_t k, double w) const {

@@ -48,8 +48,8 @@ TEST_CASE("a drive with play follows the one whose stiff teeth bounce") {
   const auto elastic = run(compliant(p, fig9_load(), {{held}}, contact), Timetable(0, end, 1e-3),
                            {0.0, {-p.i * gap / 2, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-9));
 
-  const auto follow = [&](double play, double restitution) {
-    DriveWithPlay<GravityLoad> follower(rigid, play, restitution);
+  const auto follow = [&](double play, const Bounce& bounce) {
+    DriveWithPlay<GravityLoad> follower(rigid, play, 0.0, bounce);
     follower.drive().enter(0.0);
     auto now = follower.at(0.0, {0.0, 0.0});
     Deviation worst;
@@ -61,19 +61,22 @@ TEST_CASE("a drive with play follows the one whose stiff teeth bounce") {
     }
     return worst.size;
   };
-  CHECK(follow(gap, restitution(contact, mass, 1.0)) < 0.03 * gap);
-  CHECK(follow(0.0, 0.0) > 0.3 * gap);
+  const double half_swing = std::numbers::pi / contact_frequency(contact, mass);
+  CHECK(follow(gap, {restitution(contact, mass, 1.0), half_swing}) < 0.03 * gap);
+  CHECK(follow(0.0, {}) > 0.3 * gap);
 }
 
 TEST_CASE("a scenario that gets backlash gets teeth that bounce as found") {
   Scenario arm = nominal_arm();
-  give_teeth_to_bounce(arm, 0.6);
+  give_teeth_to_bounce(arm, {0.6, 1e-3});
   CHECK_FALSE(std::get<std::optional<ToothCompliance<double>>>(arm.effects.list));
   set_field(arm.effects, {"backlash", "gap", 1e-3});
-  give_teeth_to_bounce(arm, 0.6);
+  give_teeth_to_bounce(arm, {0.6, 1e-3});
   const auto teeth = std::get<std::optional<ToothCompliance<double>>>(arm.effects.list);
   REQUIRE(teeth);
   const GearMesh<double> mesh = stated_mesh(arm);
   const double mass = effective_mass(mesh, total_gear_inertia(arm));
-  CHECK(std::abs(restitution(tooth_contact(arm.effects), mass, 0.2) - 0.6) < 1e-3);
+  const ToothContact<double> contact = tooth_contact(arm.effects);
+  CHECK(std::abs(restitution(contact, mass, 0.2) - 0.6) < 1e-3);
+  CHECK(std::abs(std::numbers::pi / contact_frequency(contact, mass) - 1e-3) < 1e-9);
 }
