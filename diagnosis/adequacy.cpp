@@ -254,9 +254,12 @@ std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, co
   }
   const Scores scores(by, h, 0.005 * sizes.torque);
   std::vector<ScoreTest> all;
+  const double least_torque = sizes.has_worm_encoder ? rules.least_share * sizes.torque : 0.0;
   for (const Axis1D& axis : axes) {
     all.push_back(scores(axis, a.moving));
-    all.back().found = all.back().what.evidence > rules.most_deviations && all.back().gain > rules.most_gain;
+    ScoreTest& test = all.back();
+    test.found =
+        test.what.evidence > rules.most_deviations && test.gain > rules.most_gain && test.what.torque > least_torque;
   }
   for (std::size_t r = 0; r < by.layout().recordings.size(); ++r)
     for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {

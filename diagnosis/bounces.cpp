@@ -17,23 +17,23 @@ void fit_bounces(const Evaluation& by, Hypothesis& h) {
   if (found == h.free.end()) return;
   const Coordinate gap = *found;
   const auto index = static_cast<std::size_t>(found - h.free.begin());
-  constexpr int rounds = 3;
-  constexpr double least_gain = 2.0;
-  for (int round = 0; round < rounds; ++round) {
+  for (const double width : {1.0, 0.5, 0.25}) {
     std::vector<Hypothesis> trials;
-    for (const double factor : {0.75, 0.85, 0.92, 0.97, 1.0, 1.03, 1.08, 1.17, 1.3})
-      for (const double more : {-0.06, 0.0, 0.06})
-        for (const double longer : {-3e-4, 0.0, 3e-4}) {
+    for (const double by_gap : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0})
+      for (const double by_restitution : {-1.0, 0.0, 1.0})
+        for (const double by_duration : {-1.0, 0.0, 1.0}) {
           Hypothesis trial = h;
-          trial.values[index] = std::clamp(factor * h.values[index], gap.low, gap.high);
-          trial.noise.bounce = {std::clamp(h.noise.bounce.restitution + more, 0.1, 0.95),
-                                std::clamp(h.noise.bounce.duration + longer, 1e-4, 3e-3)};
+          const auto [restitution, duration] = h.noise.bounce;
+          trial.values[index] = std::clamp(h.values[index] * std::exp(0.1 * width * by_gap), gap.low, gap.high);
+          trial.noise.bounce = {std::clamp(restitution + 0.06 * width * by_restitution, 0.1, 0.95),
+                                std::clamp(duration + 3e-4 * width * by_duration, 1e-4, 3e-3)};
           trials.push_back(std::move(trial));
         }
     parallel_for(trials.size(), by.threads(), [&](std::size_t k) { evaluate(by, trials[k]); });
+    constexpr double least_gain = 2.0;
     const auto best = std::min_element(trials.begin(), trials.end(),
                                        [](const auto& a, const auto& b) { return a.objective < b.objective; });
-    if (best->objective > h.objective - least_gain) return;
+    if (best->objective > h.objective - least_gain) continue;
     h = std::move(*best);
     fit(by, h, 4, 0.5);
   }

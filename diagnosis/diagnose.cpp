@@ -183,11 +183,15 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  judge(d, found, all);
+  judge(d, found, all, sizes.has_worm_encoder);
 
   d.extended = scenario;
   if (!d.causes.empty()) {
     d.extended.effects = extended(last);
+    for (const Found& f : found.causes)
+      if (std::none_of(d.causes.begin(), d.causes.end(),
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
+        switch_off(d.extended.effects, all[f.suspect].effect);
     give_teeth_to_bounce(d.extended, last.noise.bounce);
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();

@@ -25,12 +25,12 @@ class DriveWithPlay {
   struct State {
     Instant now;                  ///< of the gear; its mode holds in contact
     Flank contact = Flank::none;  ///< that carries; none in the gap, and always without backlash
-    Shaft worm{};                 ///< in the gap [rad, rad/s], counted at the gear: divided by the ratio
+    ShaftState worm{};            ///< in the gap [rad, rad/s], counted at the gear: divided by the ratio
     double parts_at = never;      ///< when an impact ends [s]
     double parting{};             ///< speed of the gear against the worm then [rad/s]
   };
 
-  /// gap: backlash [rad]; compliance: of the teeth [m/N], by which the worm lags behind.
+  /// gap: backlash [rad]; compliance: of the teeth [m/N].
   DriveWithPlay(Drive drive, double gap, double compliance, const Bounce& bounce)
       : drive_(std::move(drive)), half_(0.5 * gap), compliance_(compliance), bounce_(bounce), solver_(drive_, never) {}
   DriveWithPlay(const DriveWithPlay&) = delete;
@@ -38,18 +38,22 @@ class DriveWithPlay {
 
   Drive& drive() { return drive_; }
   const Drive& drive() const { return drive_; }
-  double measured_angle(const State& s) const { return drive_.measured_angle(s.now); }
+  /// What the gear's encoder shows [rad]: the gear turns on by what the teeth yield.
+  double measured_angle(const State& s) const {
+    if (compliance_ == 0.0 || flies(s)) return drive_.measured_angle(s.now);
+    return drive_.effects().measured_angle(s.now.x[0] + wind_up(s.now));
+  }
   bool at_rest(const State& s) const { return !flies(s) && Drive::at_rest(s.now.mode); }
 
-  /// The worm, counted at the gear, as its encoder sees it.
-  Shaft worm(const State& s) const {
-    Shaft worm = rigid_worm(s);
-    if (compliance_ > 0.0 && !flies(s)) worm.angle -= wind_up(s.now);
-    return worm;
+  /// The worm, counted at the gear.
+  ShaftState worm(const State& s) const {
+    if (flies(s)) return s.worm;
+    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
+    return {turned.angle - sign(s.contact) * half_, turned.slope * s.now.x[1]};
   }
 
   /// The state in which the gear stands here and the worm there; the inputs are those of the time.
-  State at(double t, const Shaft& gear, const Shaft& worm) const {
+  State at(double t, const ShaftState& gear, const ShaftState& worm) const {
     State s;
     s.now.t = t;
     s.now.x = {gear.angle, gear.speed};
@@ -59,7 +63,7 @@ class DriveWithPlay {
     return s;
   }
   /// The state in contact with the flank that carries; the inputs are those of the time.
-  State at(double t, const Shaft& gear) const {
+  State at(double t, const ShaftState& gear) const {
     State s;
     s.now.t = t;
     s.now.x = {gear.angle, gear.speed};
@@ -104,16 +108,10 @@ class DriveWithPlay {
   /// The flank that carries, or goes on to: against which gear and worm would accelerate each other without teeth.
   Flank carrying(const State& s) const {
     if (s.now.mode.motion != Motion::stuck) return s.now.mode.flank;
-    const double closing = free_flight(drive_, s.now.t, {s.now.x[0], 0.0}, rigid_worm(s), 0.0).closing_acceleration();
+    const double closing = free_flight(drive_, s.now.t, {s.now.x[0], 0.0}, worm(s), 0.0).closing_acceleration();
     return closing > 0.0 ? Flank::left : closing < 0.0 ? Flank::right : s.contact;
   }
 
-  /// The worm, counted at the gear, if the teeth do not yield.
-  Shaft rigid_worm(const State& s) const {
-    if (flies(s)) return s.worm;
-    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
-    return {turned.angle - sign(s.contact) * half_, turned.slope * s.now.x[1]};
-  }
   /// How far the teeth yield to what they carry [rad at the gear].
   double wind_up(const Instant& now) const {
     const Observation seen = drive_.observe(now);
@@ -132,7 +130,7 @@ class DriveWithPlay {
   }
   /// The teeth leave each other with the speed that an impact has left them.
   void part(State& s) const {
-    s.worm = rigid_worm(s);
+    s.worm = worm(s);
     const Flank flank = std::exchange(s.contact, Flank::none);
     push(s, flank, -sign(flank) * s.parting);
     s.parts_at = never;
@@ -181,7 +179,7 @@ class DriveWithPlay {
 
   /// Through the gap to the next impact or to the stop; whether there was an impact.
   bool fly(State& s, double stop) const {
-    Shaft gear{s.now.x[0], s.now.x[1]};
+    ShaftState gear{s.now.x[0], s.now.x[1]};
     const FreeFlight flight = free_flight(drive_, s.now.t, gear, s.worm, stop - s.now.t);
     const double play = drive_.effects().transmission(gear.angle).angle - s.worm.angle;
     const auto impact = flight.impact(play, half_);

@@ -10,7 +10,7 @@
 namespace wormdrive {
 
 /// Angle and speed of a shaft [rad, rad/s].
-struct Shaft {
+struct ShaftState {
   double angle{}, speed{};
 };
 
@@ -18,7 +18,7 @@ struct Shaft {
 struct Throw {
   double acceleration{};  ///< [rad/s^2]
 
-  void move(Shaft& shaft, double h) const {
+  void move(ShaftState& shaft, double h) const {
     shaft.angle += h * (shaft.speed + 0.5 * h * acceleration);
     shaft.speed += h * acceleration;
   }
@@ -73,9 +73,9 @@ double free_acceleration(double speed, double inertia, Torque&& torque) {
 /// The flight from a state over a short time [s] under the inputs that hold now, by the accelerations in the middle of
 /// it.
 template <class Drive>
-FreeFlight free_flight(const Drive& drive, double t, const Shaft& gear, const Shaft& worm, double duration) {
+FreeFlight free_flight(const Drive& drive, double t, const ShaftState& gear, const ShaftState& worm, double duration) {
   const auto& mesh = drive.mesh();
-  const auto accelerations = [&](double time, const Shaft& g, const Shaft& w) {
+  const auto accelerations = [&](double time, const ShaftState& g, const ShaftState& w) {
     const Moment<double> at{time, g.angle, g.speed, mesh.i * w.speed, mesh.i * w.angle};
     const auto input = drive.inputs(at);
     const double on_worm = free_acceleration(w.speed, mesh.Jw * mesh.i,
@@ -85,7 +85,7 @@ FreeFlight free_flight(const Drive& drive, double t, const Shaft& gear, const Sh
     return std::pair{Throw{on_gear}, Throw{on_worm}};
   };
   const auto [g0, w0] = accelerations(t, gear, worm);
-  Shaft g = gear, w = worm;
+  ShaftState g = gear, w = worm;
   g0.move(g, 0.5 * duration);
   w0.move(w, 0.5 * duration);
   const auto [g1, w1] = accelerations(t + 0.5 * duration, g, w);

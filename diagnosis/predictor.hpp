@@ -35,7 +35,7 @@ class Predictor {
   /// extra: torque added to the command at every sample [N m], empty for none.
   Predictor(WormDrive<double, Load> drive, const TakenOut& out, const Bounce& bounce,
             const PreparedRecording& recording, const ObserverGains& gains, std::span<const double> extra = {})
-      : model_(std::move(drive), out.gap, out.compliance, bounce),
+      : model_(std::move(drive), out.gap, recording.worm_angle.empty() ? 0.0 : out.compliance, bounce),
         out_(out),
         recording_(recording),
         gains_(gains),
@@ -97,7 +97,7 @@ class Predictor {
     return model_.at(0.0, {(recording_.data.gear_angle[0] - offset) / slope, speed / slope});
   }
   void keep(FilteredStates& states, std::size_t k, const State& now, double w) const {
-    const Shaft worm = model_.worm(now);
+    const ShaftState worm = model_.worm(now);
     states.angle[k] = now.now.x[0];
     states.speed[k] = now.now.x[1];
     states.torque[k] = w;

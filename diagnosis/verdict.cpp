@@ -23,6 +23,12 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return all;
 }
 
+/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque that is left can
+/// take back.
+bool is_kinematic(std::string_view effect) {
+  return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
+}
+
 /// The error ahead that the sentence tells of.
 constexpr double told_horizon = 0.25;
 
@@ -60,7 +66,7 @@ std::string phrase(const EstimatedEffect& effect) {
   return text;
 }
 
-void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all) {
+void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all, bool has_worm_encoder) {
   for (const Found& found : selection.causes) {
     std::vector<std::string> equals;
     for (const std::size_t other : found.equals) {
@@ -85,17 +91,22 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
   constexpr double most_of_the_work = 3.0;
   const PredictionError* e = told(d);
   if (!d.remainders.empty() && (!e || e->before < most_of_the_work * e->after)) {
+    const auto withdrawn = [&](std::string_view effect) { return !has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;
-    for (const EstimatedEffect& cause : d.causes) tried.push_back(in_words(cause.effect));
-    d.verdict = Verdict::unexplained;
-    d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
-    d.causes.clear();
-    d.equivalents.clear();
+    for (const EstimatedEffect& cause : d.causes)
+      if (withdrawn(cause.effect)) tried.push_back(in_words(cause.effect));
+    if (!tried.empty())
+      d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
+    if (!d.equivalents.empty() && withdrawn(d.equivalents.front())) d.equivalents.clear();
+    std::erase_if(d.causes, [&](const EstimatedEffect& cause) { return withdrawn(cause.effect); });
     for (Candidate& c : d.ranking)
-      if (c.named) {
+      if (c.named && withdrawn(c.effect.effect)) {
         c.named = false;
         c.outcome = "leaves structure behind";
       }
+  }
+  if (d.causes.empty()) {
+    d.verdict = Verdict::unexplained;
     d.sentence = "The simulation lacks something that no effect of the catalogue accounts for." + remainder_sentence(d);
     return;
   }

@@ -6,7 +6,7 @@ namespace wormdrive {
 
 /// Decides what a diagnosis may claim, from its causes, what remains and the gain of prediction; fills verdict,
 /// equivalents and sentence, and withdraws names that the data do not bear out.
-void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all);
+void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all, bool has_worm_encoder);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect);
