@@ -48,6 +48,21 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
   return InnovationLayout(std::move(all));
 }
 
+/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
+/// search without one is made, and kept if it predicts clearly better.
+Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base,
+                 const DiagnosisSettings& settings) {
+  const auto causes = [&](const Hypothesis& from) {
+    return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
+  };
+  Selection found = causes(base);
+  constexpr double much = 0.5, clearly = 0.9;
+  if (swallowed_share(found.model.noise_model) < much) return found;
+  Selection plain = causes(without_noise_model(base));
+  const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
+  return error(plain) < clearly * error(found) ? plain : found;
+}
+
 /// What the scenario states, with the noise that suits it.
 Hypothesis as_stated(const Evaluation& by, Hypothesis base) {
   for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
@@ -153,7 +168,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
       base.free.push_back(c);
       base.values.push_back(c.centre);
     }
-  const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
+  const Selection found = search(by, all, base, settings);
 
   Diagnosis d;
   d.seed = settings.seed;
@@ -183,7 +198,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  judge(d, found, all, sizes.has_worm_encoder);
+  judge(d, found, all, sizes);
 
   d.extended = scenario;
   if (!d.causes.empty()) {

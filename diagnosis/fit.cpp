@@ -69,6 +69,7 @@ void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {
 }
 
 void restart_noise(const Evaluation& by, Hypothesis& h) {
+  if (!h.whitens) return;
   for (const auto& [white, coloured] : {std::pair{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}) {
     Hypothesis trial = h;
     trial.noise.white = white;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include <Eigen/Dense>
@@ -151,6 +152,15 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
     }
   }
   return noise;
+}
+
+double swallowed_share(const NoiseModel& noise) {
+  double most = 0.0;
+  for (std::size_t g = 1; g < noise.groups.size(); g += 2) {
+    const WhiteningWeights& weights = noise.groups[g].weights;
+    most = std::max(most, std::accumulate(weights.begin(), weights.end(), 0.0));
+  }
+  return most;
 }
 
 std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,

@@ -74,6 +74,10 @@ struct NoiseModel {
   bool whitens = true;  ///< false: the weights are zero
 };
 
+/// Share of a steady innovation while moving that whitening takes for noise, the largest of all recordings: at 1 it
+/// hides whatever is slow.
+double swallowed_share(const NoiseModel& noise);
+
 /// What innovations come to under a noise model, negative log likelihoods in nats.
 struct Misfit {
   double fitted = 0.0, held_out = 0.0;

@@ -119,10 +119,15 @@ NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   return noise;
 }
 
+double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon) { return rms(stretches(by, h, horizon)); }
+
 std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypothesis& before, const Hypothesis& after,
                                                std::uint64_t seed) {
   std::vector<PredictionError> all;
-  const std::vector<double> noise = drawn_innovations(by.layout(), after.residuals, after.noise_model, seed);
+  std::vector<std::vector<double>> noises;
+  constexpr std::uint64_t draws = 4;
+  for (std::uint64_t k = 0; k < draws; ++k)
+    noises.push_back(drawn_innovations(by.layout(), after.residuals, after.noise_model, seed + k));
   for (const double horizon : horizons) {
     PredictionError e;
     e.horizon = horizon;
@@ -131,7 +136,10 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
     e.before = rms(then);
     e.after = rms(now);
     bootstrap(now, seed, e);
-    e.floor = rms(stretches(by, after, horizon, noise));
+    std::vector<Stretch> drawn;
+    for (const std::vector<double>& noise : noises)
+      for (Stretch& s : stretches(by, after, horizon, noise)) drawn.push_back(std::move(s));
+    e.floor = rms(drawn);
     all.push_back(e);
   }
   return all;

@@ -34,17 +34,11 @@ void CauseSearch::fit_base(Hypothesis& base) const {
   fit(by_, base, 6);
   adjust_noise(by_, base, 6);
   fit(by_, base, 2);
+  if (!base.whitens) return;
   Hypothesis second = without_noise_model(base);
   fit(by_, second, 5);
   finish_with_noise_model(second, base.noise);
   if (second.objective < base.objective) base = std::move(second);
-}
-
-/// The same without a noise model, which may hide slow effects from the linear step.
-Hypothesis CauseSearch::without_noise_model(Hypothesis h) const {
-  h.whitens = false;
-  h.noise = {0.02, 0.0};
-  return h;
 }
 
 void CauseSearch::finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const {
@@ -97,7 +91,8 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   };
   for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].suspect, std::move(fitted[k]));
   if (first_round) {
-    for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
+    if (current.whitens)
+      for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
     s_.screening = std::move(screening);
   }
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };

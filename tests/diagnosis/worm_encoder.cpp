@@ -101,10 +101,10 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
   one.causes = {{"backlash", {}}, {"worm_viscous", {}}};
   one.remainders = {{"speed", 9.0, 1e-3}};
   Diagnosis two = one;
-  judge(one, selection, all, false);
+  judge(one, selection, all, Magnitudes{.torque = 0.05});
   CHECK(one.verdict == Verdict::unexplained);
   CHECK(one.causes.empty());
-  judge(two, selection, all, true);
+  judge(two, selection, all, Magnitudes{.torque = 0.05, .has_worm_encoder = true});
   CHECK(two.verdict == Verdict::named);
   REQUIRE(two.causes.size() == 1);
   CHECK(two.causes[0].effect == "backlash");
