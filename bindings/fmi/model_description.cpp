@@ -51,9 +51,9 @@ const std::map<std::string, BaseExponents> units{
 };
 
 /// Writes the variables in the order in which the structure counts them.
-class Writer {
+class DescriptionWriter {
  public:
-  explicit Writer(const Scenario& scenario)
+  explicit DescriptionWriter(const Scenario& scenario)
       : scenario_(scenario), elastic_(has_elastic_teeth(scenario.effects)), ports_(elastic_) {}
 
   std::string write(const std::string& guid) {
@@ -218,7 +218,7 @@ class Writer {
 }  // namespace
 
 std::string model_description(const Scenario& scenario, const std::string& guid) {
-  return Writer(scenario).write(guid);
+  return DescriptionWriter(scenario).write(guid);
 }
 
 }  // namespace wormdrive
