@@ -16,6 +16,11 @@ std::vector<ReasonTable::Entry> by_frequency(const ReasonTable& reasons) {
   return list;
 }
 
+void raise(Disagreement& largest, const Disagreement& found) {
+  largest.angle = std::max(largest.angle, found.angle);
+  largest.speed = std::max(largest.speed, found.speed);
+}
+
 }  // namespace
 
 void print_study(const Study& study, TrialRange range) {
@@ -40,17 +45,33 @@ void print_failures(const ReasonTable& reasons) {
 
 void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
   if (verdicts.empty()) return;
-  double angle = 0.0, speed = 0.0;
+  Disagreement replayed, closed;
   std::vector<std::uint64_t> others;
+  bool in_the_loop = false;
+  std::size_t parted = 0;
+  const Verdict* first_parted = nullptr;
   for (const Verdict& verdict : verdicts) {
-    angle = std::max(angle, verdict.found.angle);
-    speed = std::max(speed, verdict.found.speed);
+    const SecondOpinion& found = verdict.found;
+    raise(replayed, found.replayed);
+    if (found.closed) raise(closed, *found.closed);
+    in_the_loop = in_the_loop || found.closed;
+    if (found.parted) {
+      ++parted;
+      if (!first_parted || *found.parted < *first_parted->found.parted) first_parted = &verdict;
+    }
     if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
   }
   std::sort(others.begin(), others.end());
   print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
                                     "speeds within {:.2g} rad/s",
-                                    verdicts.size(), angle, speed));
+                                    verdicts.size(), replayed.angle, replayed.speed));
+  if (in_the_loop)
+    print_item("referee", fmt::format("with their own controller: angles within {:.2g} rad, speeds within {:.2g} rad/s",
+                                      closed.angle, closed.speed));
+  if (first_parted)
+    print_item("referee", fmt::format("with their own controller the sensor's counts part in {} of them, first in trial "
+                                      "{} at {:.6g} s",
+                                      parted, first_parted->trial, *first_parted->found.parted));
   constexpr std::size_t most = 10;
   const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
   if (!others.empty())
@@ -59,6 +80,9 @@ void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
                                       others.size() > most ? ", ..." : ""));
 }
 
-std::string most_frequent(const ReasonTable& reasons) { return by_frequency(reasons).front().example; }
+std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {
+  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials, most,
+                     by_frequency(reasons).front().example);
+}
 
 }  // namespace wormdrive

@@ -52,11 +52,16 @@ std::string how_to_resume(const SweepOptions& options) {
   return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
 }
 
-double cpu_time() {
+namespace {
+double time_of(clockid_t clock) {
   timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
+}  // namespace
+
+double cpu_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
+double thread_cpu_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
 
 std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
                            std::size_t at_least) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -95,8 +96,14 @@ class SweepReader {
   std::string why_not_of(const Study& study) const;
   std::string why_not_of(const SweepReader& other) const;
 
-  /// A column over the whole range; 0 where a trial is missing.
-  std::vector<double> column(const std::string& name) const;
+  /// Trials one after the other: which is the first, how they ended (0: it is missing), and some of their columns.
+  struct Block {
+    std::uint64_t first;
+    std::vector<double> status;
+    std::vector<std::vector<double>> columns;
+  };
+  /// Calls visit for blocks of the whole range, so large that memory does not grow with it.
+  void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const;
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }

@@ -10,11 +10,13 @@ namespace wormdrive {
 /// What the referee found of a trial.
 struct Verdict {
   std::uint64_t trial{};
-  Disagreement found;
+  SecondOpinion found;
   bool halted = false;  ///< CVODE could not go on
 
   /// tolerance: of the gear angle [rad].
-  bool agrees(double tolerance) const { return !halted && found.angle <= tolerance; }
+  bool agrees(double tolerance) const {
+    return !halted && found.replayed.angle <= tolerance && (!found.closed || found.closed->angle <= tolerance);
+  }
 };
 
 /// How many trials a referee looks at, at most, so that all it finds fits into the sweep's file.

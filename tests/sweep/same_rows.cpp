@@ -1,13 +1,16 @@
 // The rows of a sweep are the same bits however it is made.
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <random>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "catch.hpp"
+#include "sweep/load_study.hpp"
 #include "sweep/studies.hpp"
+#include "sweep/trial.hpp"
 
 using namespace wormdrive;
 using namespace wormdrive::test;
@@ -32,8 +35,9 @@ TEST_CASE("without the processor's own sine, fused multiplication and vectors th
 }
 
 TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
-    const StudyFolder folder(study_but("monte_carlo", design));
+  for (const std::string& study : {good_study, study_but("monte_carlo", "latin_hypercube"),
+                                   study_but("monte_carlo", "sobol"), lanes_study}) {
+    const StudyFolder folder(study);
     for (const char* threads : {"1", "2", "8"}) {
       const Outcome outcome = folder.sweep({"-o", std::string(threads) + ".h5", "--threads", threads});
       INFO(outcome.err);
@@ -46,6 +50,40 @@ TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
   }
 }
 
+TEST_CASE("rows are the same in lanes of any width and for each trial alone", "[sweep]") {
+  const StudyFolder folder(lanes_study);
+  const Study study = load_study(folder / "study.toml");
+  Trials alone(study);
+  REQUIRE(alone.together() > 1);
+  std::map<TrialStatus, int> ended;
+  for (const LaneKind kind : lane_kinds) {
+    if (!is_available(kind)) continue;
+    Trials trials(study, kind);
+    const std::vector<Trial> rows = trials({0, 200});
+    REQUIRE(rows.size() == 200);
+    for (const Trial& row : rows) {
+      const Trial one = alone(row.index);
+      INFO("lanes " << lanes_of(kind) << ", trial " << row.index);
+      REQUIRE(one.index == row.index);
+      REQUIRE(one.status == row.status);
+      REQUIRE(one.reason == row.reason);
+      REQUIRE(one.parameters == row.parameters);
+      REQUIRE(std::memcmp(one.metrics.data(), row.metrics.data(), one.metrics.size() * sizeof(double)) == 0);
+      ++ended[row.status];
+    }
+  }
+  CHECK(ended[TrialStatus::done] > 0);
+  CHECK(ended[TrialStatus::refused] > 0);
+  // what stands in the file are these rows
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const std::vector<double> rms = folder.column("o.h5", "error_rms");
+  const std::size_t k = static_cast<std::size_t>(
+      std::find_if(study.metrics.begin(), study.metrics.end(), [](const Metric& m) { return m.name == "error_rms"; }) -
+      study.metrics.begin());
+  for (const Trial& row : alone({0, 200}))
+    if (row.status == TrialStatus::done) REQUIRE(row.metrics[k] == rms[row.index]);
+}
+
 TEST_CASE("another seed makes other rows", "[sweep]") {
   const StudyFolder folder;
   REQUIRE(folder.sweep({"-o", "a.h5"}).exit == 0);
@@ -55,7 +93,8 @@ TEST_CASE("another seed makes other rows", "[sweep]") {
 }
 
 TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
-  const StudyFolder folder(study_but("monte_carlo", "latin_hypercube"));
+  const auto study = GENERATE(as<std::string>(), study_but("monte_carlo", "latin_hypercube"), lanes_study);
+  const StudyFolder folder(study);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   std::vector<std::string> merge{"merge"};
   for (int k = 7; k >= 1; --k) {
@@ -71,7 +110,8 @@ TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
 }
 
 TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep]") {
-  const StudyFolder folder(many);
+  const auto study = GENERATE(as<std::string>(), many, edited(lanes_study, "trials = 200", "trials = 60000"));
+  const StudyFolder folder(study);
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
