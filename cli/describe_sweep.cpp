@@ -43,21 +43,21 @@ void print_failures(const ReasonTable& reasons) {
     print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
 }
 
-void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double tolerance) {
   if (verdicts.empty()) return;
   Disagreement replayed, closed;
   std::vector<std::uint64_t> others;
-  bool in_the_loop = false;
-  std::size_t parted = 0;
-  const Verdict* first_parted = nullptr;
-  for (const Verdict& verdict : verdicts) {
-    const SecondOpinion& found = verdict.found;
-    raise(replayed, found.replayed);
-    if (found.closed) raise(closed, *found.closed);
-    in_the_loop = in_the_loop || found.closed;
-    if (found.parted) {
+  std::size_t in_loop = 0, parted = 0;
+  const RefereeVerdict* first_parted = nullptr;
+  for (const RefereeVerdict& verdict : verdicts) {
+    raise(replayed, verdict.found);
+    if (verdict.in_loop.closed) {
+      ++in_loop;
+      raise(closed, *verdict.in_loop.closed);
+    }
+    if (const auto& at = verdict.in_loop.parted) {
       ++parted;
-      if (!first_parted || *found.parted < *first_parted->found.parted) first_parted = &verdict;
+      if (!first_parted || *at < *first_parted->in_loop.parted) first_parted = &verdict;
     }
     if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
   }
@@ -65,13 +65,15 @@ void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
   print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
                                     "speeds within {:.2g} rad/s",
                                     verdicts.size(), replayed.angle, replayed.speed));
-  if (in_the_loop)
-    print_item("referee", fmt::format("with their own controller: angles within {:.2g} rad, speeds within {:.2g} rad/s",
-                                      closed.angle, closed.speed));
-  if (first_parted)
-    print_item("referee", fmt::format("with their own controller the sensor's counts part in {} of them, first in trial "
-                                      "{} at {:.6g} s",
-                                      parted, first_parted->trial, *first_parted->found.parted));
+  if (in_loop > 0)
+    print_item("referee", fmt::format("{} of them with their own controller: angles within {:.2g} rad, speeds within "
+                                      "{:.2g} rad/s",
+                                      in_loop, closed.angle, closed.speed));
+  if (parted > 0)
+    print_item("referee",
+               fmt::format("in {} of them, with their own controller, the sensor's counts part; first in trial "
+                           "{} at {:.6g} s",
+                           parted, first_parted->trial, *first_parted->in_loop.parted));
   constexpr std::size_t most = 10;
   const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
   if (!others.empty())
@@ -81,8 +83,8 @@ void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
 }
 
 std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {
-  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials, most,
-                     by_frequency(reasons).front().example);
+  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials,
+                     most, by_frequency(reasons).front().example);
 }
 
 }  // namespace wormdrive

@@ -23,8 +23,9 @@ namespace {
 void print_cost(const SweepCost& cost) {
   const double all = cost.trials + cost.file + cost.referee + cost.summary;
   const auto share = [&](double part) { return 100.0 * part / all; };
-  print_item("cost", fmt::format("{:.3g} s of CPU time: trials {:.1f} %, file {:.1f} %, referee {:.1f} %, summary {:.1f} %",
-                                 all, share(cost.trials), share(cost.file), share(cost.referee), share(cost.summary)));
+  print_item("cost",
+             fmt::format("{:.3g} s of CPU time: trials {:.1f} %, file {:.1f} %, referee {:.1f} %, summary {:.1f} %",
+                         all, share(cost.trials), share(cost.file), share(cost.referee), share(cost.summary)));
 }
 
 int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
@@ -41,7 +42,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0;
   const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
-  std::vector<Verdict> verdicts;
+  std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;
   SweepCost cost;
   const auto begin = std::chrono::steady_clock::now();

@@ -63,8 +63,8 @@ double time_of(clockid_t clock) {
 double cpu_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
 double thread_cpu_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
 
-std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                           std::size_t at_least) {
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least) {
   constexpr double share = 0.05;
   if (study.scenario.run.solver == SolverKind::cvode) return {};
   file.flush();
@@ -74,7 +74,7 @@ std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptio
     if (options.referee) return count >= *options.referee;
     return count >= at_least && cpu_time() - begin >= share * trials_took;
   };
-  std::vector<Verdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
+  std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
   file.write(verdicts);
   return verdicts;
 }

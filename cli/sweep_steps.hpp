@@ -46,7 +46,7 @@ struct SweepCost {
 
 /// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at_least, and more while
 /// that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself.
-std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                           std::size_t at_least);
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least);
 
 }  // namespace wormdrive

@@ -21,7 +21,7 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   for (const Metric& m : study.metrics)
     if (m.name == metric) said = fmt::format("with cvode {} {:.6g} {}", metric, m.of(outcome), unit.symbol);
   if (scenario.run.solver == SolverKind::cvode) return said;
-  const Disagreement found = second_opinion(scenario).replayed;
+  const Disagreement found = second_opinion(scenario);
   return said + fmt::format("; under the same torque angles within {:.2g} rad", found.angle);
 }
 

@@ -86,27 +86,29 @@ Disagreement compared(const Testimony& told, const Testimony& other) {
 }
 
 std::optional<double> parting(const Testimony& told, const Testimony& other) {
-  const auto [first, second] =
-      std::mismatch(told.samples.begin(), told.samples.end(), other.samples.begin(), other.samples.end(),
-                    [](const ControlRecord& a, const ControlRecord& b) { return a.measured.angle == b.measured.angle; });
+  const auto [first, second] = std::mismatch(
+      told.samples.begin(), told.samples.end(), other.samples.begin(), other.samples.end(),
+      [](const ControlRecord& a, const ControlRecord& b) { return a.measured.angle == b.measured.angle; });
   return first == told.samples.end() ? std::nullopt : std::optional(first->measured.t);
+}
+
+Scenario with_cvode(Scenario scenario) {
+  scenario.run.solver = SolverKind::cvode;
+  return scenario;
 }
 
 }  // namespace
 
-SecondOpinion second_opinion(const Scenario& scenario) {
+Disagreement second_opinion(const Scenario& scenario) {
   const Testimony told = testimony_of(scenario);
-  Scenario again = scenario;
-  again.run.solver = SolverKind::cvode;
-  SecondOpinion opinion;
-  opinion.replayed = with_drive(again, [&](auto& drive) { return replayed(drive, again, told); });
-  if (!scenario.control) return opinion;
-  const Testimony other = testimony_of(again);
-  if (scenario.control->sensor.counts > 0.0)
-    opinion.parted = parting(told, other);
-  else
-    opinion.closed = compared(told, other);
-  return opinion;
+  const Scenario again = with_cvode(scenario);
+  return with_drive(again, [&](auto& drive) { return replayed(drive, again, told); });
+}
+
+LoopOpinion second_opinion_in_the_loop(const Scenario& scenario) {
+  const Testimony told = testimony_of(scenario), other = testimony_of(with_cvode(scenario));
+  if (scenario.control->sensor.counts > 0.0) return {{}, parting(told, other)};
+  return {compared(told, other), {}};
 }
 
 }  // namespace wormdrive

@@ -7,8 +7,8 @@
 namespace wormdrive {
 namespace {
 
-/// Calls visit(j, values) for the j-th block that is whole; its values are those at A, at B, and at A with one parameter
-/// after the other from B.
+/// Calls visit(j, values) for the j-th block that is whole; its values are those at A, at B, and at A with one
+/// parameter after the other from B.
 template <class Visit>
 void for_each_block(const Column& column, std::size_t parameters, Visit&& visit) {
   std::vector<double> block;
@@ -63,7 +63,7 @@ double times_taken(double u) {
 }
 
 /// The middle 95 % of resampled values around an estimate.
-Estimate interval(double value, std::vector<double>& resampled) {
+SampleEstimate interval(double value, std::vector<double>& resampled) {
   std::sort(resampled.begin(), resampled.end());
   const std::size_t beyond = resampled.size() / 40;
   return {value, resampled[beyond], resampled[resampled.size() - 1 - beyond]};
@@ -111,8 +111,8 @@ std::vector<SobolIndex> sobol_indices(const Column& values, std::size_t paramete
       total.push_back(sums.total_index(k));
     }
     const double first_deviation = deviation(first), total_deviation = deviation(total);
-    indices.push_back({interval(best.first_index(k), first), interval(best.total_index(k), total), first_deviation,
-                       total_deviation});
+    indices.push_back(
+        {interval(best.first_index(k), first), interval(best.total_index(k), total), first_deviation, total_deviation});
   }
   return indices;
 }

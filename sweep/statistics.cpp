@@ -27,7 +27,7 @@ QuantileRanks quantile_ranks(std::uint64_t n, double p) {
   return ranks;
 }
 
-Estimate probability(std::uint64_t k, std::uint64_t n) {
+SampleEstimate probability(std::uint64_t k, std::uint64_t n) {
   using Binomial = boost::math::binomial_distribution<double>;
   if (n == 0) return {std::nan(""), 0.0, 1.0};
   const auto all = static_cast<double>(n), hits = static_cast<double>(k);

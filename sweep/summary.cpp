@@ -46,7 +46,7 @@ class Summariser {
   using Block = SweepReader::Block;
 
   /// Whether a trial stands for the distribution of the parameters: in a Saltelli design A and B alone do.
-  bool counts(std::uint64_t trial) const { return trial % stride_ < 2 || stride_ == 1; }
+  bool counts(std::uint64_t trial) const { return stride_ == 1 || trial % stride_ < 2; }
   static bool done(const Block& block, std::size_t row) {
     return block.status[row] == static_cast<double>(TrialStatus::done);
   }
@@ -106,7 +106,7 @@ class Summariser {
         wanted.insert(rank);
         return 0.0;
       });
-    const auto values = order_statistics(column, wanted);
+    const auto values = order_statistics(column, summary.count, wanted);
     for (const double p : summary_quantiles)
       summary.quantiles.push_back(
           sample_quantile(quantile_ranks(summary.count, p), [&](std::uint64_t rank) { return values.at(rank); }));

@@ -35,16 +35,18 @@ std::vector<ColumnDescription> descriptions(const Study& study) {
 
 /// Verdicts one after the other; a row of zeros is none.
 std::vector<ColumnDescription> verdict_descriptions() {
-  return {{"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
-          {"trial", "1", "index of the trial"},
-          {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
-          {"speed_difference", "rad/s", "of the gear speed"},
-          {"time", "s", "when the angles differ most"},
-          {"closed_angle_difference", "rad",
-           "largest difference of the gear angle with the own controller; not a number where a sensor rounds to counts"},
-          {"closed_speed_difference", "rad/s", "of the gear speed"},
-          {"closed_time", "s", "when these angles differ most"},
-          {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
+  return {
+      {"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
+      {"trial", "1", "index of the trial"},
+      {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
+      {"speed_difference", "rad/s", "of the gear speed"},
+      {"time", "s", "when the angles differ most"},
+      {"closed_angle_difference", "rad",
+       "largest difference of the gear angle with the own controller; not a number where a sensor rounds to counts, or "
+       "it was not asked"},
+      {"closed_speed_difference", "rad/s", "of the gear speed"},
+      {"closed_time", "s", "when these angles differ most"},
+      {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
 }
 
 }  // namespace
@@ -129,17 +131,16 @@ void SweepFile::flush() {
   for (std::vector<double>& column : columns_) column.clear();
 }
 
-void SweepFile::write(const std::vector<Verdict>& verdicts) {
+void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
   const std::size_t count = std::min(verdicts.size(), most_verdicts);
   std::vector<std::vector<double>> columns(verdict_descriptions().size());
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [trial, found, halted] = verdicts[k];
+    const auto& [trial, found, in_loop, halted] = verdicts[k];
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Disagreement closed = found.closed.value_or(Disagreement{none, none, none});
+    const Disagreement closed = in_loop.closed.value_or(Disagreement{none, none, none});
     auto column = columns.begin();
-    for (const double value :
-         {halted ? 2.0 : 1.0, static_cast<double>(trial), found.replayed.angle, found.replayed.speed, found.replayed.t,
-          closed.angle, closed.speed, closed.t, found.parted.value_or(none)})
+    for (const double value : {halted ? 2.0 : 1.0, static_cast<double>(trial), found.angle, found.speed, found.t,
+                               closed.angle, closed.speed, closed.t, in_loop.parted.value_or(none)})
       (column++)->push_back(value);
   }
   FixedTable table(file_.file(), "referee", verdict_descriptions());
@@ -228,18 +229,18 @@ std::vector<Trial> SweepReader::read(TrialRange range) const {
   return trials;
 }
 
-std::vector<Verdict> SweepReader::verdicts() const {
+std::vector<RefereeVerdict> SweepReader::verdicts() const {
   const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
   const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
                             speed = read("speed_difference"), t = read("time"),
                             closed_angle = read("closed_angle_difference"),
                             closed_speed = read("closed_speed_difference"), closed_t = read("closed_time"),
                             parted = read("parted");
-  std::vector<Verdict> list;
+  std::vector<RefereeVerdict> list;
   for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k) {
-    Verdict verdict{static_cast<std::uint64_t>(trial[k]), {{angle[k], speed[k], t[k]}, {}, {}}, judged[k] == 2.0};
-    if (!std::isnan(closed_angle[k])) verdict.found.closed = {closed_angle[k], closed_speed[k], closed_t[k]};
-    if (!std::isnan(parted[k])) verdict.found.parted = parted[k];
+    RefereeVerdict verdict{static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, {}, judged[k] == 2.0};
+    if (!std::isnan(closed_angle[k])) verdict.in_loop.closed = {closed_angle[k], closed_speed[k], closed_t[k]};
+    if (!std::isnan(parted[k])) verdict.in_loop.parted = parted[k];
     list.push_back(verdict);
   }
   return list;

@@ -55,7 +55,7 @@ class SweepFile {
   /// Makes all trials safe.
   void flush();
   /// Writes what a referee found.
-  void write(const std::vector<Verdict>& verdicts);
+  void write(const std::vector<RefereeVerdict>& verdicts);
   /// Sums up the trials in /summary and gives the file its final name.
   void finish();
 
@@ -107,7 +107,7 @@ class SweepReader {
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }
-  std::vector<Verdict> verdicts() const;
+  std::vector<RefereeVerdict> verdicts() const;
   /// The reasons of the trials that it has, counted.
   ReasonTable counted_reasons() const;
 

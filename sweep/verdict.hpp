@@ -8,14 +8,15 @@
 namespace wormdrive {
 
 /// What the referee found of a trial.
-struct Verdict {
+struct RefereeVerdict {
   std::uint64_t trial{};
-  SecondOpinion found;
+  Disagreement found;   ///< under the recorded torques
+  LoopOpinion in_loop;  ///< with the trial's own controller, of some of the trials
   bool halted = false;  ///< CVODE could not go on
 
   /// tolerance: of the gear angle [rad].
   bool agrees(double tolerance) const {
-    return !halted && found.replayed.angle <= tolerance && (!found.closed || found.closed->angle <= tolerance);
+    return !halted && found.angle <= tolerance && (!in_loop.closed || in_loop.closed->angle <= tolerance);
   }
 };
 

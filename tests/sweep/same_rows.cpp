@@ -1,16 +1,13 @@
 // The rows of a sweep are the same bits however it is made.
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <random>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "catch.hpp"
-#include "sweep/load_study.hpp"
 #include "sweep/studies.hpp"
-#include "sweep/trial.hpp"
 
 using namespace wormdrive;
 using namespace wormdrive::test;
@@ -35,8 +32,8 @@ TEST_CASE("without the processor's own sine, fused multiplication and vectors th
 }
 
 TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
-  for (const std::string& study : {good_study, study_but("monte_carlo", "latin_hypercube"),
-                                   study_but("monte_carlo", "sobol"), lanes_study}) {
+  for (const std::string& study :
+       {good_study, study_but("monte_carlo", "latin_hypercube"), study_but("monte_carlo", "sobol"), lanes_study}) {
     const StudyFolder folder(study);
     for (const char* threads : {"1", "2", "8"}) {
       const Outcome outcome = folder.sweep({"-o", std::string(threads) + ".h5", "--threads", threads});
@@ -48,40 +45,6 @@ TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
     CHECK(one == folder.rows("2.h5"));
     CHECK(one == folder.rows("8.h5"));
   }
-}
-
-TEST_CASE("rows are the same in lanes of any width and for each trial alone", "[sweep]") {
-  const StudyFolder folder(lanes_study);
-  const Study study = load_study(folder / "study.toml");
-  Trials alone(study);
-  REQUIRE(alone.together() > 1);
-  std::map<TrialStatus, int> ended;
-  for (const LaneKind kind : lane_kinds) {
-    if (!is_available(kind)) continue;
-    Trials trials(study, kind);
-    const std::vector<Trial> rows = trials({0, 200});
-    REQUIRE(rows.size() == 200);
-    for (const Trial& row : rows) {
-      const Trial one = alone(row.index);
-      INFO("lanes " << lanes_of(kind) << ", trial " << row.index);
-      REQUIRE(one.index == row.index);
-      REQUIRE(one.status == row.status);
-      REQUIRE(one.reason == row.reason);
-      REQUIRE(one.parameters == row.parameters);
-      REQUIRE(std::memcmp(one.metrics.data(), row.metrics.data(), one.metrics.size() * sizeof(double)) == 0);
-      ++ended[row.status];
-    }
-  }
-  CHECK(ended[TrialStatus::done] > 0);
-  CHECK(ended[TrialStatus::refused] > 0);
-  // what stands in the file are these rows
-  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
-  const std::vector<double> rms = folder.column("o.h5", "error_rms");
-  const std::size_t k = static_cast<std::size_t>(
-      std::find_if(study.metrics.begin(), study.metrics.end(), [](const Metric& m) { return m.name == "error_rms"; }) -
-      study.metrics.begin());
-  for (const Trial& row : alone({0, 200}))
-    if (row.status == TrialStatus::done) REQUIRE(row.metrics[k] == rms[row.index]);
 }
 
 TEST_CASE("another seed makes other rows", "[sweep]") {

@@ -30,7 +30,7 @@ Column column(std::vector<double> values) {
   };
 }
 
-Estimate quantile_of(const std::vector<double>& rising, double p) {
+SampleEstimate quantile_of(const std::vector<double>& rising, double p) {
   return sample_quantile(quantile_ranks(rising.size(), p), [&](std::uint64_t rank) { return rising.at(rank); });
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("a quantile's interval holds the truth as often as it says", "[sweep]"
       for (std::uint64_t k = 0; k < n; ++k)
         values.push_back(to_unit_interval(random_bits(e, SweepStream::draws, k, 0)[0]));
       std::sort(values.begin(), values.end());
-      const Estimate found = quantile_of(values, p);
+      const SampleEstimate found = quantile_of(values, p);
       if (found.low <= p && p <= found.high) ++caught;
     }
     CHECK(caught >= 0.94 * experiments);   // conservative, so at least 95 % up to the noise of 2000
@@ -124,17 +124,21 @@ TEST_CASE("a quantile's interval holds the truth as often as it says", "[sweep]"
 }
 
 TEST_CASE("order statistics of a column are those of the sorted values", "[sweep]") {
-  std::vector<double> values{0.0, -0.0, 5.0, 5.0, 5.0, -1e300, 1e300, 1e-310, -1e-310, 5.000000000000001};
-  for (std::uint64_t k = 0; k < 5000; ++k)
-    values.push_back(std::exp(40.0 * to_unit_interval(random_bits(7, SweepStream::draws, k, 0)[0]) - 20.0) *
-                     (k % 3 == 0 ? -1.0 : 1.0));
-  const std::set<std::uint64_t> ranks{0, 1, 17, 1666, 2500, 2501, 5008, 5009};
-  const auto found = order_statistics(column(values), ranks);
-  std::sort(values.begin(), values.end());
-  REQUIRE(found.size() == ranks.size());
-  for (const auto& [rank, value] : found) CHECK(value == values[rank]);
-  CHECK(order_statistics(column({3.0}), {0}).at(0) == 3.0);
-  CHECK(order_statistics(column({}), {}).empty());
+  for (const std::uint64_t many : {100U, 5000U, 200'000U}) {  // few enough to be sorted, and too many
+    std::vector<double> values{0.0, -0.0, -1e300, 1e300, 1e-310, -1e-310, 5.000000000000001};
+    values.insert(values.end(), many, 5.0);  // more equal ones than are held at once
+    for (std::uint64_t k = 0; k < many; ++k)
+      values.push_back(std::exp(40.0 * to_unit_interval(random_bits(7, SweepStream::draws, k, 0)[0]) - 20.0) *
+                       (k % 3 == 0 ? -1.0 : 1.0));
+    const std::uint64_t n = values.size();
+    const std::set<std::uint64_t> ranks{0, 1, 17, n / 3, n / 2, n / 2 + 1, n - 30, n - 2, n - 1};
+    const auto found = order_statistics(column(values), n, ranks);
+    std::sort(values.begin(), values.end());
+    REQUIRE(found.size() == ranks.size());
+    for (const auto& [rank, value] : found) CHECK(value == values[rank]);
+  }
+  CHECK(order_statistics(column({3.0}), 1, {0}).at(0) == 3.0);
+  CHECK(order_statistics(column({}), 0, {}).empty());
 }
 
 TEST_CASE("rank correlation sees order alone, and shares ranks among equals", "[sweep]") {
