@@ -54,6 +54,7 @@ void give_teeth_to_bounce(Scenario& scenario, const Bounce& bounce) {
     (found > bounce.restitution ? low : high) = middle;
   }
   teeth = ToothCompliance<double>{.stiffness = stiffness, .limited_damping = 0.5 * (low + high)};
+  scenario.run.solver = SolverKind::cvode;  // the one that follows elastic teeth
 }
 
 }  // namespace wormdrive

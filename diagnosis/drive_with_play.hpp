@@ -84,16 +84,17 @@ class DriveWithPlay {
   void run(State& s, double end) {
     settle(s);
     int events = 0;
-    while (true) {
-      const double stop = std::min({end, drive_.next_knot(s.now.t), s.parts_at});
-      while (!already_there(s.now.t, stop)) {
-        if (!advance(s, stop)) break;
+    for (double knot = drive_.next_knot(s.now.t);;) {
+      const double stop = std::min({end, knot, s.parts_at});
+      if (!already_there(s.now.t, stop) && advance(s, stop)) {
         if (++events > most_events) throw SolverFault("too many events within one sample");
+        continue;
       }
       s.now.t = stop;
       if (stop == s.parts_at) part(s);
       if (stop == end) return;
       drive_.enter(stop);
+      knot = drive_.next_knot(stop);
       settle(s);
     }
   }

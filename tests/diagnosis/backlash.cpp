@@ -76,6 +76,7 @@ TEST_CASE("a scenario that gets backlash gets teeth that bounce as found") {
   give_teeth_to_bounce(arm, {0.6, 1e-3});
   const auto teeth = std::get<std::optional<ToothCompliance<double>>>(arm.effects.list);
   REQUIRE(teeth);
+  CHECK(arm.run.solver == SolverKind::cvode);
   const GearMesh<double> mesh = stated_mesh(arm);
   const double mass = effective_mass(mesh, total_gear_inertia(arm));
   const ToothContact<double> contact = tooth_contact(arm.effects);
