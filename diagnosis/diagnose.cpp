@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "diagnosis/adequacy.hpp"
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/fit.hpp"
@@ -16,12 +18,13 @@
 #include "diagnosis/selection.hpp"
 #include "diagnosis/tolerances.hpp"
 #include "diagnosis/verdict.hpp"
+#include "scenarios/build.hpp"
 
 namespace wormdrive {
 
 namespace {
 
-std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings) {
+std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, double ratio) {
   constexpr double shortest = 2.0;  // [s], four blocks
   constexpr std::size_t fewest = 400;
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
@@ -31,7 +34,7 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
     if (r.samples() < fewest || static_cast<double>(r.samples()) * r.period < shortest)
       throw std::invalid_argument(
           fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
-    all.push_back(prepared(r, {}, blocks));
+    all.push_back(prepared(r, {}, blocks, ratio));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
@@ -43,6 +46,21 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
   std::vector<PreparedRecording> all;
   for (const PreparedRecording& r : layout.recordings) all.push_back(with_all_data(r));
   return InnovationLayout(std::move(all));
+}
+
+/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
+/// search without one is made, and kept if it predicts clearly better.
+Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base,
+                 const DiagnosisSettings& settings) {
+  const auto causes = [&](const Hypothesis& from) {
+    return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
+  };
+  Selection found = causes(base);
+  constexpr double much = 0.5, clearly = 0.9;
+  if (swallowed_share(found.model.noise_model) < much) return found;
+  Selection plain = causes(without_noise_model(base));
+  const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
+  return error(plain) < clearly * error(found) ? plain : found;
 }
 
 /// What the scenario states, with the noise that suits it.
@@ -78,9 +96,10 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     for (const Coordinate& x : all[s.suspect].coordinates) {
       const int k = index_of(s.model, x);
       if (k < 0 || x.form != CoordinateForm::plain) continue;
-      const double value = s.model.values[static_cast<std::size_t>(k)];
-      c.effect.parameters.push_back(
-          {std::string(x.field), field_of({}, x.effect, x.field).unit, value, 0.0, value, value});
+      // one step of a linear fit has no error that is worth telling
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+      c.effect.parameters.push_back({std::string(x.field), field_of({}, x.effect, x.field).unit,
+                                     s.model.values[static_cast<std::size_t>(k)], unknown, unknown, unknown});
     }
     c.delta_bic = s.gain;
     c.named = is_cause(s.suspect);
@@ -92,6 +111,16 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
     return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
   });
   return list;
+}
+
+/// What a model predicts and leaves, against the scenario as it is stated.
+void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
+  d.prediction = prediction_errors(by, before, after, d.seed);
+  d.examples = prediction_examples(by, before, after);
+  d.residual = residual_torque(by, before, after);
+  const NoiseSizes noise = noise_sizes(by, after);
+  d.noise_angle = noise.angle;
+  d.noise_torque = noise.torque;
 }
 
 /// Looks for a motion that splits the class of a diagnosis.
@@ -126,7 +155,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings);
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Suspect> all = suspects(scenario.effects, sizes, stated);
@@ -139,7 +168,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
       base.free.push_back(c);
       base.values.push_back(c.centre);
     }
-  const Selection found = CauseSearch(by, all, settings.most_causes, settings.progress)(base);
+  const Selection found = search(by, all, base, settings);
 
   Diagnosis d;
   d.seed = settings.seed;
@@ -149,12 +178,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("predicting ahead");
   const Hypothesis before = as_stated(by, found.base);
-  d.prediction = prediction_errors(by, before, found.model, settings.seed);
-  d.examples = prediction_examples(by, before, found.model);
-  d.residual = residual_torque(by, before, found.model);
-  const NoiseSizes noise = noise_sizes(by, found.model);
-  d.noise_angle = noise.angle;
-  d.noise_torque = noise.torque;
+  describe(d, by, before, found.model);
 
   tell("fitting all data");
   const Evaluation by_all(scenario, with_nothing_held_out(by.layout()), settings.threads);
@@ -164,6 +188,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
+  fit_bounces(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last);
   for (const Found& f : found.causes)
@@ -173,10 +198,20 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  judge(d, found, all);
+  judge(d, found, all, sizes);
 
   d.extended = scenario;
-  d.extended.effects = extended(last);
+  if (!d.causes.empty()) {
+    d.extended.effects = extended(last);
+    for (const Found& f : found.causes)
+      if (std::none_of(d.causes.begin(), d.causes.end(),
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
+        switch_off(d.extended.effects, all[f.suspect].effect);
+    give_teeth_to_bounce(d.extended, last.noise.bounce);
+  } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+    d.calibration.clear();
+    describe(d, by, before, found.base);
+  }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));

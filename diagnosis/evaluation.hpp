@@ -29,15 +29,16 @@ class Evaluation {
                                                  std::span<const double> extra = {},
                                                  std::vector<FilteredStates>* states = nullptr) const;
 
-  /// Errors of predicting the gear angle `steps` samples ahead from samples of one recording, without correction [rad]:
-  /// row by row the prediction less the measurement.
-  std::vector<std::vector<double>> ahead(const Effects<double>& effects, std::size_t recording,
-                                         const FilteredStates& states, std::span<const std::size_t> begins,
-                                         std::size_t steps) const;
+  /// The gear angles that the sensor would show `steps` samples on from samples of one recording, row by row [rad], if
+  /// these were the innovations of all; predictions without any.
+  std::vector<std::vector<double>> run_on(const Effects<double>& effects, const ProcessNoise& noise,
+                                          std::size_t recording, const FilteredStates& states,
+                                          std::span<const std::size_t> begins, std::size_t steps,
+                                          std::span<const double> innovations = {}) const;
 
  private:
   template <class Use>
-  void with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+  void with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;
 
   Scenario scenario_;

@@ -1,9 +1,10 @@
 #include "diagnosis/fit.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/stepwise.hpp"
 
 namespace wormdrive {
 
@@ -18,16 +19,17 @@ void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b)
   }
 }
 
-void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
-  if (!evaluate(by, h) || h.free.empty()) return;
+namespace {
+
+void follow_slopes(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
   const std::size_t n = h.free.size();
   double damping = 1e-3;
   for (int round = 0; round < rounds; ++round) {
     const WeightedColumns weigh(fit_weights(by.layout(), h.residuals, h.noise_model));
     const Eigen::VectorXd residual = weigh(h.residuals);
-    Eigen::MatrixXd J(residual.size(), static_cast<Eigen::Index>(n));
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(residual.size(), static_cast<Eigen::Index>(n));
     parallel_for(n, by.threads(), [&](std::size_t k) {
-      J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(by, h, k, derivative_step));
+      if (has_slope(h.free[k])) J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(by, h, k, derivative_step));
     });
     Eigen::MatrixXd A = J.transpose() * J;
     Eigen::VectorXd b = -J.transpose() * residual;
@@ -51,6 +53,14 @@ void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
   }
 }
 
+}  // namespace
+
+void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
+  if (!evaluate(by, h) || h.free.empty()) return;
+  follow_slopes(by, h, rounds, least_gain);
+  if (search_steps(by, h)) follow_slopes(by, h, rounds, least_gain);
+}
+
 void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {
   constexpr double least = 1e-5, most = 3.0, least_gain = 0.05;
   for (double ProcessNoise::*kind : {&ProcessNoise::white, &ProcessNoise::coloured})
@@ -69,9 +79,11 @@ void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {
 }
 
 void restart_noise(const Evaluation& by, Hypothesis& h) {
-  for (const ProcessNoise& noise : std::array<ProcessNoise, 3>{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}) {
+  if (!h.whitens) return;
+  for (const auto& [white, coloured] : {std::pair{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}) {
     Hypothesis trial = h;
-    trial.noise = noise;
+    trial.noise.white = white;
+    trial.noise.coloured = coloured;
     if (evaluate(by, trial) && trial.objective < h.objective) h = std::move(trial);
   }
 }

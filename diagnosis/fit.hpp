@@ -16,7 +16,7 @@ void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain = 0.
 /// Doubles or halves the two kinds of process noise, up to `depth` times, as long as that gains.
 void adjust_noise(const Evaluation& by, Hypothesis& h, int depth);
 
-/// Tries three different mixtures of process noise.
+/// Tries three different mixtures of process noise, where there is a model of it.
 void restart_noise(const Evaluation& by, Hypothesis& h);
 
 /// Precision of the tolerances in scales, on the diagonal, and their pull on the right-hand side.

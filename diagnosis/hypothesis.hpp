@@ -29,6 +29,9 @@ struct Hypothesis {
 /// The effects with the free coordinates at their values.
 Effects<double> extended(const Hypothesis& h);
 
+/// The same with white noise alone, which takes no slow structure for its own. To be evaluated.
+Hypothesis without_noise_model(Hypothesis h);
+
 /// Predicts the data by a hypothesis and judges it; false where the model cannot move so (the objective is infinite).
 bool evaluate(const Evaluation& by, Hypothesis& h);
 

@@ -111,7 +111,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   const PointFitter fitter(scenario, points);
   const std::vector<PointCandidate> candidates = point_candidates(scenario, points);
   tell("trying effects");
-  const PointSelection found = select(fitter, candidates, PointThresholds{});
+  const PointSelection found = select(fitter, candidates, PointThresholds{}, settings.threads);
 
   Diagnosis d;
   d.seed = settings.seed;
@@ -144,9 +144,9 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   d.certificate = point_certificate(fitter, candidates, found.after);
   d.remainders = point_remainders(points, d.residual.after);
   d.extended = scenario;
-  d.extended.effects = fitter.with(found.after.model, found.after.all.values);
   d.noise_torque = found.after.all.scale * *std::max_element(points.deviation.begin(), points.deviation.end());
   judge_points(d, found, candidates);
+  if (!d.causes.empty()) d.extended.effects = fitter.with(found.after.model, found.after.all.values);
   if (more && !d.equivalents.empty()) propose_other_load(d, scenario, *more, candidates, found);
   d.passes = fitter.passes();
   return d;

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -64,7 +65,7 @@ class PointFitter {
 
   const Scenario& scenario_;
   const TorquePoints& points_;
-  mutable long passes_ = 0;
+  mutable std::atomic<long> passes_{0};
 };
 
 }  // namespace wormdrive

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/parallel.hpp"
 #include "diagnosis/point_classes.hpp"
 
 namespace wormdrive {
@@ -13,7 +14,7 @@ namespace {
 
 class Selector {
  public:
-  explicit Selector(const PointComparison& comparison) : comparison_(comparison) {}
+  Selector(const PointComparison& comparison, int threads) : comparison_(comparison), threads_(threads) {}
 
   PointSelection run() {
     PointSelection selection;
@@ -42,26 +43,42 @@ class Selector {
     return PointJudgement{index, *with, model.bic - with->bic, model.held_out - with->held_out, false, ""};
   }
 
+  struct Beside {
+    const FittedModel* model;
+    const PointCandidate* one;
+  };
+  /// What glances show of effects beside models, in their order.
+  std::vector<FittedModel> glances(const std::vector<Beside>& pairs) const {
+    std::vector<std::optional<FittedModel>> seen(pairs.size());
+    parallel_for(pairs.size(), threads_,
+                 [&](std::size_t k) { seen[k] = comparison_.glanced(*pairs[k].model, *pairs[k].one); });
+    std::vector<FittedModel> models;
+    for (auto& with : seen)
+      if (with) models.push_back(std::move(*with));
+    return models;
+  }
+
   /// The best models of a size out of those of one less.
   std::vector<FittedModel> grown(const std::vector<FittedModel>& smaller, bool stated_too) const {
-    std::vector<FittedModel> models;
+    std::vector<Beside> pairs;
     std::set<std::set<std::string_view>> seen;
     for (const FittedModel& model : smaller)
       for (const PointCandidate& one : comparison_.candidates()) {
         if (!comparison_.fits_beside(one, model.model) || (one.tolerated && !stated_too)) continue;
         std::set<std::string_view> causes(model.model.causes.begin(), model.model.causes.end());
         causes.insert(one.effect);
-        if (!seen.insert(causes).second) continue;
-        auto with = comparison_.glanced(model, one);
-        if (with && comparison_.doubt(*with).empty()) models.push_back(std::move(*with));
+        if (seen.insert(causes).second) pairs.push_back({&model, &one});
       }
+    std::vector<FittedModel> models = glances(pairs);
+    std::erase_if(models, [&](const FittedModel& m) { return !comparison_.doubt(m).empty(); });
     std::sort(models.begin(), models.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
     if (models.size() > comparison_.limits().models) models.resize(comparison_.limits().models);
     return models;
   }
 
   /// Level effects stand in for each other, so the way to the best model is full of traps: one search among effects
-  /// that nobody has stated, one among all. Of the two, the one with more causes needs decisive evidence for each of them.
+  /// that nobody has stated, one among all. Of the two, the one with more causes needs decisive evidence for each of
+  /// them.
   FittedModel search(const FittedModel& nominal) const {
     const FittedModel unstated = improved(best_of_sizes(nominal, comparison_.limits().unstated, false));
     const FittedModel all = improved(best_of_sizes(nominal, comparison_.limits().together, true));
@@ -101,12 +118,12 @@ class Selector {
 
   /// Takes of models that a glance found promising the best one that predicts better; false if none is better by this
   /// much.
-  bool take_best(FittedModel& chosen, std::vector<FittedModel> glances, double held_out_gain, double gain) const {
+  bool take_best(FittedModel& chosen, std::vector<FittedModel> promising, double held_out_gain, double gain) const {
     constexpr std::size_t looked_at = 3;
-    std::sort(glances.begin(), glances.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
-    if (glances.size() > looked_at) glances.resize(looked_at);
+    std::sort(promising.begin(), promising.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
+    if (promising.size() > looked_at) promising.resize(looked_at);
     const FittedModel before = chosen;
-    for (const FittedModel& glance : glances) {
+    for (const FittedModel& glance : promising) {
       const auto model = comparison_.fitted(glance.model, {glance.all.values});
       if (!model || !comparison_.doubt(*model).empty()) continue;
       if (before.held_out - model->held_out > held_out_gain && before.rank() - model->rank() > gain &&
@@ -118,24 +135,24 @@ class Selector {
 
   /// Adds the effect that helps most, if it passes the thresholds.
   bool add(FittedModel& chosen) const {
-    std::vector<FittedModel> glances;
+    std::vector<Beside> pairs;
     for (const PointCandidate& one : comparison_.candidates())
-      if (comparison_.fits_beside(one, chosen.model))
-        if (auto with = comparison_.glanced(chosen, one)) glances.push_back(std::move(*with));
-    return take_best(chosen, std::move(glances), comparison_.limits().held_out_gain, comparison_.limits().delta_bic);
+      if (comparison_.fits_beside(one, chosen.model)) pairs.push_back({&chosen, &one});
+    return take_best(chosen, glances(pairs), comparison_.limits().held_out_gain, comparison_.limits().delta_bic);
   }
 
   /// Puts another effect in the place of one, if that is clearly better.
   bool exchange(FittedModel& chosen) const {
-    std::vector<FittedModel> glances;
-    for (const std::string_view effect : chosen.model.causes) {
-      const auto without = comparison_.reduced(chosen, comparison_.candidate(effect));
-      if (!without) continue;
+    std::vector<FittedModel> smaller;
+    for (const std::string_view effect : chosen.model.causes)
+      if (auto without = comparison_.reduced(chosen, comparison_.candidate(effect)))
+        smaller.push_back(std::move(*without));
+    std::vector<Beside> pairs;
+    for (const FittedModel& without : smaller)
       for (const PointCandidate& one : comparison_.candidates())
-        if (!chosen.model.holds(one.effect) && comparison_.fits_beside(one, without->model))
-          if (auto with = comparison_.glanced(*without, one)) glances.push_back(std::move(*with));
-    }
-    return take_best(chosen, std::move(glances), 0.0, 0.5);
+        if (!chosen.model.holds(one.effect) && comparison_.fits_beside(one, without.model))
+          pairs.push_back({&without, &one});
+    return take_best(chosen, glances(pairs), 0.0, 0.5);
   }
 
   void drop_superfluous(FittedModel& model) const {
@@ -192,14 +209,15 @@ class Selector {
   }
 
   const PointComparison& comparison_;
+  int threads_;
 };
 
 }  // namespace
 
 PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
-                      const PointThresholds& thresholds) {
+                      const PointThresholds& thresholds, int threads) {
   const PointComparison comparison(fitter, candidates, thresholds);
-  return Selector(comparison).run();
+  return Selector(comparison, threads).run();
 }
 
 }  // namespace wormdrive

@@ -24,8 +24,9 @@ struct PointSelection {
 
 /// Follows the best models of one effect, of two, and so on, takes the largest whose every step passes the thresholds,
 /// drops what others made superfluous, and looks for the effects that could stand in the place of a named one. Throws
-/// std::invalid_argument if the scenario has no torque at the points.
+/// std::invalid_argument if the scenario has no torque at the points. The result does not depend on the number of
+/// threads.
 PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
-                      const PointThresholds& thresholds);
+                      const PointThresholds& thresholds, int threads);
 
 }  // namespace wormdrive

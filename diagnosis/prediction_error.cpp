@@ -4,8 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/Core>
-
 #include "scenarios/build.hpp"
 
 namespace wormdrive {
@@ -19,25 +17,43 @@ struct Stretch {
   std::vector<double> errors;  ///< prediction less measurement [rad]
 };
 
-std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double horizon) {
+double mean_square(const std::vector<double>& errors) {
+  constexpr double most = 1.0;  // [rad^2]: a motion that was missed altogether, or not to its end, counts no more
+  double sum = 0.0;
+  for (const double e : errors) sum += e * e;
+  return sum <= most * static_cast<double>(errors.size()) ? sum / static_cast<double>(errors.size()) : most;
+}
+
+/// Samples of a recording from which predictions are judged.
+std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::size_t steps) {
+  std::vector<std::size_t> begins;
+  const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
+  for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
+    if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
+  return begins;
+}
+
+/// Predictions of a hypothesis from all beginnings, against what was measured, or, where innovations are given, against
+/// the motion with these.
+std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double horizon,
+                               std::span<const double> innovations = {}) {
   std::vector<Stretch> all;
   std::vector<FilteredStates> states;
-  if (!by.innovations(extended(h), h.noise, {}, &states)) return all;
+  const Effects<double> effects = extended(h);
+  if (!by.innovations(effects, h.noise, {}, &states)) return all;
   const InnovationLayout& layout = by.layout();
   for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
     const PreparedRecording& recording = layout.recordings[r];
     const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
-    std::vector<std::size_t> begins;
-    const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
-    for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
-      if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
-    auto errors = by.ahead(extended(h), r, states[r], begins, steps);
+    const std::vector<std::size_t> begins = beginnings(recording, steps);
+    auto errors = by.run_on(effects, h.noise, r, states[r], begins, steps);
+    std::vector<std::vector<double>> other;
+    if (!innovations.empty()) other = by.run_on(effects, h.noise, r, states[r], begins, steps, innovations);
     for (std::size_t q = 0; q < begins.size(); ++q) {
-      double sum = 0.0;
-      for (const double e : errors[q]) sum += e * e;
-      constexpr double most = 1.0;  // [rad^2]: a motion that was missed altogether counts no more than that
-      all.push_back({r, begins[q], layout.block[layout.begins[r] + begins[q]],
-                     std::min(most, sum / static_cast<double>(steps)), std::move(errors[q])});
+      for (std::size_t k = 0; k < errors[q].size(); ++k)
+        errors[q][k] -= innovations.empty() ? recording.data.gear_angle[begins[q] + 1 + k] : other[q][k];
+      all.push_back(
+          {r, begins[q], layout.block[layout.begins[r] + begins[q]], mean_square(errors[q]), std::move(errors[q])});
     }
   }
   return all;
@@ -78,37 +94,14 @@ void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionEr
   e.after_high = drawn[draws - 1 - draws / 40];
 }
 
-/// What a double integrator with this noise would be off ahead, as the noise was estimated [rad].
-double floor_of_noise(const Hypothesis& h, double angle_noise, double period, double horizon) {
-  const ObserverGains K = observer_gains(h.noise, period);
-  const double a = K.keep, white = h.noise.white, coloured = h.noise.coloured;
-  Eigen::Matrix3d F, Q = Eigen::Matrix3d::Zero();
-  F << 1.0, 1.0, 0.5, 0.0, 1.0, 1.0, 0.0, 0.0, a;
-  Q.topLeftCorner<2, 2>() << 0.25, 0.5, 0.5, 1.0;
-  Q *= white * white;
-  Q(2, 2) += coloured * coloured * (1.0 - a * a);
-  Eigen::Matrix3d P = Eigen::Vector3d(1.0, 0.1, coloured * coloured).asDiagonal();
-  const Eigen::Vector3d gain(K.angle, K.speed, K.torque);
-  for (int k = 0; k < 2000; ++k) {
-    const Eigen::Matrix3d ahead = F * P * F.transpose() + Q;
-    P = ahead - gain * ahead.row(0);
-  }
-  const auto steps = static_cast<int>(std::max(1L, std::lround(horizon / period)));
-  double sum = 0.0;
-  for (int k = 0; k < steps; ++k) {
-    P = F * P * F.transpose() + Q;
-    sum += P(0, 0) + 1.0;
-  }
-  return angle_noise * std::sqrt(sum / steps);
-}
-
 }  // namespace
 
 NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   const PreparedRecording& r = by.layout().recordings.front();
+  const std::span<const double> e = by.layout().of(by.layout().leading(0), std::span(h.innovations));
   std::vector<double> sizes;
   for (std::size_t k = 0; k < r.samples(); ++k)
-    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(h.innovations[k]));
+    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(e[k]));
   if (sizes.empty()) return {};
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   constexpr double normal_median = 0.6745;
@@ -126,10 +119,15 @@ NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   return noise;
 }
 
+double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon) { return rms(stretches(by, h, horizon)); }
+
 std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypothesis& before, const Hypothesis& after,
                                                std::uint64_t seed) {
   std::vector<PredictionError> all;
-  const double angle_noise = noise_sizes(by, after).angle;
+  std::vector<std::vector<double>> noises;
+  constexpr std::uint64_t draws = 4;
+  for (std::uint64_t k = 0; k < draws; ++k)
+    noises.push_back(drawn_innovations(by.layout(), after.residuals, after.noise_model, seed + k));
   for (const double horizon : horizons) {
     PredictionError e;
     e.horizon = horizon;
@@ -138,7 +136,10 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
     e.before = rms(then);
     e.after = rms(now);
     bootstrap(now, seed, e);
-    e.floor = floor_of_noise(after, angle_noise, by.layout().recordings.front().data.period, horizon);
+    std::vector<Stretch> drawn;
+    for (const std::vector<double>& noise : noises)
+      for (Stretch& s : stretches(by, after, horizon, noise)) drawn.push_back(std::move(s));
+    e.floor = rms(drawn);
     all.push_back(e);
   }
   return all;

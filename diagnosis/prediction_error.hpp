@@ -9,6 +9,11 @@ namespace wormdrive {
 
 /// How far ahead predictions are judged [s].
 inline constexpr double horizons[] = {0.1, 0.25, 1.0};
+/// The one that the sentence of a diagnosis tells of [s].
+inline constexpr double told_horizon = 0.25;
+
+/// Error of predicting the gear angle that far ahead from samples that were held out, rms [rad].
+double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon);
 
 /// Errors of predicting the gear angle ahead from samples that were held out, by the model before and after, at every
 /// horizon. The seed is that of the bootstrap over blocks.

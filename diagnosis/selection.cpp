@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/prediction_error.hpp"
 
 namespace wormdrive {
 
@@ -33,17 +35,11 @@ void CauseSearch::fit_base(Hypothesis& base) const {
   fit(by_, base, 6);
   adjust_noise(by_, base, 6);
   fit(by_, base, 2);
+  if (!base.whitens) return;
   Hypothesis second = without_noise_model(base);
   fit(by_, second, 5);
   finish_with_noise_model(second, base.noise);
   if (second.objective < base.objective) base = std::move(second);
-}
-
-/// The same without a noise model, which may hide slow effects from the linear step.
-Hypothesis CauseSearch::without_noise_model(Hypothesis h) const {
-  h.whitens = false;
-  h.noise = {0.02, 0.0};
-  return h;
 }
 
 void CauseSearch::finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const {
@@ -96,7 +92,8 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   };
   for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].suspect, std::move(fitted[k]));
   if (first_round) {
-    for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
+    if (current.whitens)
+      for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
     s_.screening = std::move(screening);
   }
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
@@ -105,6 +102,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   parallel_for(std::min(polished, tried.size()), by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
+    fit_bounces(by_, h);
     restart_noise(by_, h);
     adjust_noise(by_, h, 3);
     fit(by_, h, 4);
@@ -153,6 +151,13 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
   with.evidence = compare(s_.model, with.model, all_[with.suspect], by_.layout());
 }
 
+/// Long data find traces of what is of no account. A further cause has to lower the error ahead as well.
+bool CauseSearch::matters(const Tried& with) const {
+  constexpr double least_share = 0.01;
+  return s_.causes.empty() ||
+         error_ahead(by_, with.model, told_horizon) < (1.0 - least_share) * error_ahead(by_, s_.model, told_horizon);
+}
+
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
   // What stands at a bound is not what its name says; it must not keep others out.
   std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
@@ -174,7 +179,7 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     if (first_round)
       for (Tried& kept : s_.tried)
         if (kept.suspect == t.suspect) kept.evidence = t.evidence;
-    if (!accepted(t.evidence, suspect)) continue;
+    if (!accepted(t.evidence, suspect) || !matters(t)) continue;
     Found found{t.suspect, {}};
     for (const Tried& other : tried)
       if (other.suspect != t.suspect && !other.evidence.at_bound &&

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/prediction_error.hpp"
+
 namespace wormdrive {
 
 namespace {
@@ -23,8 +25,11 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return all;
 }
 
-/// The error ahead that the sentence tells of.
-constexpr double told_horizon = 0.25;
+/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque that is left can
+/// take back.
+bool is_kinematic(std::string_view effect) {
+  return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
+}
 
 const PredictionError* told(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)
@@ -41,7 +46,14 @@ std::string gain_sentence(const Diagnosis& d) {
       e->horizon, milli * e->before, milli * e->after, milli * e->floor);
 }
 
-std::string remainder_sentence(const Diagnosis& d) {
+/// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion.
+constexpr double most_noise = 1.0 / 3.0;
+
+bool drowned(const Diagnosis& d, double torque) { return d.noise_torque > most_noise * torque; }
+
+std::string remainder_sentence(const Diagnosis& d, double torque) {
+  if (drowned(d, torque))
+    return fmt::format(" {:.2g} N m rms, of {:.2g} N m of the motor, pass for noise.", d.noise_torque, torque);
   const Remainder& r = d.remainders.front();
   if (r.torque > 0.0) return fmt::format(" A torque of {:.2g} N m rms over {} remains unexplained.", r.torque, r.axis);
   return fmt::format(" {} remains unexplained.", r.axis);
@@ -60,7 +72,7 @@ std::string phrase(const EstimatedEffect& effect) {
   return text;
 }
 
-void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all) {
+void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all, const Magnitudes& sizes) {
   for (const Found& found : selection.causes) {
     std::vector<std::string> equals;
     for (const std::size_t other : found.equals) {
@@ -73,30 +85,37 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
   }
 
+  const std::string lacking = "The simulation lacks something that no effect of the catalogue accounts for.";
   if (d.causes.empty()) {
-    d.verdict = d.remainders.empty() ? Verdict::adequate : Verdict::unexplained;
-    d.sentence = d.remainders.empty() ? "The simulation has all that these data show."
-                                      : "The simulation lacks something that no effect of the catalogue accounts for." +
-                                            remainder_sentence(d);
+    const bool adequate = d.remainders.empty() && !drowned(d, sizes.torque);
+    d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
+    d.sentence =
+        adequate ? "The simulation has all that these data show." : lacking + remainder_sentence(d, sizes.torque);
     return;
   }
 
   // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work.
   constexpr double most_of_the_work = 3.0;
   const PredictionError* e = told(d);
-  if (!d.remainders.empty() && (!e || e->before < most_of_the_work * e->after)) {
+  const bool most_done = e && e->before >= most_of_the_work * e->after;
+  if (drowned(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
+    const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;
-    for (const EstimatedEffect& cause : d.causes) tried.push_back(in_words(cause.effect));
-    d.verdict = Verdict::unexplained;
-    d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
-    d.causes.clear();
-    d.equivalents.clear();
+    for (const EstimatedEffect& cause : d.causes)
+      if (withdrawn(cause.effect)) tried.push_back(in_words(cause.effect));
+    if (!tried.empty())
+      d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
+    if (!d.equivalents.empty() && withdrawn(d.equivalents.front())) d.equivalents.clear();
+    std::erase_if(d.causes, [&](const EstimatedEffect& cause) { return withdrawn(cause.effect); });
     for (Candidate& c : d.ranking)
-      if (c.named) {
+      if (c.named && withdrawn(c.effect.effect)) {
         c.named = false;
         c.outcome = "leaves structure behind";
       }
-    d.sentence = "The simulation lacks something that no effect of the catalogue accounts for." + remainder_sentence(d);
+  }
+  if (d.causes.empty()) {
+    d.verdict = Verdict::unexplained;
+    d.sentence = lacking + remainder_sentence(d, sizes.torque);
     return;
   }
 
@@ -111,7 +130,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
   }
   d.sentence += gain_sentence(d);
-  if (!d.remainders.empty()) d.sentence += remainder_sentence(d);
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
 }
 
 }  // namespace wormdrive

@@ -83,11 +83,11 @@ void FmuInstance::set_parameter(unsigned k, double value) {
 
 double FmuInstance::real(unsigned reference) {
   if (reference >= first_parameter) return parameter(reference - first_parameter);
-  if (static_cast<Variable>(reference) == Variable::motor_torque) return state_.torque;
+  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motor_torque) return state_.torque;
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
     const auto at = [&](const auto& list) {
-      return static_cast<std::size_t>(std::find(list.begin(), list.end(), static_cast<Variable>(reference)) -
+      return static_cast<std::size_t>(std::find(list.begin(), list.end(), static_cast<ScalarVariable>(reference)) -
                                       list.begin());
     };
     if (const std::size_t k = at(Ports::states); k < Ports::states.size()) {
@@ -105,23 +105,23 @@ double FmuInstance::real(unsigned reference) {
       run.indicators(z.data());
       return z[reference - first_indicator];
     }
-    if (static_cast<Variable>(reference) == Variable::normal_force) return run.observe().normal_force;
-    if (static_cast<Variable>(reference) == Variable::measured_angle) return run.measured_angle();
+    if (static_cast<ScalarVariable>(reference) == ScalarVariable::normal_force) return run.observe().normal_force;
+    if (static_cast<ScalarVariable>(reference) == ScalarVariable::measured_angle) return run.measured_angle();
     unknown(reference);
   });
 }
 
 int FmuInstance::integer(unsigned reference) {
   const Observation at = with_run([](auto& run) { return run.observe(); });
-  if (static_cast<Variable>(reference) == Variable::motion) return sign(at.mode.motion);
-  if (static_cast<Variable>(reference) == Variable::flank) return sign(at.mode.flank);
-  if (static_cast<Variable>(reference) == Variable::gear_motion && at.teeth) return sign(at.teeth->gear);
+  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motion) return sign(at.mode.motion);
+  if (static_cast<ScalarVariable>(reference) == ScalarVariable::flank) return sign(at.mode.flank);
+  if (static_cast<ScalarVariable>(reference) == ScalarVariable::gear_motion && at.teeth) return sign(at.teeth->gear);
   unknown(reference);
 }
 
 void FmuInstance::set_real(unsigned reference, double value) {
   const bool before = phase() == Phase::instantiated || phase() == Phase::initialization;
-  if (static_cast<Variable>(reference) == Variable::motor_torque) {
+  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motor_torque) {
     if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("motor_torque = {} must be finite", value));
     state_.torque = value;
     stale_ = stale_ || phase() == Phase::initialization;

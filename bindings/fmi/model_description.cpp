@@ -117,7 +117,7 @@ class DescriptionWriter {
     attribute(type, "unit", unit);
     used_.insert(unit);
   }
-  void whole(Tree& list, const std::string& name, Variable reference, const std::string& description) {
+  void whole(Tree& list, const std::string& name, ScalarVariable reference, const std::string& description) {
     Tree& one = variable(list, name, static_cast<unsigned>(reference), description);
     attribute(one, "causality", "output");
     attribute(one, "variability", "discrete");
@@ -126,9 +126,9 @@ class DescriptionWriter {
     attribute(type, "min", "-1");
     attribute(type, "max", "1");
   }
-  void shaft(Tree& list, const std::string& name, Variable angle, Variable speed, Variable angle_rate,
-             Variable speed_rate) {
-    const auto ref = [](Variable v) { return static_cast<unsigned>(v); };
+  void shaft(Tree& list, const std::string& name, ScalarVariable angle, ScalarVariable speed, ScalarVariable angle_rate,
+             ScalarVariable speed_rate) {
+    const auto ref = [](ScalarVariable v) { return static_cast<unsigned>(v); };
     real(list, name + "_angle", ref(angle), "output", "rad", name + " angle");
     real(list, name + "_speed", ref(speed), "output", "rad/s", name + " speed; exactly 0 while stuck");
     real(list, "der(" + name + "_angle)", ref(angle_rate), "local", "rad/s", "rate of the " + name + " angle",
@@ -139,7 +139,7 @@ class DescriptionWriter {
   }
 
   void write_variables(Tree& list) {
-    using enum Variable;
+    using enum ScalarVariable;
     if (elastic_) shaft(list, "worm", worm_angle, worm_speed, worm_angle_rate, worm_speed_rate);
     shaft(list, "gear", gear_angle, gear_speed, gear_angle_rate, gear_speed_rate);
     Tree& input = variable(list, "motor_torque", static_cast<unsigned>(motor_torque),

@@ -10,7 +10,7 @@
 namespace wormdrive {
 
 /// Value references of an FMU's variables that are not parameters; those of real numbers, then of whole ones.
-enum class Variable : unsigned {
+enum class ScalarVariable : unsigned {
   gear_angle,
   gear_speed,
   gear_angle_rate,
@@ -37,8 +37,8 @@ template <class T, class Load>
 struct Interface<WormDrive<T, Load>> {
   static constexpr std::array<std::string_view, 4> indicators{"gear speed", "switching surface", "forward break-in",
                                                               "backward break-in"};
-  static constexpr std::array states{Variable::gear_angle, Variable::gear_speed};
-  static constexpr std::array rates{Variable::gear_angle_rate, Variable::gear_speed_rate};
+  static constexpr std::array states{ScalarVariable::gear_angle, ScalarVariable::gear_speed};
+  static constexpr std::array rates{ScalarVariable::gear_angle_rate, ScalarVariable::gear_speed_rate};
 };
 
 template <class T, class Load>
@@ -52,16 +52,16 @@ struct Interface<CompliantDrive<T, Load>> {
                                                               "gear speed",
                                                               "forward break-in of the gear",
                                                               "backward break-in of the gear"};
-  static constexpr std::array states{Variable::worm_angle, Variable::worm_speed, Variable::gear_angle,
-                                     Variable::gear_speed};
-  static constexpr std::array rates{Variable::worm_angle_rate, Variable::worm_speed_rate, Variable::gear_angle_rate,
-                                    Variable::gear_speed_rate};
+  static constexpr std::array states{ScalarVariable::worm_angle, ScalarVariable::worm_speed, ScalarVariable::gear_angle,
+                                     ScalarVariable::gear_speed};
+  static constexpr std::array rates{ScalarVariable::worm_angle_rate, ScalarVariable::worm_speed_rate,
+                                    ScalarVariable::gear_angle_rate, ScalarVariable::gear_speed_rate};
 };
 
 /// The same for whoever does not know the type of the drive.
 struct InterfaceNames {
   std::span<const std::string_view> indicators;
-  std::span<const Variable> states, rates;
+  std::span<const ScalarVariable> states, rates;
 
   explicit InterfaceNames(bool elastic_teeth) {
     if (elastic_teeth)

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "cli/program.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/read_recording.hpp"
+#include "diagnosis/tolerances.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "support.hpp"
+
+// A measured axis without a gear, 25 s at 1 kHz: Janot, Gautier, Brunot, EMPS, 2019. A diagnosis that knows its mass
+// finds the friction that its authors found with an inverse model and least squares.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+struct Axis {
+  Scenario scenario;
+  Recording recording;
+};
+
+std::optional<Axis> measured_axis() {
+  if (!reference("emps/data_emps.csv")) return std::nullopt;
+  Axis axis{load_scenario(shipped("measured_servo_axis.toml"), {}, Purpose::look), {}};
+  axis.recording = read_recording(std::string(WORMDRIVE_REFERENCE_DATA) + "/emps/data_emps.csv", axis.scenario);
+  return axis;
+}
+
+/// force = mass acceleration + viscous speed + coulomb sign(speed) - offset - wave(position), by direction [SI].
+struct AxisModel {
+  double mass, viscous_forward, viscous_backward, coulomb_forward, coulomb_backward, offset;
+  Cogging<double> wave{};
+};
+constexpr AxisModel published{95.1089, 203.5034, 203.5034, 20.3935, 20.3935, 3.1648};
+constexpr AxisModel published_by_direction{95.1089, 166.7061, 240.4236, 20.1440, 20.6277, 0.0};
+
+double field(const Effects<double>& effects, std::string_view effect, std::string_view name) {
+  const FieldOfEffect f = field_of(effects, effect, name);
+  return f.on ? f.value : 0.0;
+}
+
+AxisModel axis_model(const Effects<double>& e) {
+  const double viscous = field(e, "worm_viscous", "coefficient"), coulomb = field(e, "worm_coulomb", "torque");
+  const double more = field(e, "bearing_asymmetry", "coefficient"), dry = field(e, "bearing_asymmetry", "torque");
+  const double gain = 1.0 + field(e, "torque_gain", "share");
+  const double mass = published.mass + field(e, "worm_inertia", "inertia");
+  return {mass / gain,
+          (viscous + more) / gain,
+          (viscous - more) / gain,
+          (coulomb + dry) / gain,
+          (coulomb - dry) / gain,
+          field(e, "torque_offset", "torque") / gain,
+          {field(e, "cogging", "amplitude") / gain, field(e, "cogging", "periods"), field(e, "cogging", "phase")}};
+}
+
+/// A Gaussian of 5 ms (its gain is a half at 37 Hz), forward and backward alike: no delay.
+std::vector<double> smooth(const std::vector<double>& x, double period) {
+  constexpr double width = 0.005;
+  const auto reach = static_cast<long>(std::lround(5.0 * width / period)), n = static_cast<long>(x.size());
+  std::vector<double> y(x.size());
+  for (long k = 0; k < n; ++k) {
+    double sum = 0.0, weights = 0.0;
+    for (long j = -reach; j <= reach; ++j) {
+      const double t = static_cast<double>(j) * period / width, w = std::exp(-0.5 * t * t);
+      sum += w * x[static_cast<std::size_t>(std::clamp(k + j, 0L, n - 1))];
+      weights += w;
+    }
+    y[static_cast<std::size_t>(k)] = sum / weights;
+  }
+  return y;
+}
+
+std::vector<double> slope(const std::vector<double>& x, double period) {
+  std::vector<double> y(x.size(), 0.0);
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) y[k] = (x[k + 1] - x[k - 1]) / (2.0 * period);
+  return y;
+}
+
+/// Error of the force that a model needs for the measured motion, rms, per rms of the measured force. Speed and
+/// acceleration are central differences of the smoothed position; then both forces are smoothed once more.
+double force_error(const AxisModel& m, const Recording& r) {
+  const auto x = smooth(r.gear_angle, r.period);
+  const auto v = slope(x, r.period), a = slope(v, r.period);
+  std::vector<double> needed(v.size());
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const bool forward = v[k] > 0.0;
+    needed[k] = m.mass * a[k] + (forward ? m.viscous_forward : m.viscous_backward) * v[k] +
+                (forward ? m.coulomb_forward : -m.coulomb_backward) - m.offset -
+                m.wave.amplitude * std::sin(m.wave.periods * x[k] + m.wave.phase);
+  }
+  const auto u = smooth(r.motor_torque, r.period), w = smooth(needed, r.period);
+  double error = 0.0, size = 0.0;
+  for (std::size_t k = 100; k + 100 < u.size(); ++k) {
+    error += (u[k] - w[k]) * (u[k] - w[k]);
+    size += u[k] * u[k];
+  }
+  return std::sqrt(error / size);
+}
+
+}  // namespace
+
+TEST_CASE("the measured axis: Coulomb, viscous friction and offset alone come within 2 % of what was published",
+          "[reference]") {
+  const auto axis = measured_axis();
+  if (!axis) return;
+  const PreparedRecording prepared_recording = with_all_data(prepared(axis->recording, {}, 0));
+  const Magnitudes sizes = magnitudes(axis->scenario, {prepared_recording});
+  const auto all = suspects(
+      {}, sizes,
+      toleranced_coordinates(axis->scenario, sizes, {{"worm_inertia", "inertia", 0.0}, {"torque_gain", "share", 0.0}}));
+  const Evaluation by(axis->scenario, InnovationLayout({prepared_recording}), 2);
+  Hypothesis h = without_noise_model({});
+  for (const std::string_view effect : {"worm_coulomb", "worm_viscous", "torque_offset"})
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].effect == effect) add_suspect(h, all, k, 0);
+  fit(by, h, 12);
+  adjust_noise(by, h, 10);
+  fit(by, h, 12, 0.01);
+  const AxisModel found = axis_model(extended(h));
+  CAPTURE(found.coulomb_forward, found.viscous_forward, found.offset, h.noise.white);
+  CHECK(close(found.coulomb_forward, published.coulomb_forward, 0.02));
+  CHECK(close(found.viscous_forward, published.viscous_forward, 0.02));
+  CHECK(close(found.offset, published.offset, 0.02));
+}
+
+TEST_CASE("the measured axis: from its mass, friction is named and then that it depends on the direction",
+          "[reference]") {
+  const auto axis = measured_axis();
+  if (!axis) return;
+  const Diagnosis d = diagnose(axis->scenario, {axis->recording}, {.threads = 2});
+  CAPTURE(d.sentence);
+  const auto named = [&](std::string_view effect) {
+    return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& c) { return c.effect == effect; });
+  };
+  CHECK(named("worm_coulomb"));
+  CHECK(named("worm_viscous"));
+  CHECK(named("bearing_asymmetry"));
+  CHECK_FALSE(named("stribeck"));
+  CHECK_FALSE(named("backlash"));
+  const AxisModel found = axis_model(d.extended.effects);
+  CAPTURE(found.viscous_forward, found.viscous_backward);
+  CHECK(std::abs(found.viscous_backward - found.viscous_forward - 73.0) <= 10.0);
+  const double ours = force_error(found, axis->recording);
+  const double theirs = force_error(published, axis->recording);
+  const double by_direction = force_error(published_by_direction, axis->recording);
+  CAPTURE(ours, theirs, by_direction);
+  CHECK(ours <= theirs);
+  CHECK(ours <= by_direction);
+}
