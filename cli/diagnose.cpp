@@ -11,8 +11,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
-#include "cli/diagnose_data.hpp"
-#include "cli/diagnosis_json.hpp"
+#include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/diagnosis_json.hpp"
 #include "diagnosis/diagnosis_file.hpp"
 #include "output/text_file.hpp"
 #include "scenarios/faults.hpp"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/stepwise.hpp"
+
 namespace wormdrive {
 
 Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspect& suspect,
@@ -34,7 +36,8 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
     if (k < 0) continue;
     const double x = with.values[static_cast<std::size_t>(k)];
     if (c.tolerance > 0.0) e.tolerances = std::max(e.tolerances, std::abs(x - c.centre) / c.tolerance);
-    const double near = 1e-6 * (c.high - c.low);
+    // what has no slope is known to its scale at best; a size of less than two is none
+    const double near = has_slope(c) ? 1e-6 * (c.high - c.low) : 2.0 * c.scale;
     e.at_bound = e.at_bound || x <= c.low + near || x >= c.high - near;
   }
   return e;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/stepwise.hpp"
 
 namespace wormdrive {
 
@@ -18,16 +19,17 @@ void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b)
   }
 }
 
-void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
-  if (!evaluate(by, h) || h.free.empty()) return;
+namespace {
+
+void follow_slopes(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
   const std::size_t n = h.free.size();
   double damping = 1e-3;
   for (int round = 0; round < rounds; ++round) {
     const WeightedColumns weigh(fit_weights(by.layout(), h.residuals, h.noise_model));
     const Eigen::VectorXd residual = weigh(h.residuals);
-    Eigen::MatrixXd J(residual.size(), static_cast<Eigen::Index>(n));
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(residual.size(), static_cast<Eigen::Index>(n));
     parallel_for(n, by.threads(), [&](std::size_t k) {
-      J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(by, h, k, derivative_step));
+      if (has_slope(h.free[k])) J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(by, h, k, derivative_step));
     });
     Eigen::MatrixXd A = J.transpose() * J;
     Eigen::VectorXd b = -J.transpose() * residual;
@@ -49,6 +51,14 @@ void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
     }
     if (!better || before - h.objective < least_gain) return;
   }
+}
+
+}  // namespace
+
+void fit(const Evaluation& by, Hypothesis& h, int rounds, double least_gain) {
+  if (!evaluate(by, h) || h.free.empty()) return;
+  follow_slopes(by, h, rounds, least_gain);
+  if (search_steps(by, h)) follow_slopes(by, h, rounds, least_gain);
 }
 
 void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {

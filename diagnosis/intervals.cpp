@@ -8,6 +8,7 @@
 
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/stepwise.hpp"
 
 namespace wormdrive {
 
@@ -15,7 +16,9 @@ Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h) {
   const InnovationLayout& layout = by.layout();
   const auto n = static_cast<Eigen::Index>(h.free.size());
   std::vector<std::vector<double>> J(h.free.size());
-  parallel_for(h.free.size(), by.threads(), [&](std::size_t k) { J[k] = sensitivity(by, h, k, derivative_step); });
+  parallel_for(h.free.size(), by.threads(), [&](std::size_t k) {
+    J[k] = has_slope(h.free[k]) ? sensitivity(by, h, k, derivative_step) : std::vector<double>(layout.size, 0.0);
+  });
 
   constexpr double nu = tail_freedom;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
@@ -49,11 +52,13 @@ Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h) {
   Eigen::VectorXd scales(n);
   for (Eigen::Index k = 0; k < n; ++k) scales[k] = h.free[static_cast<std::size_t>(k)].scale;
   Eigen::MatrixXd spread = scales.asDiagonal() * (inverse * B * inverse) * scales.asDiagonal();
-  // Where the likelihood has no slope at all, as over a friction at rest between two break-aways, it tells no size.
-  constexpr double flat = 1e-6;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Coordinate& c = h.free[static_cast<std::size_t>(k)];
-    if (H(k, k) < flat) spread(k, k) = std::pow(c.high - c.low, 2);
+    const auto q = static_cast<std::size_t>(k);
+    constexpr double flat = 1e-6;
+    if (!has_slope(h.free[q]))
+      spread(k, k) = std::pow(spread_of_steps(by, h, q), 2);
+    else if (H(k, k) < flat)  // these data tell no size
+      spread(k, k) = std::pow(h.free[q].high - h.free[q].low, 2);
   }
   return spread;
 }

@@ -195,7 +195,11 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
       if (pool.empty()) continue;
       const std::uint64_t draw = random();  // its lowest bit is the sign
       e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
-      if (noise.whitens) e[k] += predicted(noise.groups[layout.group[k]].weights, z.values().data());
+      // weights that keep most of what is steady tell of slow structure, and would let noise grow
+      const WhiteningWeights& weights = noise.groups[layout.group[k]].weights;
+      constexpr double most_kept = 0.5;
+      if (noise.whitens && std::accumulate(weights.begin(), weights.end(), 0.0) < most_kept)
+        e[k] += predicted(weights, z.values().data());
       z.add(e[k]);
     }
   }

@@ -7,6 +7,7 @@
 #include "diagnosis/fit.hpp"
 #include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/prediction_error.hpp"
 
 namespace wormdrive {
 
@@ -150,6 +151,13 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
   with.evidence = compare(s_.model, with.model, all_[with.suspect], by_.layout());
 }
 
+/// Long data find traces of what is of no account. A further cause has to lower the error ahead as well.
+bool CauseSearch::matters(const Tried& with) const {
+  constexpr double least_share = 0.01;
+  return s_.causes.empty() ||
+         error_ahead(by_, with.model, told_horizon) < (1.0 - least_share) * error_ahead(by_, s_.model, told_horizon);
+}
+
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
   // What stands at a bound is not what its name says; it must not keep others out.
   std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
@@ -171,7 +179,7 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     if (first_round)
       for (Tried& kept : s_.tried)
         if (kept.suspect == t.suspect) kept.evidence = t.evidence;
-    if (!accepted(t.evidence, suspect)) continue;
+    if (!accepted(t.evidence, suspect) || !matters(t)) continue;
     Found found{t.suspect, {}};
     for (const Tried& other : tried)
       if (other.suspect != t.suspect && !other.evidence.at_bound &&

@@ -45,6 +45,7 @@ class CauseSearch {
   std::vector<Screened> worth_fitting(const std::vector<Screened>& found) const;
   std::vector<Tried> try_plainly(const Hypothesis& current) const;
   void finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const;
+  bool matters(const Tried& with) const;
   bool take_best(std::vector<Tried>& tried, bool first_round);
   void compare_fairly(Tried& with, bool base_too);
   void eliminate();
