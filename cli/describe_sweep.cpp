@@ -23,6 +23,10 @@ void raise(Disagreement& largest, const Disagreement& found) {
 
 }  // namespace
 
+std::string with_interval(const SampleEstimate& e, double scale) {
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
+}
+
 void print_study(const Study& study, TrialRange range) {
   fmt::print("{}\n", study.title);
   const std::string part =

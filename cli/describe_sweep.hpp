@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "sweep/statistics.hpp"
 #include "sweep/sweep_file.hpp"
 
 namespace wormdrive {
+
+/// An estimate and its interval, times a scale: "0.12 [0.11, 0.13]".
+std::string with_interval(const SampleEstimate& e, double scale = 1.0);
 
 /// Prints what a study asks for.
 void print_study(const Study& study, TrialRange range);

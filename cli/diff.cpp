@@ -17,7 +17,7 @@ namespace {
 constexpr int agree = 0, differ = 1;
 
 /// The tables of result files that are compared row by row, with what their rows stand over.
-constexpr std::pair<const char*, const char*> tables[] = {
+constexpr std::pair<const char*, const char*> compared_tables[] = {
     {"trajectory", "time"}, {"controller", "time"}, {"statics", "load_torque"}, {"model", "worm_speed"}};
 
 /// How one signal of two results compares.
@@ -27,7 +27,7 @@ struct Difference {
   bool too_large() const { return !(largest <= allowed); }  // NaN too
 };
 
-struct Comparison {
+struct FileComparison {
   std::vector<Difference> signals;
   std::vector<std::string> faults;  ///< what is not a matter of size
   std::size_t rows = 0, events = 0;
@@ -53,7 +53,7 @@ std::vector<std::pair<std::size_t, std::size_t>> common_rows(const std::vector<d
 }
 
 void compare_table(const ResultFile& a, const ResultFile& b, const std::string& table, const std::string& over,
-                   const DiffOptions& allowed, const std::vector<double>& events, Comparison& result) {
+                   const DiffOptions& allowed, const std::vector<double>& events, FileComparison& result) {
   const std::vector<double> at_a = a.column(table + "/" + over), at_b = b.column(table + "/" + over);
   const auto rows = common_rows(at_a, at_b);
   if (rows.empty()) {
@@ -94,7 +94,7 @@ std::string event_name(double kind) {
   return k < event_kind_count ? std::string(name(event_kinds[k])) : fmt::format("kind {}", kind);
 }
 
-void compare_events(const ResultFile& a, const ResultFile& b, const DiffOptions& allowed, Comparison& result) {
+void compare_events(const ResultFile& a, const ResultFile& b, const DiffOptions& allowed, FileComparison& result) {
   const auto ta = a.column("events/time"), tb = b.column("events/time");
   const auto ka = a.column("events/kind"), kb = b.column("events/kind");
   if (ta.size() != tb.size()) result.faults.push_back(fmt::format("events: {} against {}", ta.size(), tb.size()));
@@ -115,8 +115,8 @@ void compare_events(const ResultFile& a, const ResultFile& b, const DiffOptions&
   result.signals.push_back(late);
 }
 
-Comparison compare(const ResultFile& a, const ResultFile& b, const DiffOptions& options) {
-  Comparison result;
+FileComparison compare(const ResultFile& a, const ResultFile& b, const DiffOptions& options) {
+  FileComparison result;
   std::vector<double> events;
   if (a.has("events") && b.has("events")) {
     compare_events(a, b, options, result);
@@ -127,7 +127,7 @@ Comparison compare(const ResultFile& a, const ResultFile& b, const DiffOptions& 
     std::sort(events.begin(), events.end());
   }
   bool any = false;
-  for (const auto& [table, over] : tables) {
+  for (const auto& [table, over] : compared_tables) {
     if (a.has(table) && b.has(table)) {
       any = true;
       compare_table(a, b, table, over, options, events, result);
@@ -139,7 +139,7 @@ Comparison compare(const ResultFile& a, const ResultFile& b, const DiffOptions& 
   return result;
 }
 
-void print(const Comparison& result) {
+void print(const FileComparison& result) {
   for (const Difference& s : result.signals)
     fmt::print("  {:<36} {:>12.4g} at {:<12.6g} allowed {:<10.3g} {}\n", s.signal, s.largest, s.at, s.allowed,
                s.too_large() ? "DIFFERS" : "");
@@ -148,7 +148,7 @@ void print(const Comparison& result) {
              result.rows);
 }
 
-nlohmann::json as_json(const Comparison& result) {
+nlohmann::json as_json(const FileComparison& result) {
   nlohmann::json json{{"agree", !result.differs()},
                       {"events", result.events},
                       {"rows", result.rows},
@@ -167,7 +167,7 @@ nlohmann::json as_json(const Comparison& result) {
 
 int diff_command(const DiffOptions& options) {
   const ResultFile a(options.first), b(options.second);
-  const Comparison result = compare(a, b, options);
+  const FileComparison result = compare(a, b, options);
   if (options.json) print_json(as_json(result));
   if (!options.json && !options.quiet) print(result);
   return result.differs() ? differ : agree;

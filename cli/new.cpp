@@ -15,7 +15,8 @@
 namespace wormdrive {
 namespace {
 
-constexpr std::string_view mesh = R"([mesh]                                # worm and gear, as a data sheet states them
+constexpr std::string_view mesh_lines =
+    R"([mesh]                                # worm and gear, as a data sheet states them
 ratio = 60                            # worm angle over gear angle
 lead_angle_deg = 3.9                  # of the worm; _rad works too, for every angle
 pressure_angle_deg = 20               # normal pressure angle
@@ -34,7 +35,7 @@ arm_m = 0.07
 # angle_offset_deg = 0                # of the arm from horizontal at gear angle 0
 )";
 
-constexpr std::string_view effects = R"(
+constexpr std::string_view effects_lines = R"(
 [effect.worm_coulomb]                 # bearings of the worm; all effects: wormdrive list effects
 torque_Nm = 0.005
 
@@ -86,7 +87,7 @@ frequency_Hz = 1
 counts = 4000                         # of the encoder, per turn of the gear
 )";
 
-constexpr std::string_view axis = R"([mesh]
+constexpr std::string_view axis_lines = R"([mesh]
 kind = "none"                         # no gear: one mass
 axis = "linear"                       # forces in N, positions in m, masses in kg
 mass_kg = 95
@@ -118,10 +119,14 @@ struct Kind {
 };
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
-      {"open_loop", "A worm drive under a motor torque over time", {mesh, motor, arm, effects, initial, run}},
-      {"controlled", "A worm drive under a sampled controller", {mesh, control, arm, effects, initial, run}},
-      {"elastic_teeth", "A worm drive with backlash", {mesh, motor, arm, teeth, initial, run}},
-      {"linear_axis", "A linear axis with dry friction", {axis, run}}};
+      {"open_loop",
+       "A worm drive under a motor torque over time",
+       {mesh_lines, motor, arm, effects_lines, initial, run}},
+      {"controlled",
+       "A worm drive under a sampled controller",
+       {mesh_lines, control, arm, effects_lines, initial, run}},
+      {"elastic_teeth", "A worm drive with backlash", {mesh_lines, motor, arm, teeth, initial, run}},
+      {"linear_axis", "A linear axis with dry friction", {axis_lines, run}}};
   return all;
 }
 

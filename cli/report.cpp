@@ -12,18 +12,18 @@
 namespace wormdrive {
 namespace {
 
-struct Kind {
+struct KindOfPage {
   std::string_view name;
   ReportPage (*page)(const ResultFile&);
 };
-constexpr Kind kinds[] = {{"run", report_of_run},
-                          {"statics", report_of_statics},
-                          {"sweep", report_of_sweep},
-                          {"diagnosis", report_of_diagnosis}};
+constexpr KindOfPage pages[] = {{"run", report_of_run},
+                                {"statics", report_of_statics},
+                                {"sweep", report_of_sweep},
+                                {"diagnosis", report_of_diagnosis}};
 
 ReportPage page_of(const ResultFile& file) {
   const std::string kind = file.attribute("/", "kind");
-  for (const Kind& known : kinds)
+  for (const KindOfPage& known : pages)
     if (known.name == kind) return known.page(file);
   refuse({file.path()},
          fmt::format("is the result of '{}'; a report shows a run, statics, a sweep or a diagnosis", kind));

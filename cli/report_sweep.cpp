@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/describe_sweep.hpp"
 #include "cli/report_kinds.hpp"
 #include "cli/thinning.hpp"
 #include "sweep/summary.hpp"
@@ -81,10 +82,6 @@ ReportPanel cloud(const ResultFile& file, const Metric& metric, const std::strin
     panel.series[2].values.push_back(most);
   }
   return panel;
-}
-
-std::string with_interval(const Estimate& e, double scale) {
-  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
 }
 
 ReportTable metric_table(const SweepSummary& summary) {

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json text(const std::string& description) { return {{"type", "string"}, {"description", description}}; }
+Json any_text(const std::string& description) { return {{"type", "string"}, {"description", description}}; }
 Json words(const std::vector<std::string>& list, const std::string& description) {
   return {{"enum", list}, {"description", description}};
 }
@@ -58,8 +58,8 @@ class Table {
   }
   /// A function that a file or two arrays state.
   Table& pairs(const std::string& x, const Unit& x_unit, const std::string& y, const Unit& y_unit) {
-    with("file", text("CSV file, beside the scenario")).with("x_column", text("its column of " + x));
-    with("y_column", text("its column of " + y));
+    with("file", any_text("CSV file, beside the scenario")).with("x_column", any_text("its column of " + x));
+    with("y_column", any_text("its column of " + y));
     const auto x_spellings = spellings(x, x_unit, axis_), y_spellings = spellings(y, y_unit, axis_);
     for (const auto& list : {x_spellings, y_spellings})
       for (const Spelling& s : list) with(s.key, numbers(s));
@@ -202,7 +202,7 @@ Json controller() {
 /// All tables of a scenario on an axis.
 Json tables(Axis axis) {
   Table root(axis);
-  root.with("title", text("one line"));
+  root.with("title", any_text("one line"));
   root.with("mesh", mesh(axis)).requires_key("mesh");
   root.with("motor", Table(axis, "what drives in open loop").with("torque", torque(axis)).json());
   root.with("load", load(axis)).with("effect", effects(axis));

@@ -10,10 +10,6 @@
 namespace wormdrive {
 namespace {
 
-std::string with_interval(const SampleEstimate& e, double scale = 1.0) {
-  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
-}
-
 void print_metrics(const SweepSummary& summary) {
   fmt::print("\n  {:<28} {:<10} {:>11} {:>11} {:>34} {:>34} {:>11}\n", "metric", "unit", "mean", "median",
              "95 % lie below [95 % interval]", "99 % lie below [95 % interval]", "greatest");

@@ -109,10 +109,7 @@ bool looks_good(Ranks& ranks, Look&& look) {
   return ranks.told({0}).front() == 0;
 }
 
-}  // namespace
-
-int sweep_command(const SweepOptions& options) {
-  Ranks ranks;
+int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
   const bool good = looks_good(ranks, [&] {
     load_study(options.study);
@@ -125,6 +122,20 @@ int sweep_command(const SweepOptions& options) {
   const Interruptible interruptible;
   if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
   return sweep_alone(options, study, output);
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options) {
+  Ranks ranks;
+  try {
+    return sweep_together(ranks, options);
+  } catch (const InputFault& fault) {
+    // mpirun may lose what is said behind the ranks' common end
+    if (ranks.count() == 1) throw;
+    fmt::print(stderr, "{}\n", fault.what());
+    return 2;
+  }
 }
 
 }  // namespace wormdrive

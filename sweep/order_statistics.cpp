@@ -11,12 +11,12 @@ namespace {
 
 constexpr int digit = 11;                ///< bits by which values are told apart in one pass
 constexpr std::uint64_t most = 1 << 16;  ///< values that are held at once
-constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
 
 /// A whole number that rises with the value.
 std::uint64_t key(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
-  return (bits & sign) != 0 ? ~bits : bits | sign;
+  return (bits & sign_bit) != 0 ? ~bits : bits | sign_bit;
 }
 /// Values whose keys begin alike, and the ranks that are wanted of them.
 struct Bucket {

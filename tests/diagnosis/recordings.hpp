@@ -11,6 +11,14 @@
 
 namespace wormdrive::test {
 
+/// Slow sweeps, several sines and random steps over an angle on which the load changes its sign.
+inline std::vector<ReferenceTerm> rich_motion() {
+  return {SinusoidReference{.amplitude = 2.0, .frequency = 0.045},
+          MultisineReference{.amplitude = 0.03, .lowest_frequency = 0.7, .highest_frequency = 9.0, .count = 7},
+          RandomStepsReference{.amplitude = 0.25, .interval = 1.7, .seed = 5},
+          SinusoidReference{.amplitude = 0.12, .frequency = 1.5}};
+}
+
 struct RecordingConditions {
   double duration = 24.0;        ///< [s]
   double white_torque = 5e-4;    ///< [N m]
@@ -18,6 +26,7 @@ struct RecordingConditions {
   double angle_noise = 3e-5;     ///< [rad]
   double coloured_torque = 0.0;  ///< [N m]
   std::uint64_t seed = 1;
+  std::vector<ReferenceTerm> motion = rich_motion();
 };
 
 /// The paper's drive with 1 kg on 7 cm: what the diagnosis is told.
@@ -40,8 +49,25 @@ inline Scenario nominal_arm() {
   return s;
 }
 
-/// Records a drive that follows slow sweeps, several sines and random steps over an angle on which the load changes
-/// its sign.
+/// What a run of a scenario with a controller writes down.
+inline Recording measured(const Scenario& run) {
+  Recording recording;
+  recording.period = run.control->sampling.period;
+  RunListeners listeners;
+  listeners.samples = [&](const std::vector<ControlRecord>& samples) {
+    for (const ControlRecord& s : samples) {
+      recording.motor_torque.push_back(s.decided.torque);
+      recording.gear_angle.push_back(s.measured.angle);
+    }
+  };
+  run_scenario(run, listeners);
+  recording.valid.assign(recording.samples(), 1);
+  const double counts = run.control->sensor.counts;
+  recording.gear_resolution = counts > 0.0 ? 2.0 * std::numbers::pi / counts : 0.0;
+  return recording;
+}
+
+/// Records a drive that follows a motion.
 inline Recording record(Scenario drive, const RecordingConditions& conditions = {}) {
   ControlScenario control;
   PidParameters pid;
@@ -51,11 +77,7 @@ inline Recording record(Scenario drive, const RecordingConditions& conditions = 
   pid.feedforward = 1.0;
   control.law = pid;
   control.sampling.period = 1e-3;
-  control.reference.terms = {
-      SinusoidReference{.amplitude = 2.0, .frequency = 0.045},
-      MultisineReference{.amplitude = 0.03, .lowest_frequency = 0.7, .highest_frequency = 9.0, .count = 7},
-      RandomStepsReference{.amplitude = 0.25, .interval = 1.7, .seed = 5},
-      SinusoidReference{.amplitude = 0.12, .frequency = 1.5}};
+  control.reference.terms = conditions.motion;
   control.sensor.counts = conditions.counts;
   control.sensor.noise = conditions.angle_noise;
   control.sensor.seed = static_cast<double>(conditions.seed);
@@ -67,19 +89,7 @@ inline Recording record(Scenario drive, const RecordingConditions& conditions = 
   drive.run.duration = conditions.duration;
   drive.run.solver = SolverKind::taylor;
   drive.run.relative_tolerance = 1e-9;
-  Recording recording;
-  recording.period = control.sampling.period;
-  RunListeners listeners;
-  listeners.samples = [&](const std::vector<ControlRecord>& samples) {
-    for (const ControlRecord& s : samples) {
-      recording.motor_torque.push_back(s.decided.torque);
-      recording.gear_angle.push_back(s.measured.angle);
-    }
-  };
-  run_scenario(drive, listeners);
-  recording.valid.assign(recording.samples(), 1);
-  recording.gear_resolution = conditions.counts > 0.0 ? 2.0 * std::numbers::pi / conditions.counts : 0.0;
-  return recording;
+  return measured(drive);
 }
 
 }  // namespace wormdrive::test

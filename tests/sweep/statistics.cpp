@@ -170,5 +170,7 @@ TEST_CASE("rank correlation of more values than it keeps differs by nothing that
   const double all = static_cast<double>(n), exact = 1.0 - 6.0 * squares / (all * (all * all - 1.0));
   CHECK(exact > 0.3);
   CHECK(exact < 0.9);
-  CHECK(std::abs(spearman(x, y) - exact) < 1e-7);
+  // Four values share a rank: errors of 1.1 at random against ranks that spread by 5.8e4, in 2e5 values and two
+  // columns, have a deviation of 6e-8.
+  CHECK(std::abs(spearman(x, y) - exact) < 3e-7);
 }

@@ -1,0 +1,91 @@
+#include <algorithm>
+
+#include "catch.hpp"
+#include "diagnosis/coordinates.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/recordings.hpp"
+#include "support.hpp"
+
+// A slow motion over a small angle leaves a class; a second payload, or the experiment that the diagnosis proposes,
+// splits it.
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+/// The arm, weighed exactly, with another payload than 1 kg perhaps.
+Scenario exact_arm(double mass = 1.0) {
+  Scenario arm = nominal_arm();
+  arm.tolerance = Tolerances{.friction = 0.0,
+                             .load = 0.0,
+                             .load_angle = 0.0,
+                             .worm_inertia = 0.0,
+                             .gear_inertia = 0.0,
+                             .torque_gain = 0.0,
+                             .torque_offset = 0.0};
+  std::get<GravityArm>(arm.load).mass = mass;
+  return arm;
+}
+
+Scenario with(Scenario drive, const FieldValue& planted) {
+  set_field(drive.effects, planted);
+  return drive;
+}
+
+/// A sweep at 0.1 Hz, with the load that it moved.
+Recording slow_sweep(const Scenario& drive, double amplitude, std::uint64_t seed) {
+  Recording r = record(
+      drive, {.duration = 12.0, .seed = seed, .motion = {SinusoidReference{.amplitude = amplitude, .frequency = 0.1}}});
+  r.load = drive.load;
+  return r;
+}
+
+std::vector<std::string> ids(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const EstimatedEffect& cause : d.causes) all.push_back(cause.effect);
+  return all;
+}
+
+bool holds(const std::vector<std::string>& list, const std::string& id) {
+  return std::find(list.begin(), list.end(), id) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("a second payload splits the class that one leaves") {
+  const FieldValue planted{"worm_coulomb", "torque", 5e-4};
+  const Recording light = slow_sweep(with(exact_arm(), planted), 0.1, 1);
+  const Recording heavy = slow_sweep(with(exact_arm(2.0), planted), 0.1, 2);
+  const Diagnosis one = diagnose(exact_arm(), {light}), other = diagnose(exact_arm(), {heavy});
+  CAPTURE(one.sentence, other.sentence);
+  for (const Diagnosis* d : {&one, &other}) {
+    CHECK(d->verdict == Verdict::ambiguous);
+    CHECK(holds(d->equivalents, "worm_coulomb"));
+    CHECK(holds(d->equivalents, "mesh_friction"));
+  }
+  const Diagnosis both = diagnose(exact_arm(), {light, heavy});
+  CAPTURE(both.sentence);
+  CHECK(both.verdict == Verdict::named);
+  CHECK(ids(both) == std::vector<std::string>{"worm_coulomb"});
+}
+
+TEST_CASE("the proposed experiment, made and diagnosed with the first recording, splits the class") {
+  const FieldValue planted{"worm_coulomb", "torque", 5e-4};
+  const Recording first = slow_sweep(with(exact_arm(), planted), 0.1, 1);
+  const Diagnosis before = diagnose(exact_arm(), {first});
+  CAPTURE(before.sentence);
+  REQUIRE(before.verdict == Verdict::ambiguous);
+  REQUIRE(holds(before.equivalents, "mesh_friction"));
+  REQUIRE(before.experiment);
+  Scenario made = *before.experiment;  // on the true drive, not on the one that was found
+  made.effects = {};
+  set_field(made.effects, planted);
+  made.control->disturbance.deviation = 5e-4;
+  Recording second = measured(made);
+  second.load = made.load;
+  const Diagnosis after = diagnose(exact_arm(), {first, second});
+  CAPTURE(after.sentence);
+  CHECK(after.verdict == Verdict::named);
+  CHECK(ids(after) == std::vector<std::string>{"worm_coulomb"});
+}
