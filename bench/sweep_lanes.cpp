@@ -13,6 +13,7 @@
 #include "bench/sampled_loop.hpp"
 #include "bench/sundials_by_hand.hpp"
 #include "control/control_summary.hpp"
+#include "control/lane_batch.hpp"
 #include "core/rigid_drive.hpp"
 #include "scenarios/run_batch.hpp"
 

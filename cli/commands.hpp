@@ -111,6 +111,12 @@ struct WorstOptions {
 };
 int worst_command(const WorstOptions& options);
 
+struct FmuOptions {
+  ScenarioOptions scenario;
+  std::string output;  ///< empty: named after the scenario
+};
+int fmu_command(const FmuOptions& options);
+
 int list_command(const std::string& what);
 
 }  // namespace wormdrive

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/describe_control.hpp"
 #include "core/elastic_teeth.hpp"
 #include "core/energy.hpp"
 #include "events/halt.hpp"
@@ -16,8 +15,6 @@
 
 namespace wormdrive {
 namespace {
-
-constexpr double closing_tolerance = 1e-3;  ///< data sheets round; beyond this the power balance suffers visibly
 
 std::string plural(long count, const std::string& singular) {
   return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
@@ -46,21 +43,6 @@ std::string describe_mesh(const Scenario& scenario) {
   if (mesh.regime() == LockingRegime::worm_self_locking) motion = "no motion without load";
   return fmt::format("{}; C1 {:.4f}, C2 {:.4f}, H {:.4f}; {}", name(mesh.regime()), mesh.C1(), mesh.C2(), mesh.H(),
                      motion);
-}
-
-std::vector<std::string> warnings(const Scenario& scenario) {
-  std::vector<std::string> list;
-  const GearMesh<double> mesh = make_mesh(scenario);
-  if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
-    list.push_back(
-        fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
-                    "{:.4f} would close it{}",
-                    mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
-                    has_elastic_teeth(scenario.effects) ? "; the flanks move as the ratio says" : ""));
-  if (scenario.motor.terms.empty() && !scenario.control)
-    list.push_back("no [motor.torque]: the motor torque is 0 throughout");
-  for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
-  return list;
 }
 
 std::string describe_events(const RunSummary& summary) {
@@ -98,11 +80,6 @@ std::string describe_audit(const AuditReport& report, const Scenario& scenario) 
   if (report.work > 0.0 && std::abs(closing_error(make_mesh(scenario))) < 1e-9)
     text += fmt::format("; energy closes within {:.1e} of the work done", std::abs(report.energy_error) / report.work);
   return text;
-}
-
-std::string describe_solver(const RunSettings& run) {
-  if (run.solver == SolverKind::taylor) return fmt::format("taylor (rtol {:g})", run.relative_tolerance);
-  return fmt::format("cvode ({}, rtol {:g})", run.method == Method::bdf ? "BDF" : "Adams", run.relative_tolerance);
 }
 
 void print_item(const std::string& label, const std::string& text) { fmt::print("  {:<8} {}\n", label, text); }

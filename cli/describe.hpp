@@ -6,6 +6,8 @@
 
 #include "output/trajectory.hpp"
 #include "scenarios/run_scenario.hpp"
+#include "scenarios/warnings.hpp"
+#include "scenarios/write_run.hpp"
 
 namespace wormdrive {
 
@@ -15,17 +17,11 @@ std::string name(LockingRegime regime);
 /// "gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds (44 times)"; empty without a mesh.
 std::string describe_mesh(const Scenario& scenario);
 
-/// What a user should know about his scenario before he trusts it, one sentence each.
-std::vector<std::string> warnings(const Scenario& scenario);
-
 /// "12 events: 1 break-away, 6 flank changes, 5 reversals"
 std::string describe_events(const RunSummary& summary);
 
 /// "26 guards, 12 events, 0 missed; closest graze 0.03 rad/s at 1.413 s"
 std::string describe_audit(const AuditReport& report, const Scenario& scenario);
-
-/// "cvode (BDF, rtol 1e-12)", "taylor (rtol 1e-12)"
-std::string describe_solver(const RunSettings& run);
 
 /// Prints "  label    text", wrapped text indented under itself.
 void print_item(const std::string& label, const std::string& text);

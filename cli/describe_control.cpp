@@ -67,20 +67,6 @@ nlohmann::json lemma1_as_json(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<std::string> control_warnings(const Scenario& scenario) {
-  std::vector<std::string> list;
-  if (!scenario.control) return list;
-  const NominalSettings& stated = scenario.control->nominal;
-  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
-      !stated.load_torque && !stated.load_constant)
-    list.push_back("the controller takes the load for 0: neither an arm nor a constant; state [controller.nominal]");
-  std::string failing;
-  for (const Condition& c : lemma1_conditions(scenario))
-    if (!c.holds()) failing += fmt::format("{}{}", failing.empty() ? "" : "; ", c.rule);
-  if (!failing.empty()) list.push_back(fmt::format("Lemma 1 does not hold (wormdrive check says why): {}", failing));
-  return list;
-}
-
 void print_design(const Scenario& scenario) {
   if (!scenario.control) return;
   if (const auto gains = pid_gains(scenario))

@@ -9,9 +9,6 @@
 
 namespace wormdrive {
 
-/// What a user should know about his controller before he trusts it, one sentence each.
-std::vector<std::string> control_warnings(const Scenario& scenario);
-
 /// Prints what the controller comes to: gains of a PID, numbers and conditions of Lemma 1 for the sliding controller.
 void print_design(const Scenario& scenario);
 /// The same as JSON; null without a controller.

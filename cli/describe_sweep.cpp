@@ -16,7 +16,16 @@ std::vector<ReasonTable::Entry> by_frequency(const ReasonTable& reasons) {
   return list;
 }
 
+void raise(Disagreement& largest, const Disagreement& found) {
+  largest.angle = std::max(largest.angle, found.angle);
+  largest.speed = std::max(largest.speed, found.speed);
+}
+
 }  // namespace
+
+std::string with_interval(const SampleEstimate& e, double scale) {
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
+}
 
 void print_study(const Study& study, TrialRange range) {
   fmt::print("{}\n", study.title);
@@ -38,19 +47,37 @@ void print_failures(const ReasonTable& reasons) {
     print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
 }
 
-void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double tolerance) {
   if (verdicts.empty()) return;
-  double angle = 0.0, speed = 0.0;
+  Disagreement replayed, closed;
   std::vector<std::uint64_t> others;
-  for (const Verdict& verdict : verdicts) {
-    angle = std::max(angle, verdict.found.angle);
-    speed = std::max(speed, verdict.found.speed);
+  std::size_t in_loop = 0, parted = 0;
+  const RefereeVerdict* first_parted = nullptr;
+  for (const RefereeVerdict& verdict : verdicts) {
+    raise(replayed, verdict.found);
+    if (verdict.in_loop.closed) {
+      ++in_loop;
+      raise(closed, *verdict.in_loop.closed);
+    }
+    if (const auto& at = verdict.in_loop.parted) {
+      ++parted;
+      if (!first_parted || *at < *first_parted->in_loop.parted) first_parted = &verdict;
+    }
     if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
   }
   std::sort(others.begin(), others.end());
   print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
                                     "speeds within {:.2g} rad/s",
-                                    verdicts.size(), angle, speed));
+                                    verdicts.size(), replayed.angle, replayed.speed));
+  if (in_loop > 0)
+    print_item("referee", fmt::format("{} of them with their own controller: angles within {:.2g} rad, speeds within "
+                                      "{:.2g} rad/s",
+                                      in_loop, closed.angle, closed.speed));
+  if (parted > 0)
+    print_item("referee",
+               fmt::format("in {} of them, with their own controller, the sensor's counts part; first in trial "
+                           "{} at {:.6g} s",
+                           parted, first_parted->trial, *first_parted->in_loop.parted));
   constexpr std::size_t most = 10;
   const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
   if (!others.empty())
@@ -59,6 +86,9 @@ void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance) {
                                       others.size() > most ? ", ..." : ""));
 }
 
-std::string most_frequent(const ReasonTable& reasons) { return by_frequency(reasons).front().example; }
+std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {
+  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials,
+                     most, by_frequency(reasons).front().example);
+}
 
 }  // namespace wormdrive

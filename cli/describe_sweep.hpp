@@ -1,20 +1,26 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "sweep/statistics.hpp"
 #include "sweep/sweep_file.hpp"
 
 namespace wormdrive {
+
+/// An estimate and its interval, times a scale: "0.12 [0.11, 0.13]".
+std::string with_interval(const SampleEstimate& e, double scale = 1.0);
 
 /// Prints what a study asks for.
 void print_study(const Study& study, TrialRange range);
 
 /// Prints how many trials are not done, and why.
 void print_failures(const ReasonTable& reasons);
-/// The reason that most of them have.
-std::string most_frequent(const ReasonTable& reasons);
+/// What ends a sweep of which more trials are not done than at most: of how many, and the reason that most of them
+/// have.
+std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most);
 
 /// Prints how far CVODE is from the trials that it has judged, and with which it disagrees; tolerance [rad].
-void print_verdicts(const std::vector<Verdict>& verdicts, double tolerance);
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double tolerance);
 
 }  // namespace wormdrive

@@ -11,9 +11,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
-#include "cli/diagnose_data.hpp"
-#include "cli/diagnosis_json.hpp"
+#include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_file.hpp"
+#include "diagnosis/diagnosis_json.hpp"
 #include "output/text_file.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
+#include "cli/help_arguments.hpp"
 #include "events/halt.hpp"
 #include "output/part_file.hpp"
 #include "scenarios/faults.hpp"
@@ -87,14 +88,18 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return fmt::format("wormdrive: error: unknown command '{}'; the commands are {}", first, fmt::join(names, ", "));
 }
 
-/// CLI::PositiveNumber prints the largest double in full.
-const CLI::Validator positive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool good = CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value);
-      return good ? "" : "'" + text + "' is not a number greater than 0";
-    },
-    "POSITIVE");
+/// A finite number that is greater than 0, or at least 0; CLI::PositiveNumber prints the largest double in full.
+CLI::Validator number(bool zero_too) {
+  const std::string rule = zero_too ? "of at least 0" : "greater than 0";
+  return CLI::Validator(
+      [zero_too, rule](const std::string& text) {
+        double value = 0.0;
+        const bool read = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        return read && (value > 0.0 || (zero_too && value == 0.0)) ? "" : "'" + text + "' is not a number " + rule;
+      },
+      zero_too ? "NOT NEGATIVE" : "POSITIVE");
+}
+const CLI::Validator positive = number(false), not_negative = number(true);
 
 }  // namespace
 
@@ -212,6 +217,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1e-12, 0.49));
   worst_app->add_option("--threads", worst.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
   worst_app->add_flag("-q,--quiet", worst.quiet, "print faults only");
+  FmuOptions fmu;
+  CLI::App* const fmu_app =
+      app.add_subcommand("fmu", "write the plant of a scenario as an FMU (FMI 2.0, model exchange)");
+  add_scenario_options(*fmu_app, fmu.scenario);
+  fmu_app->add_option("-o,--output", fmu.output, "FMU; default: the scenario's name with .fmu");
+
+  const HelpArguments help(app, not_negative);
 
   std::string what;
   CLI::App* const list_app =
@@ -231,7 +243,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
-  for (ScenarioOptions* options : {&run.scenario, &check, &statics.scenario, &steady.scenario, &diagnose.scenario})
+  for (ScenarioOptions* options :
+       {&run.scenario, &check, &statics.scenario, &steady.scenario, &diagnose.scenario, &fmu.scenario})
     options->command_line = typed;
   sweep.command_line = merge.command_line = replay.command_line = worst.command_line = typed;
   return if_printed(guarded([&] {
@@ -246,6 +259,8 @@ int main(int argc, char** argv) {
     if (replay_app->parsed()) return replay_command(replay);
     if (summary_app->parsed()) return summary_command(summary);
     if (worst_app->parsed()) return worst_command(worst);
+    if (fmu_app->parsed()) return fmu_command(fmu);
+    if (const std::optional<int> code = help.run()) return *code;
     return list_command(what);
   }));
 }

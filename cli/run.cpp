@@ -11,7 +11,6 @@
 #include "cli/run_and_write.hpp"
 #include "core/elastic_teeth.hpp"
 #include "events/halt.hpp"
-#include "scenarios/build.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
@@ -66,10 +65,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
   }
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
                {scenario.control.has_value(), has_elastic_teeth(scenario.effects)});
-  if (const GearMesh<double> mesh = make_mesh(scenario); mesh.has_teeth) {
-    write_attribute(file.file().file(), "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
-    write_attribute(file.file().file(), "ratio", mesh.i);
-  }
+  write_drive(file.file().file(), scenario);
   RunSummary summary = run_into(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return summary;

@@ -1,5 +1,3 @@
-#include "core/steady.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +8,10 @@
 #include "cli/describe.hpp"
 #include "diagnosis/speed_torque_records.hpp"
 #include "output/table.hpp"
-#include "scenarios/build.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"
+#include "scenarios/steady_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
 namespace wormdrive {
@@ -27,13 +25,6 @@ struct Comparison {
   double rms_torque = 0.0;    ///< [N m]
 };
 
-double torque_at(const Scenario& scenario, double omega_w) {
-  return with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    return steady_torque(drive, omega_w, scenario.initial.theta_g, 0.0);
-  });
-}
-
 double rms(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;
@@ -44,7 +35,7 @@ Comparison compare(const Scenario& scenario, std::vector<SpeedTorqueRecord> reco
   Comparison comparison{std::move(records), {}, 0.0, 0.0};
   std::vector<double> errors, torques;
   for (const SpeedTorqueRecord& record : comparison.records) {
-    comparison.model.push_back(torque_at(scenario, record.worm_speed));
+    comparison.model.push_back(steady_torque(scenario, record.worm_speed));
     errors.push_back(record.motor_torque - comparison.model.back());
     torques.push_back(record.motor_torque);
   }
@@ -64,7 +55,7 @@ Curve make_curve(const Scenario& scenario, double max_speed, int points) {
     for (int k = 0; k < points; ++k) {
       const double share = (k + 0.5) / points;
       curve.speed.push_back(max_speed * (direction < 0.0 ? share - 1.0 : share));
-      curve.torque.push_back(torque_at(scenario, curve.speed.back()));
+      curve.torque.push_back(steady_torque(scenario, curve.speed.back()));
     }
   return curve;
 }

@@ -10,10 +10,6 @@
 namespace wormdrive {
 namespace {
 
-std::string with_interval(const Estimate& e, double scale = 1.0) {
-  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
-}
-
 void print_metrics(const SweepSummary& summary) {
   fmt::print("\n  {:<28} {:<10} {:>11} {:>11} {:>34} {:>34} {:>11}\n", "metric", "unit", "mean", "median",
              "95 % lie below [95 % interval]", "99 % lie below [95 % interval]", "greatest");
@@ -68,7 +64,7 @@ void print_conditions(const SweepSummary& summary) {
     if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials: {}", c.trials, c.of, c.rule));
 }
 
-nlohmann::json as_json(const Estimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
+nlohmann::json as_json(const SampleEstimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
 
 nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
   const Study& study = sweep.study();

@@ -20,6 +20,14 @@ namespace wormdrive {
 
 namespace {
 
+void print_cost(const SweepCost& cost) {
+  const double all = cost.trials + cost.file + cost.referee + cost.summary;
+  const auto share = [&](double part) { return 100.0 * part / all; };
+  print_item("cost",
+             fmt::format("{:.3g} s of CPU time: trials {:.1f} %, file {:.1f} %, referee {:.1f} %, summary {:.1f} %",
+                         all, share(cost.trials), share(cost.file), share(cost.referee), share(cost.summary)));
+}
+
 int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
   const TrialRange range = range_of(options.shard, study.trials());
   const OpenSweep open = open_sweep(output, study, range, options.command_line, options.resume);
@@ -34,10 +42,11 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0;
   const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
-  std::vector<Verdict> verdicts;
+  std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;
+  SweepCost cost;
   const auto begin = std::chrono::steady_clock::now();
-  const double cpu_begin = cpu_time();
+  const double cpu_begin = cpu_time(), file_begin = thread_cpu_time();
   try {
     Progress progress(static_cast<double>(wanted), options.quiet);
     auto next = open.missing.begin();
@@ -51,9 +60,14 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     };
     if (!too_many()) run_ensemble(study, source, threads, take, [] { return Interruptible::signal() != 0; });
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cost.file = thread_cpu_time() - file_begin;  // this thread has done nothing else
+    cost.trials = cpu_time() - cpu_begin - cost.file;
     if (made == wanted && !too_many()) {
-      verdicts = judge(file, study, options, cpu_time() - cpu_begin, least_judged);
+      const double judge_begin = cpu_time();
+      verdicts = judge(file, study, options, cost.trials, least_judged);
+      cost.referee = cpu_time() - judge_begin;
       file.finish();
+      cost.summary = cpu_time() - judge_begin - cost.referee;
     } else {
       file.flush();
     }
@@ -62,9 +76,8 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
                                   how_to_resume(options)));
   }
   if (too_many())
-    throw Halt(fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}; {} keeps them all",
-                           file.reasons().total(), before + made, *options.max_failures, most_frequent(file.reasons()),
-                           file.part_path()));
+    throw Halt(fmt::format("{}; {} keeps them all",
+                           too_many_failed(file.reasons(), before + made, *options.max_failures), file.part_path()));
   if (made < wanted) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
@@ -75,6 +88,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were there already", before) : ""));
+  print_cost(cost);
   print_failures(file.reasons());
   print_verdicts(verdicts, study.referee_tolerance);
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
@@ -95,10 +109,7 @@ bool looks_good(Ranks& ranks, Look&& look) {
   return ranks.told({0}).front() == 0;
 }
 
-}  // namespace
-
-int sweep_command(const SweepOptions& options) {
-  Ranks ranks;
+int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
   const bool good = looks_good(ranks, [&] {
     load_study(options.study);
@@ -111,6 +122,20 @@ int sweep_command(const SweepOptions& options) {
   const Interruptible interruptible;
   if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
   return sweep_alone(options, study, output);
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options) {
+  Ranks ranks;
+  try {
+    return sweep_together(ranks, options);
+  } catch (const InputFault& fault) {
+    // mpirun may lose what is said behind the ranks' common end
+    if (ranks.count() == 1) throw;
+    fmt::print(stderr, "{}\n", fault.what());
+    return 2;
+  }
 }
 
 }  // namespace wormdrive

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -61,10 +62,7 @@ class RankSweep {
     const auto take = [&](const Trial& trial) {
       file.append(trial);
       ++made_;
-      if (trial.status != TrialStatus::done) {
-        ++failed_;
-        if (ranks_.add(Ranks::Counter::failures, 1) >= options_.max_failures.value_or(never)) return false;
-      }
+      if (trial.status != TrialStatus::done) ranks_.add(Ranks::Counter::failures, 1);
       progress.at(static_cast<double>(std::min(reached_.load(), missing_.count())), [&](double seconds) {
         return fmt::format(", about {:.0f} trials/s on {} ranks", static_cast<double>(reached_.load()) / seconds,
                            ranks_.count());
@@ -79,7 +77,7 @@ class RankSweep {
     file.flush();
   }
   std::uint64_t made() const { return made_; }
-  std::uint64_t failed() const { return failed_; }
+  /// What was taken by then is made nevertheless, so that every trial before the last one is there.
   bool too_many() { return ranks_.add(Ranks::Counter::failures, 0) > options_.max_failures.value_or(never); }
 
  private:
@@ -107,7 +105,7 @@ class RankSweep {
   Missing missing_;
   std::uint64_t portion_, at_ = 0, left_ = 0;
   std::atomic<std::uint64_t> reached_{0};
-  std::uint64_t made_ = 0, failed_ = 0;
+  std::uint64_t made_ = 0;
 };
 
 /// What the first rank finds of earlier ones, for all of them; nothing for the others if it has a fault to tell.
@@ -118,6 +116,7 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
   if (ranks.first()) {
     try {
       plan = plan_ranks(output, study, options.resume);
+      ranks.add(Ranks::Counter::failures, plan.failed);
     } catch (...) {
       ranks.told(told);
       throw;
@@ -127,9 +126,29 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
   }
   told = ranks.told(std::move(told));
   if (told.front() == 2) return std::nullopt;
-  plan = {told[0] == 1, told[1], {}};
+  plan = {told[0] == 1, told[1], 0, {}};
   for (std::size_t k = 2; k < told.size(); k += 2) plan.missing.push_back({told[k], told[k + 1]});
   return plan;
+}
+
+/// What a single process would say that ends with the trial that is one failure too many.
+std::string why_ended(const std::string& output, std::uint64_t max_failures) {
+  std::vector<std::unique_ptr<SweepReader>> parts;
+  std::vector<std::pair<TrialRange, const SweepReader*>> ranges;
+  for (const std::string& part : rank_parts(output)) {
+    parts.push_back(std::make_unique<SweepReader>(part));
+    for (const TrialRange& range : parts.back()->present()) ranges.emplace_back(range, parts.back().get());
+  }
+  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.first.first < b.first.first; });
+  ReasonTable reasons;
+  std::uint64_t trials = 0;
+  for (const auto& [range, part] : ranges)
+    for_each_trial(*part, range, [&](const Trial& trial) {
+      if (reasons.total() > max_failures) return;
+      reasons.code(trial.reason);
+      ++trials;
+    });
+  return too_many_failed(reasons, trials, max_failures);
 }
 
 /// Puts together what the ranks have made; the first one does it.
@@ -164,15 +183,14 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
     fault = what.what();
     fmt::print(stderr, "wormdrive: rank {}: {}\n", ranks.rank(), fault);
   }
-  const std::uint64_t made = ranks.sum(sweep.made()), failed = ranks.sum(sweep.failed());
+  const std::uint64_t made = ranks.sum(sweep.made());
   const bool broken = ranks.sum(fault.empty() ? 0 : 1) > 0, too_many = sweep.too_many();
   const std::uint64_t there = study.trials() - missing.count() + made;
   const std::string resume = fmt::format("go on with: mpirun -n {} {}", ranks.count(),
                                          how_to_resume(options).substr(std::string("go on with: ").size()));
   if (broken || too_many || made < missing.count()) {
     if (ranks.first() && too_many)
-      fmt::print(stderr, "wormdrive: {} trials failed, more than --max-failures {}; {}.rank_* keep them all\n", failed,
-                 *options.max_failures, output);
+      fmt::print(stderr, "wormdrive: {}; {}.rank_* keep them all\n", why_ended(output, *options.max_failures), output);
     else if (ranks.first())
       fmt::print(stderr, "wormdrive: ended after {} of {} trials, all of them in {}.rank_*; {}\n", there,
                  study.trials(), output, resume);

@@ -52,14 +52,19 @@ std::string how_to_resume(const SweepOptions& options) {
   return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
 }
 
-double cpu_time() {
+namespace {
+double time_of(clockid_t clock) {
   timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
+}  // namespace
 
-std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                           std::size_t at_least) {
+double cpu_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
+double thread_cpu_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
+
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least) {
   constexpr double share = 0.05;
   if (study.scenario.run.solver == SolverKind::cvode) return {};
   file.flush();
@@ -69,7 +74,7 @@ std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptio
     if (options.referee) return count >= *options.referee;
     return count >= at_least && cpu_time() - begin >= share * trials_took;
   };
-  std::vector<Verdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
+  std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
   file.write(verdicts);
   return verdicts;
 }

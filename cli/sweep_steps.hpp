@@ -35,12 +35,18 @@ std::string how_to_resume(const SweepOptions& options);
 /// Trials of a sweep that a referee looks at in any case.
 inline constexpr std::size_t least_judged = 8;
 
-/// CPU time of this process [s].
+/// CPU time of this process, and of the calling thread [s].
 double cpu_time();
+double thread_cpu_time();
+
+/// What a sweep spends its CPU time on [s].
+struct SweepCost {
+  double trials = 0.0, file = 0.0, referee = 0.0, summary = 0.0;
+};
 
 /// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at_least, and more while
 /// that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself.
-std::vector<Verdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                           std::size_t at_least);
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least);
 
 }  // namespace wormdrive

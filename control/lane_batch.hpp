@@ -2,6 +2,7 @@
 #include <optional>
 #include <span>
 
+#include "control/lane_kind.hpp"
 #include "control/lane_trial.hpp"
 #include "control/reference_point.hpp"
 #include "core/sine_cosine.hpp"
@@ -37,17 +38,6 @@ struct LaneBatch {
   /// Sine and cosine of any angle, as a trial alone has them.
   SineAndCosine (*sine_and_cosine)(double angle);
 };
-
-/// The instruction sets for which there are kernels.
-enum class LaneKind { plain, avx2, avx512 };
-inline constexpr LaneKind lane_kinds[] = {LaneKind::plain, LaneKind::avx2, LaneKind::avx512};
-
-/// Trials in one register.
-int lanes_of(LaneKind kind);
-/// Whether this machine has the instructions.
-bool is_available(LaneKind kind);
-/// The widest that is available.
-LaneKind widest_lanes();
 
 /// Lets the trials of a batch take these samples. Every trial gets the bits that it would get alone.
 void take_samples(LaneKind kind, const LaneBatch& batch, std::span<const LaneSample> samples);

@@ -12,7 +12,8 @@ class SpeedEstimatorOf {
  public:
   SpeedEstimatorOf() = default;
   SpeedEstimatorOf(double cutoff, double period)
-      : gain_(cutoff > 0.0 ? 1.0 - portable::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0), rate_(1.0 / period) {}
+      : gain_(cutoff > 0.0 ? 1.0 - portable::exp(-2.0 * std::numbers::pi * cutoff * period) : 1.0),
+        rate_(1.0 / period) {}
 
   /// Starts from an angle [rad] at which nothing has moved yet.
   void start(const V& angle) { previous_ = angle; }

@@ -105,7 +105,7 @@ class Scores {
     V.leftCols(free_) = J_;
     parallel_for(m, by_.threads(), [&](std::size_t q) {
       std::vector<double>& torque = torques[q];
-      torque.resize(h_.residuals.size());
+      torque.resize(by_.layout().samples);
       for (std::size_t k = 0; k < torque.size(); ++k)
         torque[k] = torque_ * tent(q % tents, k) * axis.factors[q / tents](k) * moving[k];
       const auto e = by_.innovations(extended(h_), h_.noise, torque);
@@ -118,7 +118,7 @@ class Scores {
     const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
     test.what.evidence = (all.score - less.score - degrees) / std::sqrt(2.0 * degrees);
     test.gain = held_out_gain(V);
-    std::vector<double> sum(h_.residuals.size(), 0.0);
+    std::vector<double> sum(by_.layout().samples, 0.0);
     double squares = 0.0, count = 0.0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
       for (std::size_t q = 0; q < m; ++q) sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
@@ -192,14 +192,14 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
                         const std::vector<double>* factor, std::string name) {
   const InnovationLayout& layout = by.layout();
   const PreparedRecording& r = layout.recordings[recording];
-  const std::size_t begin = layout.begins[recording];
+  const std::size_t begin = layout.leading(recording).begin;
   const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.01 / r.data.period)));
   const std::size_t n = r.samples() / bin;
   std::vector<double> w(n, 0.0);
   for (std::size_t k = 0; k < n * bin; ++k) {
     if (!r.used[k] || !r.moving[k]) continue;
     const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
-    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[begin + k] : 1.0);
+    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
   }
   constexpr double highest = 25.0;  // [Hz]
   const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
@@ -254,9 +254,12 @@ std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, co
   }
   const Scores scores(by, h, 0.005 * sizes.torque);
   std::vector<ScoreTest> all;
+  const double least_torque = sizes.has_worm_encoder ? rules.least_share * sizes.torque : 0.0;
   for (const Axis1D& axis : axes) {
     all.push_back(scores(axis, a.moving));
-    all.back().found = all.back().what.evidence > rules.most_deviations && all.back().gain > rules.most_gain;
+    ScoreTest& test = all.back();
+    test.found =
+        test.what.evidence > rules.most_deviations && test.gain > rules.most_gain && test.what.torque > least_torque;
   }
   for (std::size_t r = 0; r < by.layout().recordings.size(); ++r)
     for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {

@@ -11,6 +11,7 @@ namespace wormdrive {
 struct AdequacyRules {
   double most_deviations = 1.5;  ///< of a score above what noise gives
   double most_gain = 4.0;        ///< of data that the torque was not fitted to [nats]
+  double least_share = 0.005;    ///< of the rms torque, where a worm's encoder leads: it rounds more than it is noisy
   double most_line = 8.0;        ///< log of a spectral line above its neighbours, less that of the number of lines
 };
 

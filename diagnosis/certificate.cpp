@@ -46,7 +46,7 @@ class Signatures {
   }
 
   const std::vector<Signature>& list() const { return list_; }
-  static bool is_periodic(const Suspect& s) { return s.coordinates[0].form != CoordinateForm::plain; }
+  static bool is_periodic(const Suspect& s) { return s.coordinates[0].form == CoordinateForm::in_phase; }
 
   /// Squared length of the worst direction of a signature beside the tolerances and, if given, another suspect.
   double length(const Signature& of, const Signature* beside) const {
@@ -118,6 +118,10 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
     v.nameable = std::max(v.nameable, least_size);
   }
   v.observable = v.detectable < std::max(std::abs(c.high - c.centre), std::abs(c.low - c.centre));
+  if (c.form == CoordinateForm::inverse) {
+    v.detectable = 1.0 / v.detectable;
+    v.nameable = 1.0 / v.nameable;
+  }
   return v;
 }
 
@@ -171,7 +175,7 @@ std::vector<Visibility> certificate(const Evaluation& by, const Hypothesis& base
     }
   }
   for (const NotExamined& n : not_examined(sizes)) {
-    if (n.effect != "backlash" && n.effect != "tooth_compliance") continue;
+    if (n.effect != "tooth_compliance") continue;
     Visibility v;
     v.effect = n.effect;
     v.detectable = v.nameable = never;

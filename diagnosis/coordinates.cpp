@@ -57,6 +57,7 @@ void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, st
     const Coordinate& c = coordinates[k];
     switch (c.form) {
       case CoordinateForm::plain: set_field(effects, {c.effect, c.field, values[k]}); break;
+      case CoordinateForm::inverse: set_field(effects, {c.effect, c.field, 1.0 / values[k]}); break;
       case CoordinateForm::in_phase:
         set_field(effects, {c.effect, c.field, std::hypot(values[k], values[k + 1])});
         set_field(effects, {c.effect, phase, std::atan2(values[k + 1], values[k])});
@@ -70,6 +71,7 @@ double coordinate_value(const Effects<double>& effects, const Coordinate& c) {
   const double value = field_of(effects, c.effect, c.field).value;
   switch (c.form) {
     case CoordinateForm::plain: return value;
+    case CoordinateForm::inverse: return 1.0 / value;
     case CoordinateForm::in_phase: return value * std::cos(field_of(effects, c.effect, phase).value);
     case CoordinateForm::in_quadrature: return value * std::sin(field_of(effects, c.effect, phase).value);
   }
@@ -78,7 +80,8 @@ double coordinate_value(const Effects<double>& effects, const Coordinate& c) {
 
 std::vector<std::string_view> fields_of(const Coordinate& c) {
   switch (c.form) {
-    case CoordinateForm::plain: return {c.field};
+    case CoordinateForm::plain:
+    case CoordinateForm::inverse: return {c.field};
     case CoordinateForm::in_phase: return {c.field, phase};
     case CoordinateForm::in_quadrature: return {};
   }

@@ -11,6 +11,7 @@ namespace wormdrive {
 /// How a number that a fit moves enters the fields of an effect.
 enum class CoordinateForm {
   plain,         ///< it is the field
+  inverse,       ///< 1/it is the field, which without the effect is infinite: what yields in place of a stiffness
   in_phase,      ///< amplitude cos(phase); its neighbour is in quadrature
   in_quadrature  ///< amplitude sin(phase); at amplitude zero a phase would have no gradient, these two have
 };

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/adequacy.hpp"
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/fit.hpp"
@@ -17,12 +18,13 @@
 #include "diagnosis/selection.hpp"
 #include "diagnosis/tolerances.hpp"
 #include "diagnosis/verdict.hpp"
+#include "scenarios/build.hpp"
 
 namespace wormdrive {
 
 namespace {
 
-std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings) {
+std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, double ratio) {
   constexpr double shortest = 2.0;  // [s], four blocks
   constexpr std::size_t fewest = 400;
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
@@ -32,7 +34,7 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
     if (r.samples() < fewest || static_cast<double>(r.samples()) * r.period < shortest)
       throw std::invalid_argument(
           fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
-    all.push_back(prepared(r, {}, blocks));
+    all.push_back(prepared(r, {}, blocks, ratio));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
@@ -153,7 +155,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings);
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Suspect> all = suspects(scenario.effects, sizes, stated);
@@ -186,6 +188,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
+  fit_bounces(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last);
   for (const Found& f : found.causes)
@@ -195,12 +198,17 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  judge(d, found, all, sizes.torque);
+  judge(d, found, all, sizes);
 
   d.extended = scenario;
-  if (!d.causes.empty())
+  if (!d.causes.empty()) {
     d.extended.effects = extended(last);
-  else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+    for (const Found& f : found.causes)
+      if (std::none_of(d.causes.begin(), d.causes.end(),
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
+        switch_off(d.extended.effects, all[f.suspect].effect);
+    give_teeth_to_bounce(d.extended, last.noise.bounce);
+  } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     describe(d, by, before, found.base);
   }

@@ -15,16 +15,17 @@ Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
 }
 
 template <class Use>
-void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
                                 std::span<const double> extra, Use&& use) const {
   Effects<double> followed = effects;
-  const CommandPath path = take_out_command_path(followed);
+  const TakenOut out = take_out(followed);
   const PreparedRecording& prepared = layout_.recordings[recording];
   std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
         WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(drive), path, prepared, gains, extra);
+        Predictor<Load> predictor(std::move(drive), out, noise.bounce, prepared,
+                                  observer_gains(noise, prepared.data.period), extra);
         use(predictor);
       },
       prepared.data.load ? *prepared.data.load : scenario_.load);
@@ -40,10 +41,12 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
       ++passes_;
       const PreparedRecording& recording = layout_.recordings[r];
       FilteredStates* kept = states ? &(*states)[r] : nullptr;
-      if (kept) kept->angle = kept->speed = kept->torque = std::vector<double>(recording.samples());
-      with_predictor(effects, r, observer_gains(noise, recording.data.period),
-                     extra.empty() ? extra : layout_.of(r, extra),
-                     [&](auto& predictor) { predictor(layout_.of(r, std::span<double>(e)), kept); });
+      if (kept) *kept = FilteredStates(recording.samples());
+      with_predictor(effects, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
+                     [&](auto& predictor) {
+                       const std::span<double> all(e);
+                       predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
+                     });
     }
   } catch (const SolverFault&) {
     return std::nullopt;
@@ -58,13 +61,18 @@ std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effec
                                                     std::span<const std::size_t> begins, std::size_t steps,
                                                     std::span<const double> innovations) const {
   std::vector<std::vector<double>> rows;
+  std::span<const double> of_gear, of_worm;
+  if (!innovations.empty()) {
+    of_gear = layout_.of(recording, innovations);
+    of_worm = layout_.of_worm(recording, innovations);
+  }
   const Recording& data = layout_.recordings[recording].data;
-  with_predictor(effects, recording, observer_gains(noise, data.period), {}, [&](auto& predictor) {
+  with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
     for (const std::size_t begin : begins) {
       // not a number from where the model can no longer move
       std::vector<double> angles(std::min(steps, data.samples() - 1 - begin), std::nan(""));
       try {
-        predictor.run_on(begin, states.angle[begin], states.speed[begin], states.torque[begin], innovations, angles);
+        predictor.run_on(begin, states, of_gear, of_worm, angles);
       } catch (const SolverFault&) {
         // what was predicted up to there counts
       }

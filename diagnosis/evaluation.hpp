@@ -30,7 +30,7 @@ class Evaluation {
                                                  std::vector<FilteredStates>* states = nullptr) const;
 
   /// The gear angles that the sensor would show `steps` samples on from samples of one recording, row by row [rad], if
-  /// these were the innovations of all its samples; predictions without any.
+  /// these were the innovations of all; predictions without any.
   std::vector<std::vector<double>> run_on(const Effects<double>& effects, const ProcessNoise& noise,
                                           std::size_t recording, const FilteredStates& states,
                                           std::span<const std::size_t> begins, std::size_t steps,
@@ -38,7 +38,7 @@ class Evaluation {
 
  private:
   template <class Use>
-  void with_predictor(const Effects<double>& effects, std::size_t recording, const ObserverGains& gains,
+  void with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;
 
   Scenario scenario_;

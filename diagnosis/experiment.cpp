@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "control/pid.hpp"
+#include "core/elastic_teeth.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/fit.hpp"
 #include "scenarios/build_control.hpp"
@@ -111,6 +112,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
       best_margin = margin;
       run.control->disturbance.deviation = 0.0;
       run.title = fmt::format("Experiment that tells {} from what looks like it", members.front().effect);
+      if (has_elastic_teeth(run.effects)) run.run.solver = SolverKind::cvode;
       best.scenario = run;
       best.reason = fmt::format("{}: a {} {:.2g} times smaller could be named", v.what, members.front().effect, margin);
     } catch (const std::exception&) {

@@ -1,7 +1,7 @@
 #include "diagnosis/fit.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/stepwise.hpp"
@@ -80,9 +80,10 @@ void adjust_noise(const Evaluation& by, Hypothesis& h, int depth) {
 
 void restart_noise(const Evaluation& by, Hypothesis& h) {
   if (!h.whitens) return;
-  for (const ProcessNoise& noise : std::array<ProcessNoise, 3>{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}) {
+  for (const auto& [white, coloured] : {std::pair{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}) {
     Hypothesis trial = h;
-    trial.noise = noise;
+    trial.noise.white = white;
+    trial.noise.coloured = coloured;
     if (evaluate(by, trial) && trial.objective < h.objective) h = std::move(trial);
   }
 }

@@ -66,8 +66,10 @@ Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h) {
 namespace {
 
 /// What the predictor itself gets wrong, beyond the noise: standard error in SI.
-double structural_error(std::string_view effect) {
-  constexpr double held_torque = 2e-5;  // [s], of a lag or delay that acts on a torque held over a sample
+double structural_error(std::string_view effect, double value) {
+  constexpr double held_torque = 2e-5;   // [s], of a lag or delay that acts on a torque held over a sample
+  constexpr double impact_share = 0.03;  // of a gap, by how an impact goes on
+  if (effect == "backlash") return impact_share * value;
   return effect == "actuator_lag" || effect == "actuator_delay" ? held_torque : 0.0;
 }
 
@@ -87,10 +89,11 @@ EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance
       constexpr double step = 1e-5;
       Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values};
       moved.values[q] += step * h.free[q].scale;
-      slope[k] = std::remainder(field_of(extended(moved), effect, field).value - at.value, 2.0 * std::numbers::pi) /
-                 (step * h.free[q].scale);
+      const double change = field_of(extended(moved), effect, field).value - at.value;
+      slope[k] =
+          (field == "phase" ? std::remainder(change, 2.0 * std::numbers::pi) : change) / (step * h.free[q].scale);
     }
-    const double floor = structural_error(effect);
+    const double floor = structural_error(effect, at.value);
     const double error = std::sqrt(std::max(0.0, slope.dot(covariance * slope)) + floor * floor);
     constexpr double normal_95 = 1.96;
     e.parameters.push_back(

@@ -15,6 +15,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     m.gear_speed = std::max(m.gear_speed, r.rms_speed);
     m.duration = std::max(m.duration, r.duration());
     m.period = std::max(m.period, r.data.period);
+    m.has_worm_encoder = m.has_worm_encoder || r.data.has_worm_encoder();
   }
   const GearMesh<double> mesh = stated_mesh(scenario);
   m.has_teeth = mesh.has_teeth;
@@ -22,6 +23,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
   m.worm_inertia = mesh.has_teeth ? mesh.Jw : mesh.Jg;
   if (mesh.has_teeth) {
     m.friction = mesh.mu;
+    m.gear_arm = mesh.gear_arm(0.0);
     m.sliding_speed = mesh.sliding_speed(m.worm_speed);
     m.gear_inertia = total_gear_inertia(scenario);
   }

@@ -20,7 +20,9 @@ struct Magnitudes {
   double duration{};        ///< of the longest recording [s]
   double period{};          ///< of the slowest sampling [s]
   bool has_teeth = true;
-  bool load_turns = false;  ///< the load's torque depends on the gear angle
+  double gear_arm{};              ///< lever arm of the teeth's normal force on the gear [m]; 0 without teeth
+  bool has_worm_encoder = false;  ///< in one of the recordings at least
+  bool load_turns = false;        ///< the load's torque depends on the gear angle
 };
 
 Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecording>& recordings);

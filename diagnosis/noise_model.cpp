@@ -39,11 +39,10 @@ double predicted(const WhiteningWeights& weights, const double* z) {
 }
 
 /// The smallest scale that a group may have: a sensor of finite resolution has the noise of rounding at least.
-double least_scale(const PreparedRecording& recording, bool moving) {
+double least_scale(const PreparedRecording& recording, double resolution, bool moving) {
   constexpr double standing_share = 0.29;  // standard deviation of rounding to one step
   constexpr double moving_share = 0.1;     // while moving, what is rounded is predicted in part
-  const double step = recording.data.gear_resolution;
-  return std::max(1e-9 * std::max(1e-3, recording.rms_speed), (moving ? moving_share : standing_share) * step);
+  return std::max(1e-9 * std::max(1e-3, recording.rms_speed), (moving ? moving_share : standing_share) * resolution);
 }
 
 /// Median of magnitudes as a scale of Student's t.
@@ -69,17 +68,27 @@ double iterated_scale(const std::vector<double>& squares, double scale, double l
 
 InnovationLayout::InnovationLayout(std::vector<PreparedRecording> all) : recordings(std::move(all)) {
   for (const PreparedRecording& r : recordings) {
-    begins.push_back(size);
+    begins.push_back(samples);
     first_blocks.push_back(blocks);
-    const std::size_t index = begins.size() - 1;
-    for (std::size_t k = 0; k < r.samples(); ++k) {
-      group.push_back(static_cast<std::uint8_t>(2 * index + (r.moving[k] ? 1 : 0)));
-      part.push_back(static_cast<std::uint8_t>(!r.used[k] ? 0 : r.held_out[k] ? 2 : 1));
-      block.push_back(static_cast<std::uint32_t>(blocks + k / r.block_length));
-    }
-    size += r.samples();
+    samples += r.samples();
     blocks += r.blocks();
   }
+  for (const bool of_worm : {false, true})
+    for (std::size_t q = 0; q < recordings.size(); ++q) {
+      const PreparedRecording& r = recordings[q];
+      if (of_worm && r.worm_angle.empty()) continue;
+      for (std::size_t k = 0; k < r.samples(); ++k) {
+        group.push_back(static_cast<std::uint8_t>(2 * channels.size() + (r.moving[k] ? 1 : 0)));
+        part.push_back(static_cast<std::uint8_t>(!r.used[k] ? 0 : r.held_out[k] ? 2 : 1));
+        block.push_back(static_cast<std::uint32_t>(first_blocks[q] + k / r.block_length));
+      }
+      channels.push_back({q, of_worm, size, of_worm ? r.worm_resolution : r.data.gear_resolution});
+      size += r.samples();
+    }
+}
+
+const Channel& InnovationLayout::leading(std::size_t recording) const {
+  return *std::find_if(channels.rbegin(), channels.rend(), [&](const Channel& c) { return c.recording == recording; });
 }
 
 std::size_t InnovationLayout::fitted() const {
@@ -89,10 +98,11 @@ std::size_t InnovationLayout::fitted() const {
 NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double> innovations, bool whitens) {
   NoiseModel noise{std::vector<NoiseGroup>(layout.groups()), whitens};
   std::vector<double> means, rest;
-  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
-    const PreparedRecording& recording = layout.recordings[r];
-    const std::span<const double> e = layout.of(r, innovations);
-    const std::size_t n = e.size(), begin = layout.begins[r];
+  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+    const Channel& channel = layout.channels[c];
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    const std::span<const double> e = layout.of(channel, innovations);
+    const std::size_t n = e.size(), begin = channel.begin;
     if (whitens) {
       means.resize(n * terms);
       Means z(recording.data.period);
@@ -102,8 +112,8 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
       }
     }
     for (const bool moving : {false, true}) {
-      NoiseGroup& group = noise.groups[2 * r + (moving ? 1 : 0)];
-      const double least = least_scale(recording, moving);
+      NoiseGroup& group = noise.groups[2 * c + (moving ? 1 : 0)];
+      const double least = least_scale(recording, channel.resolution, moving);
       const auto mine = [&](std::size_t k) {
         return layout.part[begin + k] == 1 && (recording.moving[k] != 0) == moving;
       };
@@ -157,9 +167,10 @@ std::vector<double> whitened(const InnovationLayout& layout, std::span<const dou
                              const NoiseModel& noise) {
   std::vector<double> w(innovations.begin(), innovations.end());
   if (!noise.whitens) return w;
-  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
-    Means z(layout.recordings[r].data.period);
-    const std::size_t begin = layout.begins[r], end = begin + layout.recordings[r].samples();
+  for (const Channel& channel : layout.channels) {
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    Means z(recording.data.period);
+    const std::size_t begin = channel.begin, end = begin + recording.samples();
     for (std::size_t k = begin; k < end; ++k) {
       w[k] -= predicted(noise.groups[layout.group[k]].weights, z.values().data());
       z.add(innovations[k]);
@@ -175,9 +186,10 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
   for (std::size_t k = 0; k < layout.size; ++k)
     if (layout.part[k] != 0) pools[layout.group[k]].push_back(whitened[k]);
   std::vector<double> e(layout.size, 0.0);
-  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
-    Means z(layout.recordings[r].data.period);
-    const std::size_t begin = layout.begins[r], end = begin + layout.recordings[r].samples();
+  for (const Channel& channel : layout.channels) {
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    Means z(recording.data.period);
+    const std::size_t begin = channel.begin, end = begin + recording.samples();
     for (std::size_t k = begin; k < end; ++k) {
       const std::vector<double>& pool = pools[layout.group[k]];
       if (pool.empty()) continue;

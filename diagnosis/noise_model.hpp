@@ -22,27 +22,50 @@ struct NoiseGroup {
   WhiteningWeights weights{};
 };
 
-/// Innovations of all recordings one after another, as a fit looks at them.
+/// Innovations of one sensor in one recording.
+struct Channel {
+  std::size_t recording;
+  bool of_worm;       ///< else of the gear
+  std::size_t begin;  ///< among all innovations
+  double resolution;  ///< of the sensor, counted at the gear [rad]
+};
+
+/// Innovations of all recordings one after another, as a fit looks at them: those of the gear's encoders, then those of
+/// the worms'.
 struct InnovationLayout {
   std::vector<PreparedRecording> recordings;
-  std::vector<std::size_t> begins;        ///< of each recording
+  std::vector<std::size_t> begins;        ///< of each recording's gear
   std::vector<std::size_t> first_blocks;  ///< number of each recording's first block
-  std::size_t size = 0;                   ///< samples of all
+  std::vector<Channel> channels;          ///< the first ones are the gears', in the order of the recordings
+  std::size_t samples = 0;                ///< of all recordings
+  std::size_t size = 0;                   ///< innovations of all
   std::size_t blocks = 0;                 ///< of all
-  std::vector<std::uint8_t> group;        ///< of every sample: 2 recording + moving
-  std::vector<std::uint8_t> part;         ///< of every sample: 0 not used, 1 fitted, 2 held out
-  std::vector<std::uint32_t> block;       ///< of every sample
+  std::vector<std::uint8_t> group;        ///< of every innovation: 2 channel + moving
+  std::vector<std::uint8_t> part;         ///< of every innovation: 0 not used, 1 fitted, 2 held out
+  std::vector<std::uint32_t> block;       ///< of every innovation
 
   explicit InnovationLayout(std::vector<PreparedRecording> all);
 
-  std::size_t groups() const { return 2 * recordings.size(); }
-  std::span<double> of(std::size_t recording, std::span<double> e) const {
-    return e.subspan(begins[recording], recordings[recording].samples());
+  std::size_t groups() const { return 2 * channels.size(); }
+  template <class T>
+  std::span<T> of(const Channel& channel, std::span<T> e) const {
+    return e.subspan(channel.begin, recordings[channel.recording].samples());
   }
-  std::span<const double> of(std::size_t recording, std::span<const double> e) const {
-    return e.subspan(begins[recording], recordings[recording].samples());
+  /// Those of the gear's encoder.
+  template <class T>
+  std::span<T> of(std::size_t recording, std::span<T> e) const {
+    return of(channels[recording], e);
   }
-  std::size_t fitted() const;  ///< number of samples
+  /// Those of the worm's encoder, none without one.
+  template <class T>
+  std::span<T> of_worm(std::size_t recording, std::span<T> e) const {
+    for (const Channel& c : channels)
+      if (c.of_worm && c.recording == recording) return of(c, e);
+    return {};
+  }
+  /// Of the encoder that the predictor's state is corrected by: the worm's where there is one.
+  const Channel& leading(std::size_t recording) const;
+  std::size_t fitted() const;  ///< number of innovations
 };
 
 /// The noise as estimated from the fitted samples of innovations.

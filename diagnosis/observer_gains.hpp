@@ -1,12 +1,15 @@
 #pragma once
+#include "diagnosis/bounce.hpp"
 
 namespace wormdrive {
 
-/// How strongly a drive is disturbed, against the noise of its sensor: standard deviations as what they do to the angle
-/// within one sample, in units of the sensor's noise.
+/// What no effect states and every fit finds for itself: how strongly a drive is disturbed, against the noise of its
+/// sensor, as standard deviations of what it does to the angle within one sample in units of the sensor's noise; and
+/// how teeth bounce.
 struct ProcessNoise {
   double white = 0.005;     ///< torque that is new at every sample
   double coloured = 0.003;  ///< torque that lasts
+  Bounce bounce{};
 };
 
 /// What an innovation of the angle adds to the state.

@@ -11,8 +11,9 @@
 namespace wormdrive {
 namespace {
 
-constexpr StudentT student;
-constexpr double least_scale = 1e-6;  ///< a share of the points' deviations: data without noise have a likelihood too
+constexpr StudentT torque_law;
+constexpr double least_torque_scale =
+    1e-6;  ///< a share of the points' deviations: data without noise have a likelihood too
 
 bool fitted(Part part, int half) {
   switch (part) {
@@ -41,7 +42,7 @@ struct Residuals {
     const std::vector<double> torques = points.predict(fitter.with(model, values));
     if (torques.empty()) return false;
     for (const std::size_t k : rows)
-      *r++ = student.as_normal((points.torque[k] - torques[k]) / points.deviation[k], scale);
+      *r++ = torque_law.as_normal((points.torque[k] - torques[k]) / points.deviation[k], scale);
     return true;
   }
 };
@@ -79,7 +80,7 @@ double PointFitter::held_out(const PointFit& fit, Part part) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (!fitted(part, points_.half[k]))
-      sum += student.nll((points_.torque[k] - fit.torques[k]) / points_.deviation[k], fit.scale);
+      sum += torque_law.nll((points_.torque[k] - fit.torques[k]) / points_.deviation[k], fit.scale);
   return sum;
 }
 
@@ -127,11 +128,11 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
       std::vector<double> sizes;
       for (const double e : errors) sizes.push_back(std::abs(e));
       std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-      fit.scale = std::max(least_scale, 1.4826 * sizes[sizes.size() / 2]);
+      fit.scale = std::max(least_torque_scale, 1.4826 * sizes[sizes.size() / 2]);
     }
-    fit.scale = student.scale(errors, fit.scale, least_scale);
+    fit.scale = torque_law.scale(errors, fit.scale, least_torque_scale);
     fit.nll = 0.0;
-    for (const double e : errors) fit.nll += student.nll(e, fit.scale);
+    for (const double e : errors) fit.nll += torque_law.nll(e, fit.scale);
     for (std::size_t k = 0; k < n; ++k) {
       const Coordinate& c = model.coordinates[k];
       if (c.tolerance > 0.0) fit.nll += 0.5 * std::pow((values[k] - c.centre) / c.tolerance, 2);

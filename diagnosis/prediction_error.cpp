@@ -48,8 +48,7 @@ std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double
     const std::vector<std::size_t> begins = beginnings(recording, steps);
     auto errors = by.run_on(effects, h.noise, r, states[r], begins, steps);
     std::vector<std::vector<double>> other;
-    if (!innovations.empty())
-      other = by.run_on(effects, h.noise, r, states[r], begins, steps, layout.of(r, innovations));
+    if (!innovations.empty()) other = by.run_on(effects, h.noise, r, states[r], begins, steps, innovations);
     for (std::size_t q = 0; q < begins.size(); ++q) {
       for (std::size_t k = 0; k < errors[q].size(); ++k)
         errors[q][k] -= innovations.empty() ? recording.data.gear_angle[begins[q] + 1 + k] : other[q][k];
@@ -99,9 +98,10 @@ void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionEr
 
 NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   const PreparedRecording& r = by.layout().recordings.front();
+  const std::span<const double> e = by.layout().of(by.layout().leading(0), std::span(h.innovations));
   std::vector<double> sizes;
   for (std::size_t k = 0; k < r.samples(); ++k)
-    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(h.innovations[k]));
+    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(e[k]));
   if (sizes.empty()) return {};
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   constexpr double normal_median = 0.6745;

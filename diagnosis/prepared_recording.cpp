@@ -31,13 +31,28 @@ std::vector<double> slopes(const std::vector<double>& y, double period, long hal
   return slope;
 }
 
+/// Where the worm's zero is nobody states: it is put where both encoders agree on average.
+std::vector<double> worm_at_gear(const Recording& recording, double ratio) {
+  std::vector<double> angle;
+  double apart = 0.0;
+  for (std::size_t k = 0; k < recording.worm_angle.size(); ++k) {
+    angle.push_back(recording.worm_angle[k] / ratio);
+    apart += (angle.back() - recording.gear_angle[k]) / static_cast<double>(recording.worm_angle.size());
+  }
+  for (double& x : angle) x -= apart;
+  return angle;
+}
+
 }  // namespace
 
-PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block) {
+PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
+                           double ratio) {
   PreparedRecording p;
   p.data = recording;
   const std::size_t n = recording.samples();
   const double Ts = recording.period;
+  p.worm_angle = worm_at_gear(recording, ratio);
+  p.worm_resolution = recording.worm_resolution / ratio;
   p.speed = slopes(recording.gear_angle, Ts, std::max(4L, std::lround(rules.slope_half_width / Ts)));
   p.rms_speed = root_mean_square(p.speed);
   p.rms_torque = root_mean_square(recording.motor_torque);

@@ -19,6 +19,8 @@ struct CuttingRules {
 /// A recording with what a fit needs to know of every sample beforehand; it follows from the data alone.
 struct PreparedRecording {
   Recording data;
+  std::vector<double> worm_angle;      ///< counted at the gear, from where the gear is [rad]; empty without an encoder
+  double worm_resolution{};            ///< likewise
   std::vector<double> speed;           ///< of the gear, from a line through the samples around [rad/s]
   std::vector<std::uint8_t> moving;    ///< 0: standing
   std::vector<std::uint8_t> used;      ///< 0: left out, or in the burn-in
@@ -33,8 +35,10 @@ struct PreparedRecording {
   double duration() const { return static_cast<double>(samples()) * data.period; }
 };
 
-/// first_block: number of the recording's first block, counted through all recordings.
-PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block);
+/// first_block: number of the recording's first block, counted through all recordings. ratio: worm angle over gear
+/// angle.
+PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
+                           double ratio = 1.0);
 
 /// The same with nothing held out: for the final fit.
 PreparedRecording with_all_data(PreparedRecording recording);

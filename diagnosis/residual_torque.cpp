@@ -23,7 +23,7 @@ std::vector<double> torques(const Evaluation& by, const Hypothesis& h, std::size
   if (!by.innovations(extended(h), h.noise, {}, &states)) return all;
   constexpr double most_scales = 6.0;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const std::size_t q = by.layout().begins[recording] + k;
+    const std::size_t q = by.layout().leading(recording).begin + k;
     const double limit = most_scales * h.noise_model.groups[by.layout().group[q]].scale;
     const double e = std::clamp(h.innovations[q], -limit, limit);
     all[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
@@ -101,6 +102,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   parallel_for(std::min(polished, tried.size()), by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
+    fit_bounces(by_, h);
     restart_noise(by_, h);
     adjust_noise(by_, h, 3);
     fit(by_, h, 4);

@@ -67,6 +67,21 @@ Suspect cogging(const Magnitudes& m) {
   return s;
 }
 
+/// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes.
+Suspect backlash() {
+  Suspect s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 6e-4, 1.2e-3, 2.5e-3, 5e-3});
+  s.bounces = true;
+  return s;
+}
+
+/// Teeth that yield are seen as a worm that lags behind; their stiffness without the effect is infinite.
+Suspect tooth_compliance(const Magnitudes& m) {
+  const double per_turn = 1e-4 * m.gear_arm * m.gear_arm;  // [m/N], of 1e-4 rad/(N m) at the gear
+  Suspect s = linear("tooth_compliance", "stiffness", per_turn, 0.0, 300.0 * per_turn);
+  s.coordinates[0].form = inverse;
+  return s;
+}
+
 /// An effect that the scenario has already is sought as a change of what it states.
 void start_from_stated(Suspect& s, const Effects<double>& stated) {
   if (!field_of(stated, s.effect, s.coordinates[0].field).on) return;
@@ -111,6 +126,8 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
     all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, m.friction,
                          {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.5 * m.friction}));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
+    all.push_back(backlash());
+    if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
     all.push_back(linear("gear_coulomb", "torque", 0.02 * gear_torque, 0.0, gear_torque));
     all.push_back(
         linear("gear_viscous", "coefficient", 0.01 * gear_torque / m.gear_speed, 0.0, gear_torque / m.gear_speed));
@@ -134,14 +151,14 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
 }
 
 std::vector<NotExamined> not_examined(const Magnitudes& m) {
-  std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
-                                {"backlash", "the predictor follows rigid teeth"},
-                                {"tooth_compliance", "the predictor follows rigid teeth"}};
+  std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"}};
+  if (m.has_teeth && !m.has_worm_encoder) list.push_back({"tooth_compliance", "only an encoder on the worm shows it"});
   if (!m.load_turns)
     list.push_back({"encoder_offset", "nothing in the drive depends on where the zero of the angle is"});
   if (!m.has_teeth)
-    for (const std::string_view effect : {"stribeck", "friction_asymmetry", "position_friction", "friction_drift",
-                                          "static_friction", "transmission_error", "mesh_friction"})
+    for (const std::string_view effect :
+         {"stribeck", "friction_asymmetry", "position_friction", "friction_drift", "static_friction",
+          "transmission_error", "mesh_friction", "backlash", "tooth_compliance"})
       list.push_back({effect, "the drive has no teeth"});
   if (!m.has_teeth)
     for (const std::string_view effect : {"gear_coulomb", "gear_viscous", "gear_inertia"})

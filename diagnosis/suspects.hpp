@@ -22,6 +22,7 @@ struct Suspect {
   bool finite = false;
   bool resizable = true;                  ///< the first coordinate of a finite start may be scaled down to no effect
   bool either_sign = false;               ///< ... and beyond
+  bool bounces = false;                   ///< its likelihood is rough, and a restitution belongs to it
   double choices = 0.0;                   ///< what trying out costs, as BIC
   std::string_view frees{};               ///< an effect whose tolerance does not hold beside this one
   std::vector<std::string_view> twins{};  ///< effects that no recording of this kind tells from it

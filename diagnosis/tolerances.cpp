@@ -1,5 +1,6 @@
 #include "diagnosis/tolerances.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace wormdrive {
@@ -12,6 +13,9 @@ std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const M
                        double high) {
     for (const Tolerance& t : stated)
       if (t.effect == effect && t.field == field) tolerance = t.deviation;
+    // two encoders see more than the equations of friction and load are worth
+    constexpr double least_share = 0.03;
+    if (m.has_worm_encoder) tolerance = std::max(tolerance, least_share * scale);
     const double centre = field_of(scenario.effects, effect, field).value;
     all.push_back({.effect = effect,
                    .field = field,

@@ -25,6 +25,12 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return all;
 }
 
+/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque that is left can
+/// take back.
+bool is_kinematic(std::string_view effect) {
+  return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
+}
+
 const PredictionError* told(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)
     if (e.horizon == told_horizon) return &e;
@@ -66,7 +72,7 @@ std::string phrase(const EstimatedEffect& effect) {
   return text;
 }
 
-void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all, double torque) {
+void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>& all, const Magnitudes& sizes) {
   for (const Found& found : selection.causes) {
     std::vector<std::string> equals;
     for (const std::size_t other : found.equals) {
@@ -81,9 +87,10 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
 
   const std::string lacking = "The simulation lacks something that no effect of the catalogue accounts for.";
   if (d.causes.empty()) {
-    const bool adequate = d.remainders.empty() && !drowned(d, torque);
+    const bool adequate = d.remainders.empty() && !drowned(d, sizes.torque);
     d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
-    d.sentence = adequate ? "The simulation has all that these data show." : lacking + remainder_sentence(d, torque);
+    d.sentence =
+        adequate ? "The simulation has all that these data show." : lacking + remainder_sentence(d, sizes.torque);
     return;
   }
 
@@ -91,19 +98,24 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
   constexpr double most_of_the_work = 3.0;
   const PredictionError* e = told(d);
   const bool most_done = e && e->before >= most_of_the_work * e->after;
-  if (drowned(d, torque) || (!d.remainders.empty() && !most_done)) {
+  if (drowned(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
+    const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;
-    for (const EstimatedEffect& cause : d.causes) tried.push_back(in_words(cause.effect));
-    d.verdict = Verdict::unexplained;
-    d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
-    d.causes.clear();
-    d.equivalents.clear();
+    for (const EstimatedEffect& cause : d.causes)
+      if (withdrawn(cause.effect)) tried.push_back(in_words(cause.effect));
+    if (!tried.empty())
+      d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
+    if (!d.equivalents.empty() && withdrawn(d.equivalents.front())) d.equivalents.clear();
+    std::erase_if(d.causes, [&](const EstimatedEffect& cause) { return withdrawn(cause.effect); });
     for (Candidate& c : d.ranking)
-      if (c.named) {
+      if (c.named && withdrawn(c.effect.effect)) {
         c.named = false;
         c.outcome = "leaves structure behind";
       }
-    d.sentence = lacking + remainder_sentence(d, torque);
+  }
+  if (d.causes.empty()) {
+    d.verdict = Verdict::unexplained;
+    d.sentence = lacking + remainder_sentence(d, sizes.torque);
     return;
   }
 
@@ -118,7 +130,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
   }
   d.sentence += gain_sentence(d);
-  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, torque);
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
 }
 
 }  // namespace wormdrive

@@ -1,12 +1,13 @@
 #pragma once
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/magnitudes.hpp"
 #include "diagnosis/selection.hpp"
 
 namespace wormdrive {
 
 /// Decides what a diagnosis may claim, from its causes, what remains and the gain of prediction; fills verdict,
-/// equivalents and sentence, and withdraws names that the data do not bear out. torque: rms of the motor's [N m].
-void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all, double torque);
+/// equivalents and sentence, and withdraws names that the data do not bear out.
+void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all, const Magnitudes& sizes);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect);

@@ -74,8 +74,12 @@ class TaylorSolver {
 
  private:
   [[gnu::noinline]] int advance_step_by_step(Instant& now, double next, double limit) {
-    while (!already_there(now.t, next)) {
+    for (int steps = 0; !already_there(now.t, next);) {
       if (now.t >= end_) {
+        if (++steps > most_steps)
+          throw SolverFault(
+              "more than 100000 steps to the next sample or report; the controller does not hold the "
+              "drive, or reports are too far apart");
         begin_ = now;
         if (next < limit && leap(now, limit))
           there_ = now;
@@ -159,7 +163,7 @@ class TaylorSolver {
       series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
   }
 
-  static constexpr int most_stalled = 1000;
+  static constexpr int most_stalled = 1000, most_steps = 100'000;
 
   const System& system_;
   TaylorAccuracy accuracy_;

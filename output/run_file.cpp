@@ -1,8 +1,10 @@
 #include "output/run_file.hpp"
 
-#include <functional>
+#include <chrono>
 
 #include <fmt/format.h>
+
+#include "output/run_columns.hpp"
 
 namespace wormdrive {
 
@@ -11,153 +13,6 @@ std::string units_on(Axis axis, const std::string& rotary) {
   if (rotary == "N m") return "N";
   return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
 }
-
-namespace {
-
-const std::vector<std::int8_t> signs{-1, 0, 1};
-constexpr const char* motions = "backward stuck forward";
-constexpr const char* flanks = "right none left";
-
-/// A column and where its value comes from.
-template <class Source>
-struct Column {
-  ColumnDescription description;
-  std::function<double(const Source&)> value;
-};
-
-template <class Source>
-std::vector<ColumnDescription> descriptions(const std::vector<Column<Source>>& columns, Axis axis) {
-  std::vector<ColumnDescription> list;
-  for (const auto& column : columns) {
-    list.push_back(column.description);
-    list.back().units = units_on(axis, list.back().units);
-  }
-  return list;
-}
-
-template <class Source>
-std::vector<std::vector<double>> values(const std::vector<Column<Source>>& columns, const std::vector<Source>& rows) {
-  std::vector<std::vector<double>> table;
-  for (const auto& column : columns) {
-    std::vector<double>& list = table.emplace_back();
-    list.reserve(rows.size());
-    for (const Source& row : rows) list.push_back(column.value(row));
-  }
-  return table;
-}
-
-/// The columns of a rigid drive's table or, with those of elastic teeth behind them, of a compliant one's.
-template <class Source>
-std::vector<Column<Source>> joined(std::vector<Column<Source>> columns, bool elastic,
-                                   const std::vector<Column<Source>>& of_elastic_teeth) {
-  if (elastic) columns.insert(columns.end(), of_elastic_teeth.begin(), of_elastic_teeth.end());
-  return columns;
-}
-/// Whose speed has the sign of the motion.
-std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
-
-std::vector<Column<Row>> make_trajectory_columns(bool elastic) {
-  const std::vector<Column<Row>> columns{
-      {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
-      {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
-      {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Row& r) { return r.at.omega_g; }},
-      {{"gear_acceleration", "rad/s^2", "gear acceleration theta_g''"}, [](const Row& r) { return r.at.alpha_g; }},
-      {{"motor_torque", "N m", "motor torque tau_m on the worm"}, [](const Row& r) { return r.at.tau_m; }},
-      {{"load_torque", "N m", "load torque tau_l on the gear"}, [](const Row& r) { return r.at.tau_l; }},
-      {{"normal_force", "N", "normal force Wn between the teeth"}, [](const Row& r) { return r.at.normal_force; }},
-      {{"motion", "", sign_of_speed(elastic), motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
-      {{"flank", "", "flank that carries the load", flanks, signs},
-       [](const Row& r) { return sign(r.at.mode.flank); }}};
-  return joined(columns, elastic,
-                {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Row& r) { return r.at.teeth->theta_w; }},
-                 {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Row& r) { return r.at.teeth->omega_w; }},
-                 {{"worm_acceleration", "rad/s^2", "worm acceleration theta_w''"},
-                  [](const Row& r) { return r.at.teeth->alpha_w; }},
-                 {{"deflection", "rad", "gear ahead of worm, theta_g - theta_w / i"},
-                  [](const Row& r) { return r.at.teeth->deflection; }},
-                 {{"friction_force", "N", "friction force Wf between the teeth, positive against forward motion"},
-                  [](const Row& r) { return r.at.teeth->friction; }},
-                 {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
-                   motions, signs},
-                  [](const Row& r) { return sign(r.at.teeth->gear); }}});
-}
-
-/// The kinds of event that a drive can have, as flags: those of a rigid drive come first.
-ColumnDescription kinds_column(bool elastic) {
-  ColumnDescription column{"kind", "", "what happened", "", {}};
-  for (const EventKind kind : event_kinds) {
-    if (!elastic && kind > EventKind::flank_change) break;
-    column.flag_meanings += fmt::format("{}{}", column.flag_meanings.empty() ? "" : " ", name(kind));
-    column.flag_values.push_back(static_cast<std::int8_t>(kind));
-  }
-  return column;
-}
-
-std::vector<Column<Event>> make_event_columns(bool elastic) {
-  const std::vector<Column<Event>> columns{
-      {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
-      {kinds_column(elastic), [](const Event& e) { return static_cast<double>(e.kind()); }},
-      {{"motion_before", "", fmt::format("{} before", sign_of_speed(elastic)), motions, signs},
-       [](const Event& e) { return sign(e.before.mode.motion); }},
-      {{"motion_after", "", fmt::format("{} after", sign_of_speed(elastic)), motions, signs},
-       [](const Event& e) { return sign(e.after.mode.motion); }},
-      {{"flank_before", "", "flank that carried the load before", flanks, signs},
-       [](const Event& e) { return sign(e.before.mode.flank); }},
-      {{"flank_after", "", "flank that carries the load after", flanks, signs},
-       [](const Event& e) { return sign(e.after.mode.flank); }},
-      {{"gear_angle", "rad", "gear angle theta_g"}, [](const Event& e) { return e.after.theta_g; }},
-      {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Event& e) { return e.after.omega_g; }},
-      {{"acceleration_before", "rad/s^2", "gear acceleration just before"},
-       [](const Event& e) { return e.before.alpha_g; }},
-      {{"acceleration_after", "rad/s^2", "gear acceleration just after"},
-       [](const Event& e) { return e.after.alpha_g; }},
-      {{"motor_torque_before", "N m", "motor torque just before"}, [](const Event& e) { return e.before.tau_m; }},
-      {{"motor_torque_after", "N m", "motor torque just after"}, [](const Event& e) { return e.after.tau_m; }},
-      {{"load_torque_before", "N m", "load torque just before"}, [](const Event& e) { return e.before.tau_l; }},
-      {{"load_torque_after", "N m", "load torque just after"}, [](const Event& e) { return e.after.tau_l; }}};
-  return joined(
-      columns, elastic,
-      {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Event& e) { return e.after.teeth->theta_w; }},
-       {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Event& e) { return e.after.teeth->omega_w; }},
-       {{"gear_motion_before", "", "sign of the gear speed before", motions, signs},
-        [](const Event& e) { return sign(e.before.teeth->gear); }},
-       {{"gear_motion_after", "", "sign of the gear speed after", motions, signs},
-        [](const Event& e) { return sign(e.after.teeth->gear); }}});
-}
-
-/// Made once for either drive.
-const std::vector<Column<Row>>& trajectory_columns(bool elastic) {
-  static const std::vector<Column<Row>> columns[] = {make_trajectory_columns(false), make_trajectory_columns(true)};
-  return columns[elastic ? 1 : 0];
-}
-const std::vector<Column<Event>>& event_columns(bool elastic) {
-  static const std::vector<Column<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
-  return columns[elastic ? 1 : 0];
-}
-
-const std::vector<Column<ControlRecord>>& controller_columns() {
-  using C = ControlRecord;
-  static const std::vector<Column<C>> columns{
-      {{"time", "s", "time of the sample"}, [](const C& c) { return c.measured.t; }},
-      {{"reference_angle", "rad", "reference theta_d"}, [](const C& c) { return c.measured.desired.angle; }},
-      {{"reference_speed", "rad/s", "reference speed theta_d'"}, [](const C& c) { return c.measured.desired.speed; }},
-      {{"gear_angle", "rad", "true gear angle theta_g"}, [](const C& c) { return c.gear_angle; }},
-      {{"measured_angle", "rad", "gear angle as the encoder shows it"}, [](const C& c) { return c.measured.angle; }},
-      {{"measured_speed", "rad/s", "gear speed as the controller knows it"},
-       [](const C& c) { return c.measured.speed; }},
-      {{"sliding_variable", "rad/s", "sliding variable s, 0 for other controllers"},
-       [](const C& c) { return c.decided.s; }},
-      {{"input", "N m", "input u = tau_m - (Jw i/Jg) tau_l_hat of the sliding law, 0 for other controllers"},
-       [](const C& c) { return c.decided.u; }},
-      {{"compensation", "N m", "part of the torque that is break-in compensation"},
-       [](const C& c) { return c.decided.compensation; }},
-      {{"torque", "N m", "motor torque that the controller decided"}, [](const C& c) { return c.decided.torque; }},
-      {{"applied_torque", "N m", "motor torque held from this sample on: delayed, disturbed, limited"},
-       [](const C& c) { return c.applied; }}};
-  return columns;
-}
-
-}  // namespace
 
 RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents)
     : file_(path), elastic_(contents.elastic) {

@@ -101,6 +101,7 @@ def draw_histogram(axes, metric, factor, unit):
     for limit, _ in shown(metric):
         handles.append(axes.axvline(factor * limit, color=style.VERMILLION, label="limit"))
     style.header(axes, handles)
+    style.few_ticks(axes.xaxis)
     axes.set(xlabel=labelled(metric.name, unit) + missing_note(metric, factor, unit), ylabel="trials")
 
 
@@ -116,6 +117,7 @@ def draw_exceedance(axes, metric, factor, unit):
         beyond = np.mean(values > factor * limit if above else values < factor * limit)
         axes.annotate(f"{100 * beyond:.3g} %", (factor * limit, 0.5), xycoords=("data", "axes fraction"),
                       textcoords="offset points", xytext=(5, 0), color=style.VERMILLION)
+    style.few_ticks(axes.xaxis)
     axes.set(xlabel=labelled(metric.name, unit), ylabel=f"share of the trials {'below' if below else 'above'}")
 
 

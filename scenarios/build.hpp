@@ -15,16 +15,23 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
   return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
 }
 
-/// Builds the concrete drive of a scenario with other effects and another motor torque, and calls use(drive): its
-/// load's type is known from here on. Of the effects the drive has those that are not taken up by mesh and load.
+/// Builds the drive of a scenario with other effects and another motor torque. Of the effects it has those that are not
+/// taken up by mesh and load.
+template <class LoadParameters>
+auto make_drive(const Scenario& scenario, const LoadParameters& parameters, const Effects<double>& effects,
+                const Signal& motor) {
+  auto load = make_load(parameters);
+  GearMesh<double> mesh = stated_mesh(scenario);
+  const Effects<double> left = take_up(effects, mesh, load);
+  return WormDrive<double, decltype(load)>(mesh, load, left, motor);
+}
+
+/// The same, and calls use(drive): its load's type is known from here on.
 template <class Use>
 decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
-        auto load = make_load(parameters);
-        GearMesh<double> mesh = stated_mesh(scenario);
-        const Effects<double> left = take_up(effects, mesh, load);
-        WormDrive<double, decltype(load)> drive(mesh, load, left, motor);
+        auto drive = make_drive(scenario, parameters, effects, motor);
         return use(drive);
       },
       scenario.load);

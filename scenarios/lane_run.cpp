@@ -54,7 +54,7 @@ struct LaneRun::Torque {
 
 LaneRun::LaneRun(const Scenario& scenario)
     : scenario_(scenario),
-      drive_(stated_mesh(scenario), make_load(std::get<GravityArm>(scenario.load)), scenario.effects, scenario.motor),
+      drive_(make_drive(scenario, std::get<GravityArm>(scenario.load), scenario.effects, scenario.motor)),
       solver_(drive_, scenario.run.solver_settings()),
       run_(drive_, solver_, scenario, nobody_),
       controller_(make_controller(sliding(scenario), make_nominal(scenario), make_variations(scenario))),

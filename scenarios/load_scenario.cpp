@@ -35,7 +35,8 @@ class ScenarioReader {
     read_control(root_, scenario_, folder());
     read_what_is_measured();
     root_.finish();
-    if (purpose == Purpose::run) refuse_what_does_not_move();
+    if (purpose == Purpose::run && faults_.empty())
+      if (const auto why = why_it_cannot_move(scenario_)) faults_.add(friction_at_, *why);
     return std::move(scenario_);
   }
 
@@ -117,11 +118,6 @@ class ScenarioReader {
         }
       }
     });
-  }
-
-  void refuse_what_does_not_move() {
-    if (!faults_.empty()) return;
-    if (const auto why = why_it_cannot_move(scenario_)) faults_.add(friction_at_, *why);
   }
 
   std::string name_;

@@ -13,11 +13,11 @@ namespace wormdrive {
 namespace {
 
 /// One step of an override's path: into a table by its key, or into an array by its index.
-using Step = std::variant<std::string, std::size_t>;
+using PathStep = std::variant<std::string, std::size_t>;
 
 /// "motor.torque[1].torque_Nm" in steps.
-std::vector<Step> split_path(const std::string& path, const Location& where) {
-  std::vector<Step> steps;
+std::vector<PathStep> split_path(const std::string& path, const Location& where) {
+  std::vector<PathStep> steps;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('.', begin), path.size());
     const std::string part = path.substr(begin, end - begin);
@@ -107,7 +107,7 @@ class Override {
   static toml::node&& take(toml::table& parsed) { return std::move(*parsed.get("value")); }
 
   Location where_;
-  std::vector<Step> steps_;
+  std::vector<PathStep> steps_;
   toml::table value_;
 };
 

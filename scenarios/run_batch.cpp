@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "control/lane_batch.hpp"
 #include "scenarios/lane_run.hpp"
 
 namespace wormdrive {
@@ -126,6 +127,8 @@ std::unique_ptr<LaneRun> lane_run(const Scenario& scenario) {
 }
 
 }  // namespace
+
+int runs_together(const Scenario& scenario) { return fits_lane(scenario) ? LaneBatch::most : 1; }
 
 std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind kind) {
   std::vector<BatchResult> results(scenarios.size());

@@ -4,13 +4,16 @@
 #include <variant>
 #include <vector>
 
-#include "control/lane_batch.hpp"
+#include "control/lane_kind.hpp"
 #include "scenarios/run_scenario.hpp"
 
 namespace wormdrive {
 
 /// What a run amounts to, or why it could not go on.
 using BatchResult = std::variant<RunSummary, std::string>;
+
+/// How many scenarios that differ from this one in numbers alone are best run together; 1 if each runs alone anyway.
+int runs_together(const Scenario& scenario);
 
 /// Simulates scenarios as run_scenario() does, with the same bits: those that differ in numbers of drive and controller
 /// alone, sampled by a sliding controller and solved by power series, several at once in the lanes of one register.

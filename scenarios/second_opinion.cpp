@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <vector>
 
 #include "events/cvode_solver.hpp"
@@ -16,7 +16,7 @@ namespace {
 /// A run as far as another one can be held against it.
 struct Testimony {
   std::vector<Row> rows;
-  std::vector<double> torques;  ///< held from each sample on [N m]
+  std::vector<ControlRecord> samples;
 };
 
 Testimony testimony_of(const Scenario& scenario) {
@@ -26,27 +26,45 @@ Testimony testimony_of(const Scenario& scenario) {
       {.rows = [&](const Trajectory& part) { told.rows.insert(told.rows.end(), part.rows.begin(), part.rows.end()); },
        .samples =
            [&](const std::vector<ControlRecord>& part) {
-             for (const ControlRecord& record : part) told.torques.push_back(record.applied);
+             told.samples.insert(told.samples.end(), part.begin(), part.end());
            }});
   return told;
 }
 
+/// Holds states against rows, both in rising order of time; an event has its own time in every run.
+class Comparison {
+ public:
+  explicit Comparison(const std::vector<Row>& rows) : row_(rows.begin()), end_(rows.end()) {}
+
+  void at(double t, double theta_g, double omega_g) {
+    while (row_ != end_ && row_->t < t) ++row_;
+    if (row_ == end_ || row_->t != t) return;
+    const double angle = std::abs(row_->at.theta_g - theta_g);
+    if (angle > largest_.angle) largest_.t = t;
+    largest_.angle = std::max(largest_.angle, angle);
+    largest_.speed = std::max(largest_.speed, std::abs(row_->at.omega_g - omega_g));
+  }
+  const Disagreement& largest() const { return largest_; }
+
+ private:
+  std::vector<Row>::const_iterator row_, end_;
+  Disagreement largest_;
+};
+
 /// Gives recorded torques again.
 struct RecordedController {
-  std::vector<double> torques;
+  const std::vector<ControlRecord>& samples;
   std::size_t next = 0;
 
   template <class System>
   double sample(const System&, const typename System::Instant&) {
-    return torques.at(next++);
+    return samples.at(next++).applied;
   }
 };
 
 template <class Drive>
-Disagreement compared(Drive& drive, const Scenario& scenario, Testimony told) {
-  SolverSettings settings = scenario.run.solver_settings();
-  settings.solver = SolverKind::cvode;
-  CvodeSolver<Drive> solver(drive, settings);
+Disagreement replayed(Drive& drive, const Scenario& scenario, const Testimony& told) {
+  CvodeSolver<Drive> solver(drive, scenario.run.solver_settings());
   Sampling sampling;
   if (scenario.control) {
     const SamplingSettings& stated = scenario.control->sampling;
@@ -54,26 +72,43 @@ Disagreement compared(Drive& drive, const Scenario& scenario, Testimony told) {
   }
   typename Drive::Instant start;
   start.x = {scenario.initial.theta_g, scenario.initial.omega_g};
-  Disagreement largest;
-  auto row = told.rows.begin();
-  RecordedController recorded{std::move(told.torques)};
+  Comparison comparison(told.rows);
+  RecordedController recorded{told.samples};
   simulate(drive, solver, recorded, Timetable(0.0, scenario.run.duration, scenario.run.rows_every(), sampling), start,
-           [&](const Drive&, const typename Drive::Instant& now) {
-             while (row != told.rows.end() && row->t < now.t) ++row;
-             if (row == told.rows.end() || row->t != now.t) return;  // an event, which has its own time in every run
-             const double angle = std::abs(row->at.theta_g - now.x[0]);
-             if (angle > largest.angle) largest.t = now.t;
-             largest.angle = std::max(largest.angle, angle);
-             largest.speed = std::max(largest.speed, std::abs(row->at.omega_g - now.x[1]));
-           });
-  return largest;
+           [&](const Drive&, const typename Drive::Instant& now) { comparison.at(now.t, now.x[0], now.x[1]); });
+  return comparison.largest();
+}
+
+Disagreement compared(const Testimony& told, const Testimony& other) {
+  Comparison comparison(told.rows);
+  for (const Row& row : other.rows) comparison.at(row.t, row.at.theta_g, row.at.omega_g);
+  return comparison.largest();
+}
+
+std::optional<double> parting(const Testimony& told, const Testimony& other) {
+  const auto [first, second] = std::mismatch(
+      told.samples.begin(), told.samples.end(), other.samples.begin(), other.samples.end(),
+      [](const ControlRecord& a, const ControlRecord& b) { return a.measured.angle == b.measured.angle; });
+  return first == told.samples.end() ? std::nullopt : std::optional(first->measured.t);
+}
+
+Scenario with_cvode(Scenario scenario) {
+  scenario.run.solver = SolverKind::cvode;
+  return scenario;
 }
 
 }  // namespace
 
 Disagreement second_opinion(const Scenario& scenario) {
-  Testimony told = testimony_of(scenario);
-  return with_drive(scenario, [&](auto& drive) { return compared(drive, scenario, std::move(told)); });
+  const Testimony told = testimony_of(scenario);
+  const Scenario again = with_cvode(scenario);
+  return with_drive(again, [&](auto& drive) { return replayed(drive, again, told); });
+}
+
+LoopOpinion second_opinion_in_the_loop(const Scenario& scenario) {
+  const Testimony told = testimony_of(scenario), other = testimony_of(with_cvode(scenario));
+  if (scenario.control->sensor.counts > 0.0) return {{}, parting(told, other)};
+  return {compared(told, other), {}};
 }
 
 }  // namespace wormdrive

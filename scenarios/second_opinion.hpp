@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "scenarios/scenario.hpp"
 
 namespace wormdrive {
@@ -14,5 +16,15 @@ struct Disagreement {
 /// states at all samples and reports: a closed loop would amplify the last digit of either. The teeth must be rigid.
 /// Throws Halt if one of the runs cannot go on.
 Disagreement second_opinion(const Scenario& scenario);
+
+/// What CVODE says of a closed loop.
+struct LoopOpinion {
+  std::optional<Disagreement> closed;  ///< where no sensor rounds to counts
+  std::optional<double> parted;        ///< where one does: when the two first read another count [s], if ever
+};
+
+/// The same with the controller acting on what CVODE finds. A sensor's count flips for the last digit, so that behind
+/// the first one nothing can be compared any more.
+LoopOpinion second_opinion_in_the_loop(const Scenario& scenario);
 
 }  // namespace wormdrive

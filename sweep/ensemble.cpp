@@ -1,6 +1,6 @@
 #include "sweep/ensemble.hpp"
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -33,9 +33,10 @@ class Ensemble {
     Ensemble& ensemble;
     ~Stopper() { ensemble.halt(); }
   };
-  /// A trial that somebody makes, and its turn to be handed over.
+  /// Trials that somebody makes together, and the turn of the first one to be handed over.
   struct Claim {
-    std::uint64_t index, turn;
+    TrialRange trials;
+    std::uint64_t turn;
   };
 
   void halt() {
@@ -48,10 +49,10 @@ class Ensemble {
     news_.notify_all();
   }
 
-  /// The next trial, once there is room for it; nothing when there is no more to do.
-  std::optional<Claim> claim() {
+  /// The next trials, at most so many, once there is room for them; nothing when there is no more to do.
+  std::optional<Claim> claim(std::uint64_t most) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return no_more_ || claimed_ < taken_ + window; });
+    room_.wait(lock, [&] { return no_more_ || claimed_ + most <= taken_ + window; });
     if (no_more_) return std::nullopt;
     if (portion_.size() == 0) {
       if (const auto more = source_()) {
@@ -61,16 +62,19 @@ class Ensemble {
         return std::nullopt;
       }
     }
-    return Claim{portion_.first++, claimed_++};
+    const std::uint64_t first = portion_.first, turn = claimed_, count = std::min(most, portion_.size());
+    portion_.first += count;
+    claimed_ += count;
+    return Claim{{first, first + count}, turn};
   }
 
   void work() {
     try {
       Trials trials(study_);
-      while (const auto mine = claim()) {
-        Trial trial = trials(mine->index);
+      while (const auto mine = claim(trials.together())) {
+        std::vector<Trial> made = trials(mine->trials);
         const std::lock_guard lock(mutex_);
-        done_[mine->turn % window] = std::move(trial);
+        for (std::size_t k = 0; k < made.size(); ++k) done_[(mine->turn + k) % window] = std::move(made[k]);
         if (mine->turn == taken_) news_.notify_one();
       }
     } catch (...) {

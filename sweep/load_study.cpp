@@ -209,8 +209,10 @@ void flatten(const toml::node& node, const std::string& path, std::map<std::stri
 
 }  // namespace
 
-Study load_study(const std::string& path) {
-  return read(read_text(path), path, [&](const std::string& scenario, const std::vector<Setting>& settings) {
+Study load_study(const std::string& path) { return read_study(read_text(path), path); }
+
+Study read_study(const std::string& text, const std::string& path) {
+  return read(text, path, [&](const std::string& scenario, const std::vector<Setting>& settings) {
     std::vector<std::string> overrides;
     for (const Setting& setting : settings) overrides.push_back(setting.assignment);
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / scenario;

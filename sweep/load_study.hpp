@@ -10,6 +10,9 @@ namespace wormdrive {
 /// Throws InputFault with every fault at once, one line each with file, line and column.
 Study load_study(const std::string& path);
 
+/// The same from a text; path stands for the file: in messages, and for the folder of the scenario.
+Study read_study(const std::string& text, const std::string& path);
+
 /// The same from the texts that a sweep file carries: the study, and its scenario with every parameter at its median.
 /// name stands for the file in messages.
 Study parse_study(const std::string& text, const std::string& scenario, const std::string& name);

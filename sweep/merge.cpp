@@ -84,9 +84,9 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
   try {
     for (const auto& [shard, range] : stretches)
       for_each_trial(*shard, range, [&](const Trial& trial) { merged.file->append(trial); });
-    std::vector<Verdict> verdicts;
+    std::vector<RefereeVerdict> verdicts;
     for (const auto& shard : shards)
-      for (const Verdict& verdict : shard->verdicts()) verdicts.push_back(verdict);
+      for (const RefereeVerdict& verdict : shard->verdicts()) verdicts.push_back(verdict);
     merged.file->write(verdicts);
     merged.file->finish();
   } catch (const OutputFault&) {

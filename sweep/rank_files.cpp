@@ -57,6 +57,7 @@ RankPlan plan_ranks(const std::string& name, const Study& study, bool resume) {
     }
     if (!resume) refuse_to_begin_anew(there);
     refuse_another(there, study, all);
+    plan.failed += there.counted_reasons().total();
     present.insert(present.end(), there.present().begin(), there.present().end());
   }
   if (std::filesystem::exists(name + ".part"))  // of a single process: as if a rank had made it

@@ -20,6 +20,7 @@ std::vector<std::string> rank_parts(const std::string& name);
 struct RankPlan {
   bool complete = false;  ///< NAME itself holds every trial
   std::uint64_t generation = 0;
+  std::uint64_t failed = 0;  ///< trials that are there but not done
   std::vector<TrialRange> missing;
 };
 

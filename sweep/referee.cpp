@@ -34,10 +34,15 @@ class Sample {
   std::uint64_t at_ = 0;
 };
 
-Verdict judged(Trials& trials, std::uint64_t trial) {
-  Verdict verdict{trial, {}, false};
+/// CVODE's run with the controller in the loop costs as much again: of so many trials one has it.
+constexpr std::size_t one_in_the_loop = 4;
+
+RefereeVerdict judged(Trials& trials, std::uint64_t trial, std::size_t place) {
+  RefereeVerdict verdict{trial, {}, {}, false};
   try {
-    verdict.found = second_opinion(trials.scenario(trial));
+    const Scenario& scenario = trials.scenario(trial);
+    verdict.found = second_opinion(scenario);
+    if (scenario.control && place % one_in_the_loop == 0) verdict.in_loop = second_opinion_in_the_loop(scenario);
   } catch (const Halt&) {
     verdict.halted = true;
   } catch (const SolverFault&) {  // before the run began
@@ -48,10 +53,10 @@ Verdict judged(Trials& trials, std::uint64_t trial) {
 
 }  // namespace
 
-std::vector<Verdict> referee(const SweepReader& sweep, unsigned threads,
-                             const std::function<bool(std::size_t)>& enough) {
+std::vector<RefereeVerdict> referee(const SweepReader& sweep, unsigned threads,
+                                    const std::function<bool(std::size_t)>& enough) {
   Sample sample(sweep);
-  std::vector<Verdict> verdicts;
+  std::vector<RefereeVerdict> verdicts;
   std::size_t begun = 0;
   std::exception_ptr fault;
   std::mutex mutex;
@@ -66,7 +71,7 @@ std::vector<Verdict> referee(const SweepReader& sweep, unsigned threads,
         const std::size_t place = begun++;
         verdicts.resize(begun);
         lock.unlock();
-        Verdict verdict = judged(trials, *trial);
+        RefereeVerdict verdict = judged(trials, *trial, place);
         lock.lock();
         verdicts[place] = std::move(verdict);
       }

@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <numeric>
+#include <set>
+#include <utility>
 
 #include "scenarios/faults.hpp"
 #include "scenarios/keys.hpp"
+#include "sweep/order_statistics.hpp"
+#include "sweep/rank_correlation.hpp"
 
 namespace wormdrive {
 namespace {
 
-/// Reads one column at a time: memory grows with the trials, but not with columns times trials.
+/// Goes through the columns of a sweep in parts, as often as it takes: memory does not grow with the trials.
 class Summariser {
  public:
   Summariser(const SweepReader& sweep, const std::string& ranked_by) : sweep_(sweep), study_(sweep.study()) {
@@ -20,128 +24,173 @@ class Summariser {
     ranked_by_ = ranked_by.empty() ? default_ranking(study_) : ranked_by;
     if (std::find(names.begin(), names.end(), ranked_by_) == names.end())
       refuse({sweep.path()}, "has no metric '" + ranked_by_ + "'; " + suggestion(ranked_by_, names));
-    status_ = sweep.column("status");
-    if (const auto* const saltelli = std::get_if<Saltelli>(&study_.design); saltelli)
-      stride_ = study_.parameters.size() + 2;
+    if (std::holds_alternative<Saltelli>(study_.design)) stride_ = study_.parameters.size() + 2;
   }
 
   SweepSummary operator()(unsigned worst) {
     SweepSummary summary;
     summary.trials = sweep_.trials();
-    const auto with = [&](TrialStatus status) {
-      return static_cast<std::uint64_t>(std::count(status_.begin(), status_.end(), static_cast<double>(status)));
-    };
-    summary.done = with(TrialStatus::done);
-    summary.refused = with(TrialStatus::refused);
-    summary.halted = with(TrialStatus::halted);
+    count_statuses(summary);
     summary.sample = is_sample(study_.design);
     summary.ranked_by = ranked_by_;
     for (const Metric& metric : study_.metrics) {
-      const std::vector<double> values = of_done_trials(metric.name);
-      summary.metrics.push_back(distribution(metric, values));
-      for (const Threshold& threshold : study_.thresholds)
-        if (threshold.metric == metric.name) summary.thresholds.push_back(missed(threshold, metric.unit, values));
-      if (metric.name.starts_with("condition_")) note_condition(metric, values, summary);
-      if (metric.name == ranked_by_) rank(values, worst, summary);
+      summary.metrics.push_back(distribution(metric));
+      count_misses(metric, summary);
     }
+    influences(summary);
+    find_worst(worst, summary);
     return summary;
   }
 
  private:
-  /// Whether a trial stands for the distribution of the parameters: in a Saltelli design A and B alone do.
-  bool counts(std::size_t row) const { return (sweep_.range().first + row) % stride_ < 2 || stride_ == 1; }
-  bool done(std::size_t row) const { return status_[row] == static_cast<double>(TrialStatus::done); }
+  using Block = SweepReader::Block;
 
-  /// A column; not a number where a trial is missing or not done.
-  std::vector<double> of_done_trials(const std::string& name) const {
-    std::vector<double> values = sweep_.column(name);
-    for (std::size_t row = 0; row < values.size(); ++row)
-      if (!done(row)) values[row] = std::numeric_limits<double>::quiet_NaN();
-    return values;
+  /// Whether a trial stands for the distribution of the parameters: in a Saltelli design A and B alone do.
+  bool counts(std::uint64_t trial) const { return stride_ == 1 || trial % stride_ < 2; }
+  static bool done(const Block& block, std::size_t row) {
+    return block.status[row] == static_cast<double>(TrialStatus::done);
   }
 
-  MetricSummary distribution(const Metric& metric, const std::vector<double>& values) const {
-    std::vector<double> rising;
-    for (std::size_t row = 0; row < values.size(); ++row)
-      if (counts(row) && std::isfinite(values[row])) rising.push_back(values[row]);
-    std::sort(rising.begin(), rising.end());
+  void count_statuses(SweepSummary& summary) const {
+    sweep_.for_each_block({}, [&](const Block& block) {
+      for (const double status : block.status) {
+        summary.done += status == static_cast<double>(TrialStatus::done);
+        summary.refused += status == static_cast<double>(TrialStatus::refused);
+        summary.halted += status == static_cast<double>(TrialStatus::halted);
+      }
+    });
+  }
+
+  /// Rows of columns at trials that are done, stand for the distribution and have a finite metric, the first column.
+  template <class Take>
+  void for_each_finite(const std::vector<std::string>& names, Take&& take) const {
+    std::vector<std::vector<double>> chosen(names.size());
+    sweep_.for_each_block(names, [&](const Block& block) {
+      for (std::vector<double>& column : chosen) column.clear();
+      for (std::size_t row = 0; row < block.status.size(); ++row)
+        if (counts(block.first + row) && done(block, row) && std::isfinite(block.columns.front()[row]))
+          for (std::size_t k = 0; k < names.size(); ++k) chosen[k].push_back(block.columns[k][row]);
+      take(chosen);
+    });
+  }
+  /// A column where a metric is finite.
+  Column where_finite(const std::string& metric, const std::string& name) const {
+    return [this, metric, name](const TakeValues& take) {
+      const std::vector<std::string> names = name == metric ? std::vector{metric} : std::vector{metric, name};
+      for_each_finite(names, [&](const auto& chosen) { take(chosen.back()); });
+    };
+  }
+
+  MetricSummary distribution(const Metric& metric) const {
     MetricSummary summary;
     summary.metric = metric;
-    summary.count = rising.size();
-    if (rising.empty()) return summary;
-    const auto n = static_cast<double>(rising.size());
-    summary.mean = std::accumulate(rising.begin(), rising.end(), 0.0) / n;
-    double squares = 0.0;
-    for (const double value : rising) squares += (value - summary.mean) * (value - summary.mean);
-    summary.deviation = rising.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
-    summary.least = rising.front();
-    summary.greatest = rising.back();
-    for (const double p : summary_quantiles) summary.quantiles.push_back(sample_quantile(rising, p));
-    return summary;
-  }
-
-  ThresholdSummary missed(const Threshold& threshold, const Unit& unit, const std::vector<double>& values) const {
-    ThresholdSummary summary{threshold, unit, 0, 0, {}};
-    for (std::size_t row = 0; row < values.size(); ++row)
-      if (counts(row) && done(row)) {
-        ++summary.of;
-        if (threshold.missed_by(values[row])) ++summary.missed;
+    summary.least = std::numeric_limits<double>::infinity();
+    summary.greatest = -summary.least;
+    const Column column = where_finite(metric.name, metric.name);
+    double squares = 0.0;  // of distances from the mean so far, after Welford
+    column([&](std::span<const double> values) {
+      for (const double value : values) {
+        const double distance = value - summary.mean;
+        summary.mean += distance / static_cast<double>(++summary.count);
+        squares += distance * (value - summary.mean);
+        summary.least = std::min(summary.least, value);
+        summary.greatest = std::max(summary.greatest, value);
       }
-    summary.share = probability(summary.missed, summary.of);
-    return summary;
-  }
-
-  void note_condition(const Metric& metric, const std::vector<double>& margins, SweepSummary& summary) const {
-    ConditionSummary condition{metric.meaning, 0, 0};
-    for (std::size_t row = 0; row < margins.size(); ++row)
-      if (counts(row) && done(row)) {
-        ++condition.of;
-        if (margins[row] < 0.0) ++condition.trials;
-      }
-    summary.conditions.push_back(condition);
-  }
-
-  void rank(const std::vector<double>& values, unsigned worst, SweepSummary& summary) const {
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < values.size(); ++row)
-      if (std::isfinite(values[row])) rows.push_back(row);
-    influences(values, rows, summary);
-    const double sign = worse(study_, ranked_by_);
-    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(worst, rows.size()));
-    std::partial_sort(rows.begin(), end, rows.end(), [&](std::size_t a, std::size_t b) {
-      return std::pair(-sign * values[a], a) < std::pair(-sign * values[b], b);
     });
-    for (auto row = rows.begin(); row != end; ++row) {
-      const std::uint64_t trial = sweep_.range().first + *row;
-      summary.worst.push_back(sweep_.read({trial, trial + 1}).front());
-    }
+    if (summary.count == 0) return summary;
+    summary.deviation = summary.count > 1 ? std::sqrt(squares / static_cast<double>(summary.count - 1)) : 0.0;
+
+    std::set<std::uint64_t> wanted;
+    for (const double p : summary_quantiles)
+      sample_quantile(quantile_ranks(summary.count, p), [&](std::uint64_t rank) {
+        wanted.insert(rank);
+        return 0.0;
+      });
+    const auto values = order_statistics(column, summary.count, wanted);
+    for (const double p : summary_quantiles)
+      summary.quantiles.push_back(
+          sample_quantile(quantile_ranks(summary.count, p), [&](std::uint64_t rank) { return values.at(rank); }));
+    return summary;
   }
 
-  void influences(const std::vector<double>& values, const std::vector<std::size_t>& rows,
-                  SweepSummary& summary) const {
+  /// How often a metric misses its thresholds, or the condition of Lemma 1 fails whose margin it is.
+  void count_misses(const Metric& metric, SweepSummary& summary) const {
+    std::vector<ThresholdSummary> thresholds;
+    for (const Threshold& threshold : study_.thresholds)
+      if (threshold.metric == metric.name) thresholds.push_back({threshold, metric.unit, 0, 0, {}});
+    const bool is_condition = metric.name.starts_with("condition_");
+    if (thresholds.empty() && !is_condition) return;
+    ConditionSummary condition{metric.meaning, 0, 0};
+    sweep_.for_each_block({metric.name}, [&](const Block& block) {
+      for (std::size_t row = 0; row < block.status.size(); ++row) {
+        if (!counts(block.first + row) || !done(block, row)) continue;
+        const double value = block.columns.front()[row];
+        ++condition.of;
+        if (value < 0.0) ++condition.trials;
+        for (ThresholdSummary& t : thresholds)
+          if (t.threshold.missed_by(value)) ++t.missed;
+      }
+    });
+    for (ThresholdSummary& t : thresholds) {
+      t.of = condition.of;
+      t.share = probability(t.missed, t.of);
+      summary.thresholds.push_back(t);
+    }
+    if (is_condition) summary.conditions.push_back(condition);
+  }
+
+  void influences(SweepSummary& summary) const {
     std::vector<SobolIndex> sobol;
-    if (stride_ > 1 && sweep_.range().first == 0) sobol = sobol_indices(values, study_.parameters.size(), study_.seed);
-    const auto of_rows = [&](const std::vector<double>& column) {
-      std::vector<double> chosen;
-      for (const std::size_t row : rows)
-        if (counts(row)) chosen.push_back(column[row]);
-      return Ranks(chosen);
-    };
-    const Ranks metric = of_rows(values);
+    if (stride_ > 1 && sweep_.range().first == 0)
+      sobol = sobol_indices(of_all_trials(), study_.parameters.size(), study_.seed);
+    const std::uint64_t count = std::find_if(summary.metrics.begin(), summary.metrics.end(), [&](const auto& m) {
+                                  return m.metric.name == ranked_by_;
+                                })->count;
+    const RankScale metric(where_finite(ranked_by_, ranked_by_), count);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
+      const std::string& name = study_.parameters[k].name;
       Influence influence{study_.parameters[k].path, 0.0, {}};
-      influence.rank_correlation = metric.correlation(of_rows(sweep_.column(study_.parameters[k].name)));
+      influence.rank_correlation = rank_correlation(
+          [&](const TakePairs& take) {
+            for_each_finite({ranked_by_, name}, [&](const auto& chosen) { take(chosen.front(), chosen.back()); });
+          },
+          metric, RankScale(where_finite(ranked_by_, name), count));
       if (!sobol.empty()) influence.sobol = sobol[k];
       summary.influences.push_back(std::move(influence));
     }
     std::stable_sort(summary.influences.begin(), summary.influences.end(),
                      [](const Influence& a, const Influence& b) { return a.size() > b.size(); });
   }
+  /// The metric by which trials are ranked, not a number where a trial is missing or not done.
+  Column of_all_trials() const {
+    return [this](const TakeValues& take) {
+      sweep_.for_each_block({ranked_by_}, [&](const Block& block) {
+        std::vector<double> values = block.columns.front();
+        for (std::size_t row = 0; row < values.size(); ++row)
+          if (!done(block, row)) values[row] = std::numeric_limits<double>::quiet_NaN();
+        take(values);
+      });
+    };
+  }
+
+  void find_worst(unsigned worst, SweepSummary& summary) const {
+    const double sign = worse(study_, ranked_by_);
+    std::set<std::pair<double, std::uint64_t>> first;  // the worst first, of equals the earlier
+    sweep_.for_each_block({ranked_by_}, [&](const Block& block) {
+      for (std::size_t row = 0; row < block.status.size(); ++row) {
+        const double value = block.columns.front()[row];
+        if (!done(block, row) || !std::isfinite(value)) continue;
+        if (first.size() == worst && (worst == 0 || -sign * value >= first.rbegin()->first)) continue;
+        first.emplace(-sign * value, block.first + row);
+        if (first.size() > worst) first.erase(std::prev(first.end()));
+      }
+    });
+    for (const auto& [value, trial] : first) summary.worst.push_back(sweep_.read({trial, trial + 1}).front());
+  }
 
   const SweepReader& sweep_;
   const Study& study_;
   std::string ranked_by_;
-  std::vector<double> status_;
   std::size_t stride_ = 1;
 };
 

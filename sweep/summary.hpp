@@ -16,7 +16,7 @@ struct MetricSummary {
   Metric metric;
   std::uint64_t count{};
   double mean{}, deviation{}, least{}, greatest{};
-  std::vector<Estimate> quantiles;  ///< of summary_quantiles
+  std::vector<SampleEstimate> quantiles;  ///< of summary_quantiles
 };
 
 /// How often a threshold is missed by the trials that are done.
@@ -24,7 +24,7 @@ struct ThresholdSummary {
   Threshold threshold;
   Unit unit;
   std::uint64_t missed{}, of{};
-  Estimate share{};
+  SampleEstimate share{};
 };
 
 /// How much a parameter matters for the metric by which trials are ranked.

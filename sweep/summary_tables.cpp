@@ -28,7 +28,7 @@ void add_estimate(SummaryTable& table, const std::string& name, const std::strin
   table.columns.push_back({name + "_low", units, "lower end of its 95 % interval"});
   table.columns.push_back({name + "_high", units, "upper end of its 95 % interval"});
 }
-void append(std::vector<double>& row, const Estimate& e) { row.insert(row.end(), {e.value, e.low, e.high}); }
+void append(std::vector<double>& row, const SampleEstimate& e) { row.insert(row.end(), {e.value, e.low, e.high}); }
 
 std::uint64_t conditions_of(const Study& study) {
   return static_cast<std::uint64_t>(std::count_if(study.metrics.begin(), study.metrics.end(),
@@ -130,7 +130,7 @@ void write_metrics(hid_t file, const SweepSummary& summary, const Study& study) 
       row.resize(metric_table(study).columns.size(), none);
     } else {
       row.insert(row.end(), {m.mean, m.deviation, m.least, m.greatest});
-      for (const Estimate& quantile : m.quantiles) append(row, quantile);
+      for (const SampleEstimate& quantile : m.quantiles) append(row, quantile);
     }
     rows.add(row, {m.metric.name, std::string(m.metric.unit.symbol)});
   }
@@ -151,7 +151,7 @@ void write_influences(hid_t file, const SweepSummary& summary, const Study& stud
   Rows rows(file, influence_table(study));
   for (const Influence& i : summary.influences) {
     std::vector<double> row{rows.next(), i.rank_correlation};
-    const Estimate unknown{none, none, none};
+    const SampleEstimate unknown{none, none, none};
     append(row, i.sobol ? i.sobol->first : unknown);
     append(row, i.sobol ? i.sobol->total : unknown);
     rows.add(row, {i.parameter});

@@ -1,6 +1,8 @@
 #include "sweep/sweep_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -15,7 +17,25 @@ namespace {
 
 constexpr std::size_t rows_at_once = 4096;  ///< handed to the file, as far as a second does not pass before
 
-std::vector<ColumnDescription> descriptions(const Study& study) {
+/// Verdicts one after the other; a row of zeros is none.
+std::vector<ColumnDescription> verdict_descriptions() {
+  return {
+      {"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
+      {"trial", "1", "index of the trial"},
+      {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
+      {"speed_difference", "rad/s", "of the gear speed"},
+      {"time", "s", "when the angles differ most"},
+      {"closed_angle_difference", "rad",
+       "largest difference of the gear angle with the own controller; not a number where a sensor rounds to counts, or "
+       "it was not asked"},
+      {"closed_speed_difference", "rad/s", "of the gear speed"},
+      {"closed_time", "s", "when these angles differ most"},
+      {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
+}
+
+}  // namespace
+
+std::vector<ColumnDescription> trial_columns(const Study& study) {
   const auto units = [](const Unit& unit) { return std::string(unit.symbol); };
   std::vector<ColumnDescription> list{{"index", "1", "number of the trial, counted from 0"}};
   for (const UncertainParameter& p : study.parameters)
@@ -30,25 +50,6 @@ std::vector<ColumnDescription> descriptions(const Study& study) {
   list.push_back(std::move(status));  // the last one: it says that the row is there
   return list;
 }
-
-/// Calls visit(part) for parts of a range so large that memory does not grow with it.
-template <class Visit>
-void for_each_block(TrialRange range, Visit&& visit) {
-  constexpr std::uint64_t at_once = 1 << 20;
-  for (std::uint64_t first = range.first; first < range.end; first += at_once)
-    visit(TrialRange{first, std::min(first + at_once, range.end)});
-}
-
-/// Verdicts one after the other; a row of zeros is none.
-std::vector<ColumnDescription> verdict_descriptions() {
-  return {{"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
-          {"trial", "1", "index of the trial"},
-          {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
-          {"speed_difference", "rad/s", "of the gear speed"},
-          {"time", "s", "when the angles differ most"}};
-}
-
-}  // namespace
 
 ReasonTable::ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts) {
   for (std::size_t k = 0; k < examples.size(); ++k) {
@@ -84,7 +85,7 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   write_attribute(file.file(), "end_trial", static_cast<std::int64_t>(range.end));
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
-  FixedTable::create(file.file(), "trials", descriptions(study), range.size());
+  FixedTable::create(file.file(), "trials", trial_columns(study), range.size());
   FixedTable::create(file.file(), "referee", verdict_descriptions(), most_verdicts);
   create_summary_tables(file.file(), study);
   file.finish();
@@ -96,7 +97,7 @@ SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange ran
       reasons_(std::move(reasons)),
       reasons_written_(reasons_.entries().size()),
       flushed_(Clock::now()) {
-  table_.emplace(file_.file(), "trials", descriptions(study));
+  table_.emplace(file_.file(), "trials", trial_columns(study));
   reason_texts_.emplace(file_.file(), "reasons");
   columns_.resize(study.parameters.size() + study.metrics.size() + 3);
 }
@@ -130,13 +131,16 @@ void SweepFile::flush() {
   for (std::vector<double>& column : columns_) column.clear();
 }
 
-void SweepFile::write(const std::vector<Verdict>& verdicts) {
+void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
   const std::size_t count = std::min(verdicts.size(), most_verdicts);
   std::vector<std::vector<double>> columns(verdict_descriptions().size());
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [trial, found, halted] = verdicts[k];
+    const auto& [trial, found, in_loop, halted] = verdicts[k];
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const Disagreement closed = in_loop.closed.value_or(Disagreement{none, none, none});
     auto column = columns.begin();
-    for (const double value : {halted ? 2.0 : 1.0, static_cast<double>(trial), found.angle, found.speed, found.t})
+    for (const double value : {halted ? 2.0 : 1.0, static_cast<double>(trial), found.angle, found.speed, found.t,
+                               closed.angle, closed.speed, closed.t, in_loop.parted.value_or(none)})
       (column++)->push_back(value);
   }
   FixedTable table(file_.file(), "referee", verdict_descriptions());
@@ -164,9 +168,9 @@ SweepReader::SweepReader(const std::string& path) : path_(path) {
     range_ = {static_cast<std::uint64_t>(read_integer_attribute(file_, "first_trial")),
               static_cast<std::uint64_t>(read_integer_attribute(file_, "end_trial"))};
     reasons_ = read_fixed_texts(file_, "reasons");
-    for_each_block(range_, [&](TrialRange block) {
+    for_each_block({}, [&](const Block& block) {
       std::uint64_t trial = block.first;
-      for (const double status : read_column(file_, "trials/status", block.first - range_.first, block.size())) {
+      for (const double status : block.status) {
         if (status != 0.0) extend(present_, {trial, trial + 1});
         ++trial;
       }
@@ -194,8 +198,17 @@ std::string SweepReader::why_not_of(const SweepReader& other) const {
   return why_not(other.study_.text, other.scenario_, other.build_);
 }
 
-std::vector<double> SweepReader::column(const std::string& name) const {
-  return read_column(file_, "trials/" + name, 0, range_.size());
+void SweepReader::for_each_block(const std::vector<std::string>& columns,
+                                 const std::function<void(const Block&)>& visit) const {
+  constexpr std::uint64_t at_once = 1 << 16;
+  for (std::uint64_t first = range_.first; first < range_.end; first += at_once) {
+    const auto read = [&](const std::string& name) {
+      return read_column(file_, "trials/" + name, first - range_.first, std::min(at_once, range_.end - first));
+    };
+    Block block{first, read("status"), {}};
+    for (const std::string& name : columns) block.columns.push_back(read(name));
+    visit(block);
+  }
 }
 
 std::vector<Trial> SweepReader::read(TrialRange range) const {
@@ -216,20 +229,27 @@ std::vector<Trial> SweepReader::read(TrialRange range) const {
   return trials;
 }
 
-std::vector<Verdict> SweepReader::verdicts() const {
+std::vector<RefereeVerdict> SweepReader::verdicts() const {
   const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
   const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
-                            speed = read("speed_difference"), t = read("time");
-  std::vector<Verdict> list;
-  for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k)
-    list.push_back({static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, judged[k] == 2.0});
+                            speed = read("speed_difference"), t = read("time"),
+                            closed_angle = read("closed_angle_difference"),
+                            closed_speed = read("closed_speed_difference"), closed_t = read("closed_time"),
+                            parted = read("parted");
+  std::vector<RefereeVerdict> list;
+  for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k) {
+    RefereeVerdict verdict{static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, {}, judged[k] == 2.0};
+    if (!std::isnan(closed_angle[k])) verdict.in_loop.closed = {closed_angle[k], closed_speed[k], closed_t[k]};
+    if (!std::isnan(parted[k])) verdict.in_loop.parted = parted[k];
+    list.push_back(verdict);
+  }
   return list;
 }
 
 ReasonTable SweepReader::counted_reasons() const {
   std::vector<std::uint64_t> counts(reasons_.size());
-  for_each_block(range_, [&](TrialRange block) {
-    for (const double code : read_column(file_, "trials/reason", block.first - range_.first, block.size()))
+  for_each_block({"reason"}, [&](const Block& block) {
+    for (const double code : block.columns.front())
       if (code > 0.0) ++counts.at(static_cast<std::size_t>(code) - 1);
   });
   return {reasons_, counts};

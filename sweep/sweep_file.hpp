@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ class ReasonTable {
   std::vector<Entry> entries_;
 };
 
+/// The columns of the table /trials.
+std::vector<ColumnDescription> trial_columns(const Study& study);
+
 /// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
 /// that the sweep can be resumed.
 class SweepFile {
@@ -54,7 +58,7 @@ class SweepFile {
   /// Makes all trials safe.
   void flush();
   /// Writes what a referee found.
-  void write(const std::vector<Verdict>& verdicts);
+  void write(const std::vector<RefereeVerdict>& verdicts);
   /// Sums up the trials in /summary and gives the file its final name.
   void finish();
 
@@ -95,12 +99,18 @@ class SweepReader {
   std::string why_not_of(const Study& study) const;
   std::string why_not_of(const SweepReader& other) const;
 
-  /// A column over the whole range; 0 where a trial is missing.
-  std::vector<double> column(const std::string& name) const;
+  /// Trials one after the other: which is the first, how they ended (0: it is missing), and some of their columns.
+  struct Block {
+    std::uint64_t first;
+    std::vector<double> status;
+    std::vector<std::vector<double>> columns;
+  };
+  /// Calls visit for blocks of the whole range, so large that memory does not grow with it.
+  void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const;
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }
-  std::vector<Verdict> verdicts() const;
+  std::vector<RefereeVerdict> verdicts() const;
   /// The reasons of the trials that it has, counted.
   ReasonTable counted_reasons() const;
 

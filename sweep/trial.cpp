@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "events/halt.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/refusal.hpp"
 #include "scenarios/table_reader.hpp"
@@ -22,19 +21,29 @@ std::string_view name(TrialStatus status) {
   return "";
 }
 
-Trials::Trials(const Study& study)
-    : study_(study), design_(study.design, study.parameters.size(), study.seed), scenario_(study.scenario) {
-  const std::vector<Variable> all = variables(scenario_);
-  for (const UncertainParameter& parameter : study.parameters)
-    variables_.push_back(
-        *std::find_if(all.begin(), all.end(), [&](const Variable& v) { return v.spelling.key == parameter.path; }));
+Trials::Trials(const Study& study, LaneKind lanes)
+    : study_(study),
+      design_(study.design, study.parameters.size(), study.seed),
+      lanes_(lanes),
+      scenarios_(runs_together(study.scenario), study.scenario) {
+  for (Scenario& scenario : scenarios_) {
+    const std::vector<Variable> all = variables(scenario);
+    std::vector<Variable>& chosen = variables_.emplace_back();
+    for (const UncertainParameter& parameter : study.parameters)
+      chosen.push_back(
+          *std::find_if(all.begin(), all.end(), [&](const Variable& v) { return v.spelling.key == parameter.path; }));
+  }
 }
 
-std::string Trials::set_up(Trial& trial, std::vector<double> u) {
+Trial Trials::row(std::uint64_t index) const {
+  return {index, {}, std::vector<double>(study_.metrics.size(), std::numeric_limits<double>::quiet_NaN()), {}, {}};
+}
+
+std::string Trials::set_up(std::size_t place, Trial& trial, std::vector<double> u) {
   study_.copula.apply(u);
   std::string refusal;
   for (std::size_t k = 0; k < u.size(); ++k) {
-    const Variable& variable = variables_[k];
+    const Variable& variable = variables_[place][k];
     const double stated = quantile(study_.parameters[k].distribution, u[k]);
     const double si = stated * variable.spelling.unit.si;
     variable.set(stated);
@@ -46,35 +55,54 @@ std::string Trials::set_up(Trial& trial, std::vector<double> u) {
   return refusal;
 }
 
-void Trials::run(Trial& trial) {
-  const Outcome outcome{run_scenario(scenario_), lemma1_conditions(scenario_)};
-  for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics[k] = study_.metrics[k].of(outcome);
+bool Trials::prepare(std::size_t place, Trial& trial, std::vector<double> point) {
+  trial.reason = set_up(place, trial, std::move(point));
+  if (trial.reason.empty()) trial.reason = why_it_cannot_run(scenarios_[place]).value_or("");
+  if (!trial.reason.empty()) trial.status = TrialStatus::refused;
+  return trial.reason.empty();
 }
 
-Trial Trials::operator()(std::uint64_t index) { return made(index, design_.point(index)); }
-Trial Trials::at(const std::vector<double>& point) { return made(0, point); }
-
-Trial Trials::made(std::uint64_t index, std::vector<double> point) {
-  Trial trial{index, {}, std::vector<double>(study_.metrics.size(), std::numeric_limits<double>::quiet_NaN()), {}, {}};
-  trial.reason = set_up(trial, std::move(point));
-  if (trial.reason.empty()) trial.reason = why_it_cannot_run(scenario_).value_or("");
-  trial.status = trial.reason.empty() ? TrialStatus::done : TrialStatus::refused;
-  if (trial.status == TrialStatus::done) try {
-      run(trial);
-    } catch (const Halt& halt) {
+void Trials::run(const std::vector<Trial*>& prepared) {
+  std::vector<BatchResult> results = run_batch(std::span(scenarios_).first(prepared.size()), lanes_);
+  for (std::size_t place = 0; place < prepared.size(); ++place) {
+    Trial& trial = *prepared[place];
+    if (auto* const summary = std::get_if<RunSummary>(&results[place])) {
+      trial.status = TrialStatus::done;
+      const Outcome outcome{std::move(*summary), lemma1_conditions(scenarios_[place])};
+      for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics[k] = study_.metrics[k].of(outcome);
+    } else {
       trial.status = TrialStatus::halted;
-      trial.reason = halt.what();
-    } catch (const SolverFault& fault) {  // before the run began
-      trial.status = TrialStatus::halted;
-      trial.reason = fault.what();
+      trial.reason = std::get<std::string>(results[place]);
     }
+  }
+}
+
+std::vector<Trial> Trials::operator()(TrialRange range) {
+  std::vector<Trial> trials;
+  trials.reserve(range.size());
+  std::vector<Trial*> prepared;
+  for (std::uint64_t index = range.first; index < range.end; ++index) {
+    Trial& trial = trials.emplace_back(row(index));
+    if (prepare(prepared.size(), trial, design_.point(index))) prepared.push_back(&trial);
+    if (prepared.size() == scenarios_.size()) {
+      run(prepared);
+      prepared.clear();
+    }
+  }
+  run(prepared);
+  return trials;
+}
+
+Trial Trials::at(const std::vector<double>& point) {
+  Trial trial = row(0);
+  if (prepare(0, trial, point)) run({&trial});
   return trial;
 }
 
 const Scenario& Trials::scenario(std::uint64_t index) {
-  Trial trial{index, {}, {}, {}, {}};
-  set_up(trial, design_.point(index));
-  return scenario_;
+  Trial trial = row(index);
+  set_up(0, trial, design_.point(index));
+  return scenarios_.front();
 }
 
 std::string kind_of_reason(const std::string& reason) {

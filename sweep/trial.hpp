@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/run_batch.hpp"
 #include "sweep/study.hpp"
+#include "sweep/trial_range.hpp"
 #include "sweep/variable.hpp"
 
 namespace wormdrive {
@@ -29,30 +31,39 @@ struct Trial {
 /// Makes the trials of a study, any of them in any order; a thread has its own.
 class Trials {
  public:
-  explicit Trials(const Study& study);
-  Trials(const Trials&) = delete;  // variables point into the scenario
+  /// lanes: in which trials run that fit; rows do not depend on it.
+  explicit Trials(const Study& study, LaneKind lanes = widest_lanes());
+  Trials(const Trials&) = delete;  // variables point into the scenarios
   Trials& operator=(const Trials&) = delete;
 
-  Trial operator()(std::uint64_t index);
+  /// How many trials gain from being made together; 1 where each has a register to itself.
+  std::uint64_t together() const { return scenarios_.size(); }
+
+  Trial operator()(std::uint64_t index) { return std::move((*this)({index, index + 1}).front()); }
+  std::vector<Trial> operator()(TrialRange range);
   /// A trial at another point of the unit cube than those of the design; its index stands for nothing.
   Trial at(const std::vector<double>& point);
   /// The point of the unit cube at which the design puts a trial.
   std::vector<double> point(std::uint64_t index) { return design_.point(index); }
   /// The scenario of a trial; why it cannot run is told by the trial.
   const Scenario& scenario(std::uint64_t index);
-  /// The scenario of the latest trial.
-  const Scenario& scenario() const { return scenario_; }
+  /// The scenario of the latest trial that was asked for alone.
+  const Scenario& scenario() const { return scenarios_.front(); }
 
  private:
-  /// Puts the values at a point into the scenario and the trial; returns what bounds say against them.
-  std::string set_up(Trial& trial, std::vector<double> point);
-  Trial made(std::uint64_t index, std::vector<double> point);
-  void run(Trial& trial);
+  Trial row(std::uint64_t index) const;
+  /// Puts the values at a point into a scenario and the trial; returns what bounds say against them.
+  std::string set_up(std::size_t place, Trial& trial, std::vector<double> point);
+  /// The same; whether the trial can run.
+  bool prepare(std::size_t place, Trial& trial, std::vector<double> point);
+  /// Runs trials whose scenarios have been set up, one after the other from the first place on.
+  void run(const std::vector<Trial*>& prepared);
 
   const Study& study_;
   Design design_;
-  Scenario scenario_;
-  std::vector<Variable> variables_;  ///< of each parameter
+  LaneKind lanes_;
+  std::vector<Scenario> scenarios_;               ///< of trials that are made together
+  std::vector<std::vector<Variable>> variables_;  ///< of each scenario, of each parameter
 };
 
 /// Reasons that differ in their numbers alone are one kind: the numbers replaced, what led up to a halt cut off.

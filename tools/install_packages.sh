@@ -22,9 +22,13 @@ packages=(
   libnlopt-dev         # searches for the worst case
   libopenmpi-dev       # sweeps shared by several machines
   openmpi-bin          # mpirun
+  libarchive-dev       # writes FMUs, which are zip archives
+  libjs-dygraphs       # reports: goes into the program when it is built
   catch2               # unit tests
+  pybind11-dev         # the Python module
+  python3-dev          # the Python module
   python3              # plots and tools/check_layers
-  python3-numpy        # plots
+  python3-numpy        # plots, the Python module
   python3-h5py         # plots: reads the result files
   python3-matplotlib   # plots: draws them
 )  # git is not on the list: with it the commit is recorded in the results, without it they say so

@@ -93,7 +93,7 @@ TEST_CASE("an HDF5 attribute that is no single text is no scenario") {
 TEST_CASE("a command that does not exist, and words that do not belong, end with exit code 2") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  refuse_all(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, list",
+  refuse_all(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, fmu, schema, new, diff, report, list",
                        {"simulate", "s.toml"}, true},
                       {"statics without teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n",
                        "s.toml: error: mesh.kind = \"none\" has no statics; only teeth lock", {"statics", "s.toml"}, true}});

@@ -1,5 +1,10 @@
 #pragma once
 // Bad input as a table: what is wrong, and word for word what the program says about it.
+#include <cstdlib>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
 #include "catch.hpp"
 #include "cli/program.hpp"
 
@@ -21,8 +26,32 @@ inline bool says(const std::string& expected, const std::string& message) {
   return message.starts_with(start) && message.size() > start.size() + 1 && message.find('\n') == message.size() - 1;
 }
 
+/// Bytes as hexadecimal digits: scenarios here need not be UTF-8.
+inline std::string hexadecimal(const std::string& bytes) {
+  std::string text;
+  for (const unsigned char byte : bytes) text += {"0123456789abcdef"[byte >> 4], "0123456789abcdef"[byte & 15]};
+  return text;
+}
+
+/// Appends the cases that are `wormdrive run s.toml` to a file, one JSON object a line, with the other files of the
+/// folder: the tests of the Python module ask the same of it.
+inline void list_cases(const std::string& file, const Folder& folder, const std::vector<BadInput>& cases) {
+  nlohmann::json beside = nlohmann::json::object();
+  for (const std::string& name : folder.names())
+    if (std::filesystem::is_regular_file(folder / name)) beside[name] = hexadecimal(folder.read(name));
+  std::ofstream out(file, std::ios::app);
+  for (const BadInput& bad : cases)
+    if (!bad.alone && bad.words.empty() && bad.exit == 2 && !bad.scenario.empty())
+      out << nlohmann::json{{"name", bad.name},
+                            {"scenario", hexadecimal(bad.scenario)},
+                            {"message", bad.message},
+                            {"beside", beside}}
+          << '\n';
+}
+
 /// Runs every case in the folder and checks message, exit code, and that no file came or went.
 inline void refuse_all(const Folder& folder, const std::vector<BadInput>& cases) {
+  if (const char* file = std::getenv("WORMDRIVE_LIST_CASES")) return list_cases(file, folder, cases);
   for (const BadInput& bad : cases) {
     if (!bad.scenario.empty()) folder.write("s.toml", bad.scenario);
     std::vector<std::string> words = bad.words;

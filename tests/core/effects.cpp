@@ -64,12 +64,11 @@ TEST_CASE(
   const auto bare = entered(p, fig9_load(), fig9_motor());
   const auto idle = entered(p, fig9_load(), fig9_motor(), bearings(0.0, 0.0));
   for (const Mode& mode : moving_modes)
-    for (const volatile double any_t : {0.01, 0.4, 1.7})
-      for (const volatile double any_theta : {-3.0, 0.1, 2.0}) {
-        const double t = any_t, theta = any_theta;  // unknown to the compiler, whose own cosines are rounded otherwise
+    for (const double t : {0.01, 0.4, 1.7})
+      for (const double theta : {-3.0, 0.1, 2.0}) {
         const auto at = bare.moment(t, theta, sign(mode.motion) * 0.7);
-        const double tau_m = 0.05 * std::cos(2.0 * std::numbers::pi * 1.5 * t + 90 * unit::degree);
-        const double tau_l = 0.0196 * std::cos(theta);
+        const double tau_m = 0.05 * portable::cos(2.0 * std::numbers::pi * 1.5 * t + 90 * unit::degree);
+        const double tau_l = 0.0196 * portable::cos(theta);
         const double C = bare.mesh().C(mode.product() * p.mu);
         REQUIRE(same_bits(bare.acceleration(at, mode), (tau_m + C * tau_l) / (p.Jw * p.i + C * p.Jg)));
         REQUIRE(same_bits(bare.acceleration(at, mode), idle.acceleration(at, mode)));

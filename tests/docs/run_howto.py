@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Checks that the documentation is true: run_howto.py PROGRAM
+"""Checks that the documentation is true: run_howto.py PROGRAM [PICTURES]
 
   commands  code blocks marked `sh test` or `python test` run, page by page, in a folder with a copy of scenarios/
+  pictures  each picture on a page in docs/ is made by commands of that page
   code      what stands between // [howto] and // [/howto] in tests/docs/NAME.cpp stands in docs/howto/NAME.md
   links     every link between pages leads to a file, and to a heading in it
 
-One line per fault, exit status 1 if there is any.
+One line per fault, exit status 1 if there is any. With PICTURES, a folder, blocks marked `sh pictures`, which take longer,
+run too, and the pictures on the pages are written there.
 """
 
 import os
@@ -18,8 +20,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "output/schema.md", *sorted(ROOT.glob("docs/**/*.md"))]
-BLOCK = re.compile(r"^```(?P<language>\w*)(?P<test> test)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(?P<language>\w*)(?P<mark> test| pictures)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
 MARKED = re.compile(r"^// \[howto\]\n(.*?)^// \[/howto\]$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"!\[[^\]]*\]\((?:\.\./)?(?:docs/)?pictures/([^)]*)\)")
+MADE = re.compile(r"([\w./]+)\.(?:h5|png)\b")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)")
 PRELUDE = "set -euo pipefail\ntrap 'status=$?; ((status == 0)) || echo \"$block: exit status $status\" >&2' EXIT\n"
 
@@ -28,19 +32,34 @@ def name(page):
     return os.path.relpath(page, ROOT)
 
 
-def command_faults(page, text, program):
-    """Runs the marked blocks of a page in one bash and returns what went wrong."""
-    script = PRELUDE
-    for block in filter(lambda found: found["test"], BLOCK.finditer(text)):
+def picture_faults(page, text):
+    """Yields the pictures of a page that none of its commands draws."""
+    made = {Path(name).name for block in BLOCK.finditer(text) if block["mark"] for name in MADE.findall(block["code"])}
+    for picture in PICTURE.findall(text):
+        if Path(picture).stem not in made and page.name != "README.md":
+            yield f"{name(page)}: no command draws pictures/{picture}"
+
+
+def command_faults(page, text, program, pictures):
+    """Runs the marked blocks of a page in one bash, keeps the pictures it shows, and returns what went wrong."""
+    script, marks = PRELUDE, {" test", " pictures"} if pictures else {" test"}
+    for block in filter(lambda found: found["mark"] in marks, BLOCK.finditer(text)):
         code, line = block["code"], text.count("\n", 0, block.start()) + 1
         if block["language"] == "python":
             code = f"/usr/bin/python3 - <<'END_OF_BLOCK'\n{code}END_OF_BLOCK\n"
         script += f"block={name(page)}:{line}\n{code}"
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "scenarios", Path(folder, "scenarios"))
-        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
+        for beside in ("docs", "plots"):
+            Path(folder, beside).symlink_to(ROOT / beside)
+        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}",
+                       "PYTHONPATH": str(program.parent / "python")}
         run = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True)
+        for picture in PICTURE.findall(text) if pictures else []:
+            for made in [Path(folder, picture), *Path(folder).glob(f"*/{picture}")]:
+                if made.is_file():
+                    shutil.copy(made, pictures)
     return [run.stderr.rstrip()] if run.returncode else []
 
 
@@ -70,9 +89,11 @@ def code_faults():
 
 
 if __name__ == "__main__":
-    faults = list(code_faults()) if len(sys.argv) == 2 else sys.exit(__doc__)
+    faults = list(code_faults()) if len(sys.argv) in (2, 3) else sys.exit(__doc__)
+    kept = Path(sys.argv[2]) if len(sys.argv) == 3 else None
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        faults += [*link_faults(page, text), *command_faults(page, text, Path(sys.argv[1]).resolve())]
+        faults += [*link_faults(page, text), *picture_faults(page, text),
+                   *command_faults(page, text, Path(sys.argv[1]).resolve(), kept)]
     print(*faults, f"docs: {len(PAGES)} pages, {len(faults)} faults", sep="\n")
     sys.exit(1 if faults else 0)

@@ -138,6 +138,9 @@ std::vector<Case> draw(const Plan& plan) {
   return cases;
 }
 
+/// Of teeth that an encoder on the worm does not see yield [N/m].
+constexpr double rigid_teeth = 1e9;
+
 wormdrive::Scenario data_sheet(const Conditions& conditions) {
   const truth::Geometry g;
   wormdrive::Scenario sheet;
@@ -173,6 +176,7 @@ Bench record(const Case& drawn) {
   drive.noise.coloured = drawn.conditions.coloured_torque;
   drive.sensor.counts = drawn.conditions.counts;
   drive.sensor.worm_counts = drawn.conditions.worm_counts;
+  if (drawn.conditions.worm_counts > 0.0) drive.teeth.stiffness = rigid_teeth;
   truth::disturb_nominal(drive, drawn.conditions.errors, generator);
   for (const Hiding& hiding : drawn.hidden) hiding.secret->hide(drive, hiding.amount, generator);
   const auto course = truth::rich_course(generator(), drawn.duration);

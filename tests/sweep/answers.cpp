@@ -95,6 +95,7 @@ TEST_CASE("the referee agrees with the fast path, and says so where it does not"
   REQUIRE(outcome.exit == 0);
   CHECK(outcome.out.find("  referee  5 trials again with cvode under the recorded torque: angles within ") !=
         std::string::npos);
+  CHECK(outcome.out.find("  referee  2 of them with their own controller: angles within ") != std::string::npos);
   CHECK(outcome.out.find("disagrees") == std::string::npos);
   const auto verdicts = [&](const std::string& file, const std::string& column) {
     return read_column(open_hdf5(folder / file), "referee/" + column);
@@ -115,6 +116,33 @@ TEST_CASE("the referee agrees with the fast path, and says so where it does not"
   CHECK(strict.out.find("  referee  disagrees by more than 1e-300 rad, or cannot go on, in 5 of them: trials ") !=
         std::string::npos);
   CHECK(folder.run({"summary", "strict.h5"}).out.find("disagrees by more than 1e-300 rad") != std::string::npos);
+}
+
+TEST_CASE("where a sensor rounds to counts the referee tells when they part", "[sweep]") {
+  const StudyFolder folder(edited(closed, "run.solver=taylor", "run.solver=taylor\", \"sensor.counts=100000000"));
+  const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "5"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  const Hdf5Handle file = open_hdf5(folder / "o.h5");
+  const auto verdicts = [&](const std::string& column) { return read_column(file, "referee/" + column); };
+  const std::vector<double> replayed = verdicts("angle_difference"), closed_loop = verdicts("closed_angle_difference"),
+                            parted = verdicts("parted"), trial = verdicts("trial");
+  double first = std::numeric_limits<double>::infinity();
+  long count = 0;
+  for (std::size_t k = 0; k < 5; ++k) {  // the first and the fifth have their own controller
+    CHECK(replayed[k] < 1e-8);
+    CHECK(std::isnan(closed_loop[k]));
+    if (std::isnan(parted[k])) continue;
+    ++count;
+    first = std::min(first, parted[k]);
+  }
+  REQUIRE(count > 0);
+  CHECK(first > 0.0);
+  CHECK(outcome.out.find(fmt::format(
+            "in {} of them, with their own controller, the sensor's counts part; first in trial ", count)) !=
+        std::string::npos);
+  CHECK(outcome.out.find(fmt::format(" at {:.6g} s\n", first)) != std::string::npos);
+  CHECK(outcome.out.find("disagrees") == std::string::npos);
 }
 
 TEST_CASE("the worst case is the corner of the box where it has to be", "[sweep]") {

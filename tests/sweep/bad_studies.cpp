@@ -142,6 +142,37 @@ TEST_CASE("trials that cannot run become rows with their reason, and the sweep i
   }
 }
 
+TEST_CASE("trials whose controller does not hold the drive end as rows too", "[sweep]") {
+  for (const char* scenario : {"fig10_pid_014rad_bare.toml", "fig10_sliding_014rad_bare.toml"}) {
+    const StudyFolder folder(R"(scenario = ")" + shipped(scenario) + R"("
+set = ["run.solver=taylor", "run.duration_s=3", "run.report_interval_s=3"]
+[sweep]
+design = "monte_carlo"
+trials = 40
+seed = 2
+[[parameter]]
+path = "controller.sample_time_s"
+distribution = "discrete"
+values = [1e-3, 0.03]
+weights = [95, 5]
+)");
+    const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "1"});
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.exit == 0);
+    const std::vector<double> status = folder.column("o.h5", "status"),
+                              period = folder.column("o.h5", "controller.sample_time");
+    long halted = 0;
+    for (std::size_t k = 0; k < status.size(); ++k) {
+      REQUIRE(status[k] == (period[k] == 1e-3 ? 1.0 : 3.0));
+      halted += status[k] == 3.0;
+    }
+    CHECK(halted > 0);
+    CHECK(outcome.out.find(fmt::format("  failed   {}: cannot go on at t = ", halted)) != std::string::npos);
+    CHECK(outcome.out.find("more than 100000 steps to the next sample or report; the controller does not hold the "
+                           "drive, or reports are too far apart") != std::string::npos);
+  }
+}
+
 TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[sweep]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 500000"));
   REQUIRE(folder.interrupted({"-o", "o.h5"}, SIGINT).exit == 128 + SIGINT);

@@ -2,6 +2,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include <sys/stat.h>
+
 #include "catch.hpp"
 #include "sweep/studies.hpp"
 
@@ -41,7 +43,8 @@ std::vector<pid_t> children(pid_t parent) {
 
 TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep]") {
   if (!has_mpi()) return;
-  const StudyFolder folder(study_but("trials = 200", "trials = 2000"));
+  const auto study = GENERATE(as<std::string>(), good_study, lanes_study);
+  const StudyFolder folder(edited(study, "trials = 200", "trials = 2000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
   for (const char* count : {"1", "2", "4"}) {
     const std::string file = std::string(count) + ".h5";
@@ -57,14 +60,14 @@ TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 100000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
-  const auto begun = [&] {
-    for (const std::string& name : folder.names())
-      if (name.starts_with("ranks.h5.rank_1_1")) return true;
-    return false;
+  // room that the second rank's file takes on the disk: rows take some, their place from the start takes none
+  const auto room = [&] {
+    struct stat file {};
+    return stat((folder / "ranks.h5.rank_1_1.part").c_str(), &file) == 0 ? file.st_blocks : 0;
   };
   Process job(on_ranks("2", {"-o", "ranks.h5"}), folder.path());
-  while (!begun()) usleep(1000);
-  usleep(300'000);
+  while (room() == 0) usleep(1000);
+  for (const auto empty = room(); room() == empty;) usleep(1000);
   const std::vector<pid_t> mpiruns = children(getpid());
   REQUIRE(mpiruns.size() == 1);
   const std::vector<pid_t> ranks = children(mpiruns.front());
@@ -106,6 +109,29 @@ TEST_CASE("what a single process has left, ranks go on with", "[sweep]") {
   INFO(outcome.err);
   REQUIRE(outcome.exit == 0);
   CHECK(folder.rows("ranks.h5") == folder.rows("alone.h5"));
+}
+
+TEST_CASE("ranks end for as many failures, and say so in the words, of a single process", "[sweep]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder(edited(lanes_study, "trials = 200", "trials = 4000"));
+  const auto told = [](const std::string& said) {  // "11 of 432 trials failed, ...; most often: ..."
+    const std::size_t begin = said.find("wormdrive: ");
+    return said.substr(begin, said.find("; ", said.find("most often")) - begin);
+  };
+  const Outcome alone = folder.sweep({"-o", "alone.h5", "--max-failures", "10"});
+  REQUIRE(alone.exit == 3);
+  REQUIRE(told(alone.err).starts_with("wormdrive: 11 of "));
+  for (const char* count : {"2", "4"}) {
+    const std::string file = std::string(count) + ".h5";
+    const Outcome outcome = Process(on_ranks(count, {"-o", file, "--max-failures", "10"}), folder.path()).wait();
+    CHECK(outcome.exit == 3);
+    CHECK(told(outcome.err) == told(alone.err));
+    // what was there counts when it goes on
+    const Outcome again =
+        Process(on_ranks(count, {"-o", file, "--max-failures", "10", "--resume"}), folder.path()).wait();
+    CHECK(again.exit == 3);
+    CHECK(told(again.err) == told(alone.err));
+  }
 }
 
 TEST_CASE("bad input on ranks is told once", "[sweep]") {

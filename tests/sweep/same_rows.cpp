@@ -32,8 +32,9 @@ TEST_CASE("without the processor's own sine, fused multiplication and vectors th
 }
 
 TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
-    const StudyFolder folder(study_but("monte_carlo", design));
+  for (const std::string& study :
+       {good_study, study_but("monte_carlo", "latin_hypercube"), study_but("monte_carlo", "sobol"), lanes_study}) {
+    const StudyFolder folder(study);
     for (const char* threads : {"1", "2", "8"}) {
       const Outcome outcome = folder.sweep({"-o", std::string(threads) + ".h5", "--threads", threads});
       INFO(outcome.err);
@@ -55,7 +56,8 @@ TEST_CASE("another seed makes other rows", "[sweep]") {
 }
 
 TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
-  const StudyFolder folder(study_but("monte_carlo", "latin_hypercube"));
+  const auto study = GENERATE(as<std::string>(), study_but("monte_carlo", "latin_hypercube"), lanes_study);
+  const StudyFolder folder(study);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   std::vector<std::string> merge{"merge"};
   for (int k = 7; k >= 1; --k) {
@@ -71,7 +73,8 @@ TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
 }
 
 TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep]") {
-  const StudyFolder folder(many);
+  const auto study = GENERATE(as<std::string>(), many, edited(lanes_study, "trials = 200", "trials = 60000"));
+  const StudyFolder folder(study);
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;

@@ -31,6 +31,30 @@ below_rad_per_s = -2.5
 )";
 inline std::string study_but(const std::string& part, const std::string& by) { return edited(good_study, part, by); }
 
+/// Closed loops that run in lanes, among them some that are refused and some that have to run alone.
+inline const std::string lanes_study = R"(scenario = ")" + shipped("fig10_sliding_014rad_bare.toml") + R"("
+set = ["run.solver=taylor", "run.duration_s=0.3", "metrics.from_s=0.1", "run.report_interval_s=0.3"]
+[sweep]
+design = "monte_carlo"
+trials = 200
+seed = 3
+[[parameter]]
+path = "mesh.friction"
+distribution = "discrete"
+values = [0.25, 0.3, 20]
+weights = [60, 37, 3]
+[[parameter]]
+path = "effect.mesh_friction.change"
+distribution = "uniform"
+low = -0.05
+high = 0.05
+[[parameter]]
+path = "sensor.counts"
+distribution = "discrete"
+values = [0, 20000]
+weights = [9, 1]
+)";
+
 /// A folder with s.toml and study.toml.
 struct StudyFolder : Folder {
   explicit StudyFolder(const std::string& study = good_study) {

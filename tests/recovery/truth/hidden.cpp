@@ -38,7 +38,7 @@ const std::vector<Secret> known{
      {{"change", [](const Drive& d) { return d.friction.asymmetry; }}}},
     {"position_friction", 0.02, 0.06, 0.18, true, false,
      [](Drive& d, double s, Generator& g) { d.friction.wave = s; d.friction.wave_phase = between(g, 0, turn); },
-     {{"amplitude", [](const Drive& d) { return d.friction.wave; }}}},
+     {{"amplitude", [](const Drive& d) { return std::abs(d.friction.wave); }}}},
     {"friction_drift", 0.03, 0.09, 0.27, true, false,
      [](Drive& d, double s, Generator&) { d.friction.drift = s; }, {{"share", [](const Drive& d) { return d.friction.drift; }}}},
     {"static_friction", 0.01, 0.03, 0.09, false, false,
@@ -110,7 +110,7 @@ const std::vector<Secret> known{
      {{"stiffness", [](const Drive& d) { return d.teeth.stiffness; }}}},
     {"transmission_error", 2e-4, 6e-4, 2e-3, true, true,
      [](Drive& d, double s, Generator& g) { d.teeth.error = s; d.teeth.error_phase = between(g, 0, turn); },
-     {{"amplitude", [](const Drive& d) { return d.teeth.error; }}}}};
+     {{"amplitude", [](const Drive& d) { return std::abs(d.teeth.error); }}}}};
 
 const std::vector<Secret> unknown{
     {"vibration", 2e-3, 4e-3, 8e-3, false, false,

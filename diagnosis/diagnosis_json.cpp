@@ -1,4 +1,4 @@
-#include "cli/diagnosis_json.hpp"
+#include "diagnosis/diagnosis_json.hpp"
 
 #include <cmath>
 

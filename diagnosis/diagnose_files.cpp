@@ -1,4 +1,4 @@
-#include "cli/diagnose_data.hpp"
+#include "diagnosis/diagnose_files.hpp"
 
 #include <algorithm>
 #include <stdexcept>

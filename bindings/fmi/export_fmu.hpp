@@ -1,0 +1,16 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "scenarios/scenario.hpp"
+
+namespace wormdrive {
+
+/// What keeps the plant of a scenario from being an FMU, or nothing: a delay and a lag need a memory of the input.
+std::optional<std::string> not_exportable(const Scenario& scenario);
+
+/// Writes the plant of a scenario as an FMU of FMI 2.0 for model exchange; as NAME.part until it is complete.
+/// Throws OutputFault.
+void export_fmu(const Scenario& scenario, const std::string& path);
+
+}  // namespace wormdrive

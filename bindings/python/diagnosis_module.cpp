@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "bindings/python/module.hpp"
+#include "bindings/python/numpy_table.hpp"
+#include "bindings/python/signals.hpp"
+#include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/diagnosis_json.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace py = pybind11;
+
+namespace wormdrive {
+namespace {
+
+/// What was found: the JSON of a report, the scenarios that follow, the residual torque as a table.
+py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads) {
+  DiagnosisSettings settings;
+  settings.seed = seed;
+  settings.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const DataKind kind = kind_of_data(files, scenario);
+  Diagnosis found = without_python([&](SignalWatch& watch) {
+    settings.progress = [&](const std::string&) { watch(); };
+    return diagnose_files(scenario, kind, files, settings);
+  });
+  ResidualTorque& r = found.residual;
+  py::dict result;
+  result["findings"] = as_json(found, name(kind), files).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  result["extended"] = to_toml(found.extended);
+  result["experiment"] = found.experiment ? py::object(py::str(to_toml(*found.experiment))) : py::none();
+  py::list residual;
+  const auto column = [&](const char* name, const char* units, const char* what, std::vector<double>& values) {
+    residual.append(described({name, units, what}, own(std::move(values))));
+  };
+  column("time", "s", "time of the sample", r.time);
+  column("gear_angle", "rad", "gear angle", r.gear_angle);
+  column("gear_speed", "rad/s", "gear speed", r.gear_speed);
+  column("load_torque", "N m", "load torque", r.load_torque);
+  column("before", "N m", "torque that the stated model lacks", r.before);
+  column("after", "N m", "torque that the extended model lacks", r.after);
+  result["residual"] = residual;
+  return result;
+}
+
+}  // namespace
+
+void add_diagnosis(py::module_& m) { m.def("diagnose", &diagnose); }
+
+}  // namespace wormdrive

@@ -1,0 +1,96 @@
+// The module _core of the Python package: scenarios, runs and their columns; wormdrive/__init__.py makes it handy.
+#include "bindings/python/module.hpp"
+
+#include "bindings/python/numpy_table.hpp"
+#include "bindings/python/run_result.hpp"
+#include "bindings/python/signals.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/quantities.hpp"
+#include "scenarios/steady_scenario.hpp"
+#include "scenarios/warnings.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace py = pybind11;
+using namespace wormdrive;
+
+namespace {
+
+RunResult run(std::shared_ptr<const Scenario> scenario) {
+  RunResult result(std::move(scenario));
+  without_python([&](SignalWatch& watch) { result.run([&](double) { watch(); }); });
+  return result;
+}
+
+/// A table, described as in a result file.
+template <class Source>
+py::list table(const std::vector<RunColumn<Source>>& columns, Axis axis, const std::vector<Source>& rows) {
+  py::list list;
+  const std::vector<ColumnDescription> all = descriptions(columns, axis);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    list.append(described(
+        all[k], all[k].is_flag() ? own(column<std::int8_t>(columns[k], rows)) : own(column<double>(columns[k], rows))));
+  return list;
+}
+
+py::dict as_dict(const std::vector<Quantity>& list) {
+  py::dict all;
+  for (const Quantity& q : list) {
+    py::dict one;
+    one["value"] = q.value;
+    one["unit"] = q.unit;
+    one["meaning"] = q.meaning;
+    all[py::str(q.name)] = one;
+  }
+  return all;
+}
+
+py::object steady(const Scenario& scenario, const py::array_t<double, py::array::forcecast>& speeds) {
+  return py::vectorize([&](double speed) { return steady_torque(scenario, speed); })(speeds);
+}
+
+Purpose purpose(bool look) { return look ? Purpose::look : Purpose::run; }
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "C++ core of wormdrive.";
+  py::register_exception<InputFault>(m, "InputError", PyExc_ValueError);
+  py::register_exception<OutputFault>(m, "OutputError", PyExc_OSError);
+  py::register_exception<Halt>(m, "SimulationHalted", PyExc_RuntimeError);
+  m.def("version", &build_description);
+
+  py::class_<RunResult>(m, "Run")
+      .def("trajectory",
+           [](const RunResult& r) {
+             return table(trajectory_columns(r.elastic()), r.scenario().axis, r.trajectory().rows);
+           })
+      .def("events",
+           [](const RunResult& r) {
+             return table(event_columns(r.elastic()), r.scenario().axis, r.trajectory().events);
+           })
+      .def("controller", [](const RunResult& r) { return table(controller_columns(), r.scenario().axis, r.samples()); })
+      .def_property_readonly("controlled", [](const RunResult& r) { return r.scenario().control.has_value(); })
+      .def_property_readonly("title", [](const RunResult& r) { return r.scenario().title; })
+      .def_property_readonly("toml", [](const RunResult& r) { return to_toml(r.scenario()); })
+      .def_property_readonly("halted", &RunResult::halted)
+      .def("metrics", &RunResult::metrics)
+      .def("statistics", &RunResult::statistics)
+      .def("write", &RunResult::write, py::arg("path"), py::arg("command_line"));
+
+  py::class_<Scenario, std::shared_ptr<Scenario>>(m, "Scenario")
+      .def_static("load", [](const std::string& path, const std::vector<std::string>& overrides,
+                             bool look) { return load_scenario(path, overrides, purpose(look)); })
+      .def_static("parse",
+                  [](const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+                     bool look) { return parse_scenario(text, name, overrides, purpose(look)); })
+      .def_readonly("title", &Scenario::title)
+      .def_property_readonly("toml", &to_toml)
+      .def("run", [](const std::shared_ptr<Scenario>& s) { return run(s); })
+      .def("steady", &steady)
+      .def("parameters", [](const Scenario& s) { return as_dict(parameters(s)); })
+      .def("derived", [](const Scenario& s) { return as_dict(derived(s)); })
+      .def("warnings", &warnings);
+  add_sweep(m);
+  add_diagnosis(m);
+}

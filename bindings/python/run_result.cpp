@@ -1,0 +1,71 @@
+#include "bindings/python/run_result.hpp"
+
+#include <iterator>
+
+#include "core/elastic_teeth.hpp"
+#include "scenarios/write_run.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+template <class T>
+void take(std::vector<T>& whole, std::vector<T> part) {
+  if (whole.empty())
+    whole = std::move(part);
+  else
+    whole.insert(whole.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+}
+
+}  // namespace
+
+void RunResult::run(std::function<void(double)> time) {
+  RunListeners listeners{.rows =
+                             [this](Trajectory part) {
+                               take(trajectory_.rows, std::move(part.rows));
+                               take(trajectory_.events, std::move(part.events));
+                             },
+                         .time = std::move(time)};
+  if (scenario_->control) listeners.samples = [this](const auto& part) { take(samples_, part); };
+  try {
+    summary_ = run_scenario(*scenario_, listeners);
+  } catch (const Halt& halt) {
+    halted_ = halt.what();
+  }
+}
+
+bool RunResult::elastic() const { return has_elastic_teeth(scenario_->effects); }
+
+std::map<std::string, double> RunResult::metrics() const {
+  std::map<std::string, double> all;
+  if (!summary_.control) return all;
+  for_each_field<Metrics>(
+      [&](const auto& field) { all[std::string(field.name)] = summary_.control->metrics.*field.member; });
+  if (!summary_.control->lemma) return all;
+  all["layer_reached"] = summary_.control->lemma->reached();
+  for (const Violation& v : summary_.control->lemma->violations())
+    all[std::string(v.name) + "_violations"] = static_cast<double>(v.count);
+  return all;
+}
+
+std::map<std::string, long> RunResult::statistics() const {
+  const SolverStatistics& s = summary_.statistics;
+  return {{"steps", s.steps},
+          {"evaluations", s.evaluations},
+          {"jacobians", s.jacobians},
+          {"error_test_failures", s.error_test_failures},
+          {"guard_evaluations", s.guard_evaluations},
+          {"restarts", s.restarts}};
+}
+
+void RunResult::write(const std::string& path, const std::string& command_line) const {
+  RunFile file(path, {"run", scenario_->title, to_toml(*scenario_), command_line}, scenario_->axis,
+               {scenario_->control.has_value(), elastic()});
+  write_drive(file.file().file(), *scenario_);
+  file.append(trajectory_);
+  file.append(samples_);
+  if (summary_.control) file.describe(*summary_.control);
+  file.finish(describe_solver(scenario_->run), summary_.statistics);
+}
+
+}  // namespace wormdrive

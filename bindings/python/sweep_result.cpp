@@ -1,0 +1,61 @@
+#include "bindings/python/sweep_result.hpp"
+
+#include <algorithm>
+
+#include "sweep/ensemble.hpp"
+
+namespace wormdrive {
+
+SweepResult::SweepResult(Study study)
+    : study_(std::move(study)), descriptions_(trial_columns(study_)), values_(descriptions_.size()) {}
+
+void SweepResult::run(unsigned threads, const std::function<void()>& between) {
+  std::optional<TrialRange> all = TrialRange{0, study_.trials()};
+  for (std::vector<double>& column : values_) column.reserve(all->size());
+  run_ensemble(
+      study_, [&] { return std::exchange(all, std::nullopt); }, threads,
+      [&](const Trial& trial) {
+        between();
+        take(trial);
+        return true;
+      },
+      [] { return false; });
+}
+
+void SweepResult::take(const Trial& trial) {
+  auto column = values_.begin();
+  (column++)->push_back(static_cast<double>(trial.index));
+  for (const double value : trial.parameters) (column++)->push_back(value);
+  for (const double value : trial.metrics) (column++)->push_back(value);
+  (column++)->push_back(static_cast<double>(reasons_.code(trial.reason)));
+  column->push_back(static_cast<double>(trial.status));
+}
+
+Trial SweepResult::trial(std::size_t row) const {
+  auto column = values_.begin();
+  const auto next = [&] { return (*column++)[row]; };
+  Trial trial;
+  trial.index = static_cast<std::uint64_t>(next());
+  for (std::size_t k = 0; k < study_.parameters.size(); ++k) trial.parameters.push_back(next());
+  for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics.push_back(next());
+  if (const double code = next(); code > 0.0)
+    trial.reason = reasons_.entries().at(static_cast<std::size_t>(code) - 1).example;
+  trial.status = static_cast<TrialStatus>(next());
+  return trial;
+}
+
+std::vector<std::string> SweepResult::reasons() const {
+  std::vector<std::string> list;
+  for (const ReasonTable::Entry& entry : reasons_.entries()) list.push_back(entry.example);
+  return list;
+}
+
+void SweepResult::write(const std::string& path, const std::string& command_line) const {
+  const TrialRange all{0, study_.trials()};
+  SweepFile::create(path, study_, all, command_line);
+  SweepFile file(path, study_, all);
+  for (std::size_t row = 0; row < values_.front().size(); ++row) file.append(trial(row));
+  file.finish();
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,38 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "output/table.hpp"
+#include "sweep/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// The trials of a sweep in memory, column by column.
+class SweepResult {
+ public:
+  explicit SweepResult(Study study);
+
+  /// Makes all trials, on so many threads. between() is called after each, on the calling thread, and may throw.
+  void run(unsigned threads, const std::function<void()>& between);
+
+  const Study& study() const { return study_; }
+  /// As in the table /trials of a file.
+  const std::vector<ColumnDescription>& columns() const { return descriptions_; }
+  const std::vector<double>& column(std::size_t k) const { return values_[k]; }
+  /// The k-th text is what k + 1 in the column `reason` stands for.
+  std::vector<std::string> reasons() const;
+  /// Writes the result file that `wormdrive sweep` would write, without a referee's verdicts. Throws OutputFault.
+  void write(const std::string& path, const std::string& command_line) const;
+
+ private:
+  void take(const Trial& trial);
+  Trial trial(std::size_t row) const;
+
+  Study study_;
+  std::vector<ColumnDescription> descriptions_;
+  std::vector<std::vector<double>> values_;
+  ReasonTable reasons_;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,292 @@
+"""Worm-gear drives, simulated exactly: self-locking, stick, break-in and flank changes as events.
+
+    import wormdrive
+    result = wormdrive.run("scenarios/fig09_switching.toml", mesh={"friction": 0.2})
+    result.trajectory["gear_speed"]        # a NumPy array, in SI
+    result.events["time"]
+
+A scenario is a path (.toml, or a result .h5), TOML text (with a line break in it) or a dict of tables. Overrides are
+tables as keywords, mesh={"friction": 0.2}, or keys with dots, **{"mesh.friction": 0.2}. Faults come as exceptions with
+the words of the command line: InputError (a ValueError), SimulationHalted (a RuntimeError), OutputError (an OSError).
+"""
+
+from __future__ import annotations
+
+import json
+import numbers
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from typing import Any, Optional, Union
+
+from . import _core
+from ._core import InputError, OutputError, SimulationHalted
+
+__all__ = ["run", "steady", "check", "sweep", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
+           "InputError", "OutputError", "SimulationHalted"]
+__version__ = _core.version().split()[1]
+
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scenario"]
+
+
+class Table(Mapping):
+    """Columns of one length by name, as NumPy arrays in SI: `table["time"]` or `table.time`.
+
+    `units` and `long_names` describe them as in a result file; `flag_meanings` tells the words of whole-numbered ones.
+    """
+
+    def __init__(self, columns: list[_core.Column]):
+        self._arrays = {name: array for name, _, _, _, array in columns}
+        self.units = {name: unit for name, unit, _, _, _ in columns}
+        self.long_names = {name: long_name for name, _, long_name, _, _ in columns}
+        self.flag_meanings = {name: words.split() for name, _, _, words, _ in columns if words}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._arrays[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._arrays:
+            raise AttributeError(f"no column '{name}'; the columns are {', '.join(self.__dict__.get('_arrays', ()))}")
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        """Number of columns."""
+        return len(self._arrays)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._arrays]
+
+    def to_xarray(self) -> Any:
+        """The table as an xarray.Dataset over its first column, units as attributes; needs xarray."""
+        import xarray
+
+        def attributes(name: str) -> dict[str, str]:
+            described = {"units": self.units[name], "long_name": self.long_names[name],
+                         "flag_meanings": " ".join(self.flag_meanings.get(name, []))}
+            return {key: text for key, text in described.items() if text}
+
+        over = next(iter(self))
+        data = {name: (over, array, attributes(name)) for name, array in self.items()}
+        return xarray.Dataset({name: column for name, column in data.items() if name != over}, coords={over: data[over]})
+
+
+class Result:
+    """A run: `trajectory` (one row per time), `events` (one per change of mode), `controller` (one per sample, or None).
+
+    `metrics` of a controlled run and `statistics` of the solver are dicts by the names of output/schema.md; `toml` is
+    the resolved scenario. The tables are made when they are first asked for.
+    """
+
+    def __init__(self, run: _core.Run):
+        self._run = run
+        self._tables: dict[str, Optional[Table]] = {}
+
+    def _table(self, name: str, present: bool = True) -> Optional[Table]:
+        if name not in self._tables:
+            self._tables[name] = Table(getattr(self._run, name)()) if present else None
+        return self._tables[name]
+
+    @property
+    def trajectory(self) -> Table:
+        return self._table("trajectory")  # type: ignore[return-value]
+
+    @property
+    def events(self) -> Table:
+        return self._table("events")  # type: ignore[return-value]
+
+    @property
+    def controller(self) -> Optional[Table]:
+        return self._table("controller", self._run.controlled)
+
+    @property
+    def metrics(self) -> dict[str, float]:
+        return self._run.metrics()
+
+    @property
+    def statistics(self) -> dict[str, int]:
+        return self._run.statistics()
+
+    @property
+    def title(self) -> str:
+        return self._run.title
+
+    @property
+    def toml(self) -> str:
+        return self._run.toml
+
+    def to_xarray(self) -> Any:
+        """The trajectory as an xarray.Dataset; `events.to_xarray()` gives the events."""
+        dataset = self.trajectory.to_xarray()
+        dataset.attrs.update(title=self.title, scenario=self.toml)
+        return dataset
+
+    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the HDF5 file that `wormdrive run` writes; raises OutputError."""
+        self._run.write(os.fspath(path), _command_line())
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Result '{self.title}': {len(self.trajectory.time)} rows, {len(self.events.time)} events>"
+
+
+class Sweep:
+    """The trials of a study: `trials` has one row per trial, by the names of output/schema.md; `trials.reason` k > 0 stands
+    for `reasons[k - 1]`."""
+
+    def __init__(self, sweep: _core.Sweep):
+        self._sweep = sweep
+        self.title = sweep.title
+        self.trials = Table(sweep.trials())
+        self.reasons = sweep.reasons()
+
+    def to_xarray(self) -> Any:
+        """The trials as an xarray.Dataset over their index."""
+        return self.trials.to_xarray()
+
+    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the HDF5 file that `wormdrive sweep` writes, without a referee's verdicts; raises OutputError."""
+        self._sweep.write(os.fspath(path), _command_line())
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"
+
+
+class Diagnosis:
+    """What a scenario lacks to explain data: `verdict`, `sentence`, `findings` (all of docs/diagnosis_json.md).
+
+    `extended` is the scenario with the causes as TOML text; `experiment`, if a class of causes remains, one that would
+    split it. `residual` is the torque that the model lacks, sample by sample, before and after.
+    """
+
+    def __init__(self, found: dict[str, Any]):
+        self.findings: dict[str, Any] = json.loads(found["findings"])
+        self.verdict: str = self.findings["verdict"]
+        self.sentence: str = self.findings["sentence"]
+        self.extended: str = found["extended"]
+        self.experiment: Optional[str] = found["experiment"]
+        self.residual = Table(found["residual"])
+
+    def to_xarray(self) -> Any:
+        """The residual torque as an xarray.Dataset over time."""
+        return self.residual.to_xarray()
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Diagnosis {self.verdict}: {self.sentence}>"
+
+
+class Scenario:
+    """A scenario that is read and checked, ready to run as often as wanted. Raises InputError with all faults at once."""
+
+    def __init__(self, source: Source, /, *, _look: bool = False, **overrides: Any):
+        assignments = list(_assignments(overrides))
+        if isinstance(source, Scenario):
+            self._core = _core.Scenario.parse(source.toml, "scenario", assignments, _look) if assignments else source._core
+        elif isinstance(source, Mapping):
+            self._core = _core.Scenario.parse(_document(source), "dict", assignments, _look)
+        elif isinstance(source, str) and "\n" in source:
+            self._core = _core.Scenario.parse(source, "text", assignments, _look)
+        else:
+            self._core = _core.Scenario.load(os.fspath(source), assignments, _look)
+
+    @property
+    def title(self) -> str:
+        return self._core.title
+
+    @property
+    def toml(self) -> str:
+        """The resolved scenario: every value that holds, defaults included."""
+        return self._core.toml
+
+    def run(self) -> Result:
+        """Simulates; other threads run meanwhile, and Ctrl-C ends it. Raises SimulationHalted, whose `result` is the
+        run up to there."""
+        core = self._core.run()
+        result = Result(core)
+        if core.halted is not None:
+            halt = SimulationHalted(core.halted)
+            halt.result = result  # type: ignore[attr-defined]
+            raise halt
+        return result
+
+    def __repr__(self) -> str:
+        return f"<wormdrive.Scenario '{self.title}'>"
+
+
+def run(scenario: Source, /, **overrides: Any) -> Result:
+    """Simulates a scenario: Scenario(scenario, **overrides).run()."""
+    return Scenario(scenario, **overrides).run()
+
+
+def steady(scenario: Source, worm_speed: Any, /, **overrides: Any) -> Any:
+    """Motor torque [N m] that keeps the drive at worm speeds [rad/s], other than 0: an array of their shape."""
+    return Scenario(scenario, _look=True, **overrides)._core.steady(worm_speed)
+
+
+def check(scenario: Source, /, **overrides: Any) -> dict[str, Any]:
+    """What `wormdrive check --json` tells: title, parameters and what follows from them (value, unit, meaning),
+    warnings, the resolved scenario."""
+    core = Scenario(scenario, _look=True, **overrides)._core
+    return {"title": core.title, "parameters": core.parameters(), "derived": core.derived(),
+            "warnings": core.warnings(), "scenario": core.toml}
+
+
+def sweep(study: Union[str, "os.PathLike[str]", Mapping[str, Any]], /, *, threads: int = 0) -> Sweep:
+    """Makes the trials of a study: a path (.toml), TOML text or a dict; of the latter two the scenario is looked for in the
+    working directory. threads=0: as many as the machine has; the rows do not depend on it."""
+    if isinstance(study, Mapping):
+        return Sweep(_core.sweep_text(_document(study), "dict", threads))
+    if isinstance(study, str) and "\n" in study:
+        return Sweep(_core.sweep_text(study, "text", threads))
+    return Sweep(_core.sweep_file(os.fspath(study), threads))
+
+
+def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0, **overrides: Any) -> Diagnosis:
+    """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
+    names of a CSV file, {"time_s": array, ...}."""
+    core = Scenario(scenario, _look=True, **overrides)._core
+    if isinstance(data, Mapping):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "data.csv")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(",".join(data) + "\n")
+                file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
+            return Diagnosis(_core.diagnose(core, [path], seed, threads))
+    files = [data] if isinstance(data, (str, os.PathLike)) else data
+    return Diagnosis(_core.diagnose(core, [os.fspath(file) for file in files], seed, threads))
+
+
+def _command_line() -> str:
+    return f"python {sys.argv[0] if sys.argv else ''}".strip()
+
+
+def _document(tables: Mapping[str, Any]) -> str:
+    return "".join(f"{_key(key)} = {_toml(value)}\n" for key, value in tables.items())
+
+
+def _key(key: str) -> str:
+    return key if key.replace("_", "").replace("-", "").isalnum() and key.isascii() else json.dumps(key, ensure_ascii=False)
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_key(k)} = {_toml(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, (bool, str)):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if hasattr(value, "__iter__"):
+        return "[" + ", ".join(_toml(v) for v in value) + "]"
+    raise TypeError(f"{value!r} is neither a number, a text, True or False, a table nor a list of them")
+
+
+def _assignments(tables: Mapping[str, Any], path: str = "") -> Iterator[str]:
+    for key, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from _assignments(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}={_toml(value)}"

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "cli/describe.hpp"
+#include "cli/help_commands.hpp"
+#include "output/hdf5.hpp"
+#include "scenarios/faults.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr std::string_view mesh_lines =
+    R"([mesh]                                # worm and gear, as a data sheet states them
+ratio = 60                            # worm angle over gear angle
+lead_angle_deg = 3.9                  # of the worm; _rad works too, for every angle
+pressure_angle_deg = 20               # normal pressure angle
+worm_pitch_radius_m = 0.011
+gear_pitch_radius_m = 0.045
+friction = 0.1                        # between the teeth; above about cos(20 deg) tan(3.9 deg) = 0.064 it is self-locking
+worm_inertia_kgm2 = 2.5e-5            # motor included
+gear_inertia_kgm2 = 7.4e-4            # without the load
+)";
+
+constexpr std::string_view arm = R"(
+[load]                                # wormdrive list loads
+kind = "gravity_arm"                  # torque cos(gear angle + angle_offset)
+mass_kg = 1.0
+arm_m = 0.07
+# angle_offset_deg = 0                # of the arm from horizontal at gear angle 0
+)";
+
+constexpr std::string_view effects_lines = R"(
+[effect.worm_coulomb]                 # bearings of the worm; all effects: wormdrive list effects
+torque_Nm = 0.005
+
+# [effect.stribeck]                   # friction that falls with the sliding speed
+# drop = 0.05
+# speed_m_per_s = 0.1
+)";
+
+constexpr std::string_view initial = R"(
+# [initial]
+# gear_angle_deg = 0
+# gear_speed_rad_per_s = 0
+)";
+
+constexpr std::string_view motor = R"(
+[motor.torque]                        # wormdrive list torques; several [[motor.torque]] add up
+kind = "sinusoid"
+amplitude_Nm = 0.15
+frequency_Hz = 1.5
+phase_deg = 90                        # 90: starts at its largest value
+)";
+
+constexpr std::string_view run = R"(
+[run]
+duration_s = 2
+# report_interval_s = 0.002           # a thousandth of the duration if not stated
+# relative_tolerance = 1e-10
+# solver = "taylor"                   # fast; "cvode" is the default
+)";
+
+constexpr std::string_view control = R"(
+[controller]                          # wormdrive list controllers
+kind = "sliding"
+sample_time_s = 0.001
+bandwidth_rad_per_s = 94              # lambda_c
+layer_rad_per_s = 0.3                 # half width Phi of the boundary layer
+eta_rad_per_s2 = 30                   # margin of the switching gain
+beta1 = 2                             # by how much friction may differ, at least 1
+beta2 = 2
+# [controller.nominal]                # what it believes of the drive; as stated above if nothing stands here
+# [controller.variation]              # what it is to withstand: wormdrive check tells whether Lemma 1 holds
+
+[reference]                           # wormdrive list references; several [[reference]] add up
+kind = "sinusoid"
+amplitude_rad = 0.14
+frequency_Hz = 1
+
+[sensor]
+counts = 4000                         # of the encoder, per turn of the gear
+)";
+
+constexpr std::string_view axis_lines = R"([mesh]
+kind = "none"                         # no gear: one mass
+axis = "linear"                       # forces in N, positions in m, masses in kg
+mass_kg = 95
+
+[motor.torque]
+kind = "sinusoid"
+amplitude_N = 60
+frequency_Hz = 0.5
+
+[effect.gear_coulomb]                 # dry friction of the guide
+force_N = 20
+
+[effect.gear_viscous]
+coefficient_Ns_per_m = 200
+)";
+
+constexpr std::string_view teeth = R"(
+[effect.tooth_compliance]             # teeth that yield: worm and gear move on their own
+stiffness_N_per_m = 1e6
+damping_s_per_m = 300                 # law of Hunt and Crossley
+
+[effect.backlash]
+gap_deg = 0.02                        # play of the gear with the worm held
+)";
+
+struct Kind {
+  std::string_view name, title;
+  std::vector<std::string_view> parts;
+};
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all{
+      {"open_loop",
+       "A worm drive under a motor torque over time",
+       {mesh_lines, motor, arm, effects_lines, initial, run}},
+      {"controlled",
+       "A worm drive under a sampled controller",
+       {mesh_lines, control, arm, effects_lines, initial, run}},
+      {"elastic_teeth", "A worm drive with backlash", {mesh_lines, motor, arm, teeth, initial, run}},
+      {"linear_axis", "A linear axis with dry friction", {axis_lines, run}}};
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> new_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+int new_command(const NewOptions& options) {
+  const auto kind = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == options.kind; });
+  std::string text = fmt::format("# Run it: wormdrive run {}. Every key: wormdrive schema, docs/scenario.md.\n",
+                                 std::filesystem::path(options.file).filename().string());
+  text += fmt::format("title = \"{}\"\n\n", kind->title);
+  for (const std::string_view part : kind->parts) text += part;
+  errno = 0;
+  std::FILE* const file = std::fopen(options.file.c_str(), "wx");  // never over something that is there
+  if (!file && errno == EEXIST) refuse({options.file}, "it exists; choose another name");
+  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = file && std::fclose(file) == 0;
+  if (!written || !closed) throw OutputFault(fmt::format("cannot write {}: {}", options.file, std::strerror(errno)));
+  print_item("wrote", fmt::format("{}    run it: wormdrive run {}", options.file, options.file));
+  return 0;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,145 @@
+#include "cli/report_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/report_assets.hpp"
+#include "cli/thinning.hpp"
+
+namespace wormdrive {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Eight digits are more than a screen shows; NaN has no number in JSON.
+Json shortened(double value) {
+  return std::isfinite(value) ? Json(std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr)) : Json(nullptr);
+}
+Json chosen(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+  Json list = Json::array();
+  for (const std::size_t row : rows) list.push_back(shortened(values[row]));
+  return list;
+}
+
+std::string name(ReportPanel::Style style) {
+  switch (style) {
+    case ReportPanel::Style::lines: return "lines";
+    case ReportPanel::Style::steps: return "steps";
+    case ReportPanel::Style::points: return "points";
+  }
+  return "";
+}
+
+Json as_json(const ReportPanel& panel) {
+  std::vector<const std::vector<double>*> columns;
+  for (const ReportSeries& s : panel.series) columns.push_back(&s.values);
+  const std::vector<std::size_t> rows = rows_with_extremes(columns);
+  Json json{{"style", name(panel.style)},
+            {"filled", panel.filled},
+            {"rows", panel.over.size()},
+            {"limits", panel.limits},
+            {"series", Json::array()}};
+  json["over"] = Json::array();
+  for (const std::size_t row : rows) json["over"].push_back(panel.over[row]);
+  for (const ReportSeries& s : panel.series)
+    json["series"].push_back(
+        {{"name", s.name}, {"units", s.units}, {"meaning", s.meaning}, {"values", chosen(s.values, rows)}});
+  return json;
+}
+
+Json as_json(const ReportEvent& e) {
+  Json changes = Json::array();
+  for (const ReportEvent::Change& c : e.changes)
+    changes.push_back({c.name, c.units, shortened(c.before), shortened(c.after)});
+  return {{"at", e.at}, {"what", e.what}, {"before", e.before}, {"after", e.after}, {"changes", std::move(changes)}};
+}
+
+Json as_json(const ReportGroup& group) {
+  Json json{{"title", group.title},    {"over", group.over},     {"units", group.units},
+            {"panels", Json::array()}, {"bands", Json::array()}, {"events", Json::array()}};
+  for (const ReportPanel& panel : group.panels) json["panels"].push_back(as_json(panel));
+  for (const ReportBand& b : group.bands) json["bands"].push_back({b.from, b.to, b.kind, b.meaning});
+  for (const ReportEvent& e : group.events) json["events"].push_back(as_json(e));
+  return json;
+}
+
+Json as_json(const ReportTable& table) {
+  Json json{{"title", table.title}, {"note", table.note}, {"heads", Json::array()}, {"rows", Json::array()}};
+  for (const ReportTable::Head& head : table.heads) json["heads"].push_back({head.name, head.number});
+  for (const auto& row : table.rows) {
+    Json cells = Json::array();
+    for (const auto& cell : row)
+      cells.push_back(std::holds_alternative<double>(cell) ? shortened(std::get<double>(cell))
+                                                           : Json(std::get<std::string>(cell)));
+    json["rows"].push_back(std::move(cells));
+  }
+  return json;
+}
+
+Json as_json(const ReportPage& page) {
+  Json json{{"title", page.title},     {"summary", page.summary}, {"verdict", page.verdict}, {"remarks", page.remarks},
+            {"groups", Json::array()}, {"tables", Json::array()}, {"texts", Json::array()}};
+  for (const ReportGroup& group : page.groups) json["groups"].push_back(as_json(group));
+  for (const ReportTable& table : page.tables) json["tables"].push_back(as_json(table));
+  for (const ReportText& text : page.texts) json["texts"].push_back({text.title, text.text});
+  return json;
+}
+
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return html;
+}
+
+/// JSON inside <script>: "</script>" in a text must not end it.
+std::string embedded(const Json& data) {
+  std::string safe;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  return safe;
+}
+
+}  // namespace
+
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+ReportTable table_of(const std::string& title, const std::vector<Quantity>& quantities) {
+  ReportTable table{title, {{"name"}, {"value", true}, {"unit"}, {"meaning"}}, {}};
+  for (const Quantity& q : quantities) table.rows.push_back({q.name, q.value, q.unit == "1" ? "" : q.unit, q.meaning});
+  return table;
+}
+
+/// Every {{mark}} of the template is filled in, in one pass: contents are not looked into.
+std::string to_html(const ReportPage& page) {
+  const std::string title = escaped(page.title), content = embedded(as_json(page));
+  const std::pair<std::string_view, std::string_view> contents[] = {{"{{title}}", title},
+                                                                    {"{{dygraphs.notice}}", assets::dygraphs_notice},
+                                                                    {"{{data}}", content},
+                                                                    {"{{dygraphs.css}}", assets::dygraphs_css},
+                                                                    {"{{page.css}}", assets::page_css},
+                                                                    {"{{dygraphs.js}}", assets::dygraphs_js},
+                                                                    {"{{page.js}}", assets::page_js}};
+  std::string html;
+  std::string_view rest = assets::page_html;
+  for (std::size_t at = rest.find("{{"); at != std::string_view::npos; at = rest.find("{{")) {
+    html += rest.substr(0, at);
+    rest.remove_prefix(at);
+    const auto mark = std::find_if(std::begin(contents), std::end(contents),
+                                   [&](const auto& entry) { return rest.starts_with(entry.first); });
+    html += mark->second;
+    rest.remove_prefix(mark->first.size());
+  }
+  return html += rest;
+}
+
+}  // namespace wormdrive

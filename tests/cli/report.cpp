@@ -1,0 +1,153 @@
+// The page that `wormdrive report` writes, without a browser.
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "cli/bad_input.hpp"
+#include "diagnosis/break_in_data.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+/// The data in a page.
+nlohmann::json data_in(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+/// A table of a page by its title.
+nlohmann::json table_in(const nlohmann::json& data, const std::string& title) {
+  for (const nlohmann::json& table : data.at("tables"))
+    if (table.at("title") == title) return table;
+  FAIL("no table '" << title << "'");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a report holds its run, and itself only") {
+  const Folder folder;
+  REQUIRE(folder.run({"run", shipped("fig09_switching.toml"), "-q", "--set", "title=\"</script> & <b>\""}).exit == 0);
+  REQUIRE(folder.run({"report", "fig09_switching.h5"}).exit == 0);
+  const std::string page = folder.read("fig09_switching.html");
+  CHECK(folder.names() == std::set<std::string>{"fig09_switching.h5", "fig09_switching.html"});
+  CHECK(page.size() < 1'000'000);
+  for (const std::string loads : {"<script src", "<link", "<img", "url(http"})
+    CHECK(page.find(loads) == std::string::npos);
+  CHECK(page.find("<title>&lt;/script&gt; &amp; &lt;b&gt;</title>") != std::string::npos);
+  CHECK(page.find("Copyright (c) 2006, 2009, 2011, 2012, 2013, 2017") != std::string::npos);  // of dygraphs
+  for (const std::string mark : {"{{page", "{{data", "{{dygraphs", "{{title"})
+    CHECK(page.find(mark) == std::string::npos);
+  const nlohmann::json data = data_in(page), group = data.at("groups").at(0);
+  CHECK(data.at("title") == "</script> & <b>");
+  CHECK(data.at("remarks").size() == 1);
+  REQUIRE(group.at("events").size() == 12);
+  CHECK(group.at("events")[0].at("what") == "break away");
+  CHECK(group.at("events")[0].at("before") == "stuck");
+  CHECK(group.at("panels").size() == 5);
+  for (const nlohmann::json& panel : group.at("panels")) CHECK(panel.at("over").size() == panel.at("rows"));
+  CHECK(group.at("bands").at(0).at(2) == "stuck");
+  CHECK(table_in(data, "Parameters").at("rows").size() > 10);
+}
+
+TEST_CASE("a long run is thinned without losing an extreme") {
+  const Folder folder;
+  REQUIRE(folder
+              .run({"run", shipped("fig09_switching.toml"), "-q", "-o", "a.h5", "--set", "run.report_interval_s=2e-5",
+                    "--set", "run.solver=taylor"})
+              .exit == 0);
+  REQUIRE(folder.run({"report", "a.h5"}).exit == 0);
+  const Hdf5Handle file = open_hdf5(folder / "a.h5");
+  for (const nlohmann::json& panel : data_in(folder.read("a.html")).at("groups").at(0).at("panels")) {
+    CHECK(panel.at("rows").get<int>() > 100000);
+    CHECK(panel.at("over").size() < 9000);
+    for (const nlohmann::json& series : panel.at("series")) {
+      const std::vector<double> all = read_column(file, "trajectory/" + series.at("name").get<std::string>());
+      const auto shown = series.at("values").get<std::vector<double>>();
+      INFO(series.at("name"));
+      CHECK(std::abs(*std::max_element(shown.begin(), shown.end()) - *std::max_element(all.begin(), all.end())) < 1e-6);
+      CHECK(std::abs(*std::min_element(shown.begin(), shown.end()) - *std::min_element(all.begin(), all.end())) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("a report of statics shows the region of rest") {
+  const Folder folder;
+  REQUIRE(folder.run({"statics", shipped("fig07_break_in_07cm_forward.toml"), "-q", "-o", "map.h5"}).exit == 0);
+  REQUIRE(folder.run({"report", "map.h5", "-o", "map.html"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("map.html")), panel = data.at("groups").at(0).at("panels").at(0);
+  CHECK(panel.at("filled") == true);
+  CHECK(panel.at("series").size() == 3);
+  CHECK(table_in(data, "Break-in torques").at("rows").size() == 11);
+}
+
+TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario);
+  folder.write("study.toml",
+               "title = \"Friction\"\nscenario = \"s.toml\"\n[sweep]\ndesign = \"monte_carlo\"\ntrials = 60\nseed = 1\n"
+               "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.3\n"
+               "[[threshold]]\nmetric = \"final_gear_speed\"\nbelow_rad_per_s = -0.1\n");
+  const Outcome sweep = folder.run({"sweep", "study.toml", "-q", "-o", "sweep.h5"});
+  INFO(sweep.err);
+  REQUIRE(sweep.exit == 0);
+  REQUIRE(folder.run({"report", "sweep.h5"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("sweep.html")), groups = data.at("groups");
+  REQUIRE(groups.size() == 2);
+  const nlohmann::json spread = groups[0].at("panels")[0], cloud = groups[1].at("panels")[0];
+  CHECK(spread.at("series")[0].at("name") == "final_gear_speed");
+  CHECK(spread.at("over").size() == 60);
+  CHECK(spread.at("limits").at(0) == -0.1);
+  const auto values = spread.at("series")[0].at("values").get<std::vector<double>>();
+  CHECK(std::is_sorted(values.begin(), values.end()));
+  CHECK(groups[1].at("over") == "mesh.friction");
+  CHECK(cloud.at("series").size() == 3);
+  CHECK(table_in(data, "Worst drives").at("rows").size() == 10);
+  CHECK(data.at("verdict").get<std::string>().find(" of 60 drives (") != std::string::npos);
+}
+
+TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
+  const Folder folder;
+  folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
+  REQUIRE(folder
+              .run({"diagnose", shipped("fig07_break_in_07cm_forward.toml"), "b.csv", "--set", "mesh.friction=0.2",
+                    "-o", "out", "-q", "--no-pictures"})
+              .exit == 0);
+  REQUIRE(folder.run({"report", "out"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("out/report.html"));
+  const nlohmann::json findings = nlohmann::json::parse(folder.read("out/diagnosis.json"));
+  CHECK(data.at("verdict") == findings.at("sentence"));
+  CHECK(table_in(data, "Evidence: every effect that was tried").at("rows").size() == findings.at("ranking").size());
+  CHECK(table_in(data, "What these data can show").at("rows").size() == findings.at("certificate").size());
+  CHECK(data.at("groups")[0].at("panels")[0].at("series").size() == 3);
+  std::filesystem::remove(folder / "out/diagnosis.json");
+  const Outcome alone = folder.run({"report", "out"});
+  CHECK(alone.exit == 2);
+  CHECK(alone.err == "out/diagnosis.json: error: cannot be read; wormdrive diagnose writes it beside diagnosis.h5\n");
+}
+
+TEST_CASE("what is no result, or no longer whole, gets no report") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario);
+  REQUIRE(folder.run({"steady", "s.toml", "-q", "-o", "curve.h5"}).exit == 0);
+  refuse_all(folder,
+             {{"steady",
+               "",
+               "curve.h5: error: is the result of 'steady'; a report shows a run, statics, a sweep or a "
+               "diagnosis",
+               {"report", "curve.h5"},
+               true},
+              {"a scenario",
+               "",
+               "s.toml: error: is no result file (HDF5); wormdrive run writes one",
+               {"report", "s.toml"},
+               true},
+              {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
+              {"a folder of something else",
+               "",
+               ".: error: holds no diagnosis.h5; wormdrive diagnose -o writes one",
+               {"report", "."},
+               true}});
+}

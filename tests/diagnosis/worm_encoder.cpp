@@ -1,0 +1,112 @@
+#include <cmath>
+
+#include "catch.hpp"
+#include "diagnosis/bounces.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/magnitudes.hpp"
+#include "diagnosis/verdict.hpp"
+#include "numbers.hpp"
+#include "recovery/campaign.hpp"
+
+// What a second encoder, on the worm, adds to a diagnosis. The data are the recovery tests' own.
+
+using namespace wormdrive;
+
+namespace {
+
+struct Bench {
+  recovery::Bench recorded;
+  Scenario sheet;
+  std::vector<Suspect> all;
+  Evaluation by;
+};
+
+/// A short recording with something hidden, and all that a fit needs.
+Bench bench(const char* effect, double amount, double zero = 0.0) {
+  recovery::Conditions conditions = recovery::conditions("ideal");
+  conditions.worm_counts = 4096;
+  recovery::Case drawn{recovery::Kind::single, conditions, 7, {}, 6.0};
+  drawn.hidden.push_back({&truth::secret(effect), truth::Size::large, amount});
+  recovery::Bench recorded = recovery::record(drawn);
+  for (double& angle : recorded.recording.worm_angle) angle += zero;
+  const Scenario sheet = recovery::data_sheet(conditions);
+  std::vector<PreparedRecording> prepared_one{prepared(recorded.recording, {}, 0, truth::Geometry{}.ratio)};
+  const Magnitudes sizes = magnitudes(sheet, prepared_one);
+  return {std::move(recorded),
+          sheet,
+          suspects(sheet.effects, sizes, {}),
+          {sheet, InnovationLayout(std::move(prepared_one)), 1}};
+}
+
+/// The suspect of that name, fitted alone.
+Hypothesis fitted(const Bench& b, std::string_view effect, std::size_t start = 0) {
+  Hypothesis h;
+  h.noise = {0.3, 0.01};
+  for (std::size_t k = 0; k < b.all.size(); ++k)
+    if (b.all[k].effect == effect) add_suspect(h, b.all, k, start);
+  REQUIRE(h.free.size() > 0);
+  fit(b.by, h, 10);
+  adjust_noise(b.by, h, 6);
+  fit_bounces(b.by, h);
+  fit(b.by, h, 10);
+  return h;
+}
+
+double field(const Hypothesis& h, std::string_view effect, std::string_view name) {
+  return field_of(extended(h), effect, name).value;
+}
+
+}  // namespace
+
+TEST_CASE("an encoder on the worm is a second series of innovations with noise of its own") {
+  const Bench b = bench("tooth_compliance", 1.5e-3);
+  const InnovationLayout& layout = b.by.layout();
+  REQUIRE(layout.samples == 6000);
+  REQUIRE(layout.size == 12000);
+  CHECK(layout.groups() == 4);
+  CHECK(layout.leading(0).of_worm);
+  CHECK(layout.leading(0).begin == 6000);
+  CHECK(layout.group[5999] / 2 == 0);
+  CHECK(layout.group[6000] / 2 == 1);
+  CHECK(layout.block[6000] == layout.block[0]);
+}
+
+TEST_CASE("where the zero of the worm's encoder is does not matter") {
+  const Bench here = bench("tooth_compliance", 1.5e-3), there = bench("tooth_compliance", 1.5e-3, 123.4);
+  const auto a = here.by.innovations({}, {0.3, 0.0}), b = there.by.innovations({}, {0.3, 0.0});
+  REQUIRE(a);
+  REQUIRE(b);
+  test::Deviation worst;
+  for (std::size_t k = 0; k < a->size(); ++k) worst.add((*a)[k] - (*b)[k]);
+  CHECK(worst <= 1e-9);
+}
+
+TEST_CASE("teeth that yield, an uneven pitch and backlash are found by both encoders together") {
+  const Bench yields = bench("tooth_compliance", 1.5e-3);
+  const double stiffness = yields.recorded.drive.teeth.stiffness;
+  CHECK(std::abs(field(fitted(yields, "tooth_compliance"), "tooth_compliance", "stiffness") / stiffness - 1.0) < 0.05);
+  const Bench uneven = bench("transmission_error", 6e-4);
+  CHECK(std::abs(field(fitted(uneven, "transmission_error"), "transmission_error", "amplitude") / 6e-4 - 1.0) < 0.05);
+  const Bench loose = bench("backlash", 4e-3);
+  CHECK(std::abs(field(fitted(loose, "backlash", 4), "backlash", "gap") / 4e-3 - 1.0) < 0.05);
+}
+
+TEST_CASE("torque that is left takes no name back from what both encoders show together") {
+  std::vector<Suspect> all(2);
+  all[0].effect = "backlash";
+  all[1].effect = "worm_viscous";
+  Selection selection;
+  selection.causes = {{0, {}}, {1, {}}};
+  Diagnosis one;
+  one.causes = {{"backlash", {}}, {"worm_viscous", {}}};
+  one.remainders = {{"speed", 9.0, 1e-3}};
+  Diagnosis two = one;
+  judge(one, selection, all, Magnitudes{.torque = 0.05});
+  CHECK(one.verdict == Verdict::unexplained);
+  CHECK(one.causes.empty());
+  judge(two, selection, all, Magnitudes{.torque = 0.05, .has_worm_encoder = true});
+  CHECK(two.verdict == Verdict::named);
+  REQUIRE(two.causes.size() == 1);
+  CHECK(two.causes[0].effect == "backlash");
+  CHECK(two.remarks.at(0) == "best of the catalogue, but it leaves structure behind: worm viscous");
+}

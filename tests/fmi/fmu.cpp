@@ -1,0 +1,240 @@
+// An FMU in an importer that knows the standard only: the same run as `wormdrive run`, and an orderly life.
+#include <malloc.h>
+
+#include "catch.hpp"
+#include "cli/bad_input.hpp"
+#include "fmi/event_loop.hpp"
+#include "scenarios/load_scenario.hpp"
+#include "scenarios/run_scenario.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+/// A scenario exported by the program, and unpacked.
+struct Exported {
+  Folder folder;
+  Scenario scenario;
+  std::optional<Fmu> fmu;
+
+  explicit Exported(const std::string& file, const std::vector<std::string>& overrides = {})
+      : scenario(load_scenario(file, overrides, Purpose::run)) {
+    std::vector<std::string> words{"fmu", file, "-o", "plant.fmu"};
+    for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
+    const Outcome outcome = folder.run(words);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit == 0);
+    fmu.emplace(folder / "plant.fmu", folder);
+  }
+  ImportedRun imported(double longest_step) {
+    Instance instance(*fmu);
+    EventLoop loop(instance, scenario.motor, longest_step);
+    ImportedRun run = loop(scenario.run.duration, scenario.run.rows_every());
+    CHECK(loop.zeros == 0);
+    return run;
+  }
+};
+
+/// The FMU makes the run that the program makes: the same events, of which there are some, and everything within the
+/// tolerance.
+void agrees(const std::string& file, const std::vector<std::string>& overrides, std::size_t at_least,
+            double tolerance = 1e-8, double longest_step = 1e-3) {
+  INFO(file);
+  Exported exported(file, overrides);
+  const Trajectory ours = simulate_scenario(exported.scenario);
+  const ImportedRun theirs = exported.imported(longest_step);
+  const std::size_t events = ours.events.size();
+  REQUIRE(events >= at_least);
+  REQUIRE(theirs.events.size() == events);
+  for (std::size_t k = 0; k < events; ++k) {
+    const Event& a = ours.events[k];
+    const ImportedEvent& b = theirs.events[k];
+    INFO("event " << k << " at " << a.t << " and " << b.t);
+    CHECK(std::abs(a.t - b.t) < tolerance);
+    CHECK(sign(a.before.mode.motion) == b.motion_before);
+    CHECK(sign(a.before.mode.flank) == b.flank_before);
+    CHECK(sign(a.after.mode.motion) == b.motion_after);
+    CHECK(sign(a.after.mode.flank) == b.flank_after);
+  }
+  double angle = 0.0, speed = 0.0, force = 0.0;
+  std::size_t compared = 0;
+  for (const ImportedRow& row : theirs.rows) {
+    const auto same = std::lower_bound(ours.rows.begin(), ours.rows.end(), row.t - 1e-12,
+                                       [](const Row& r, double t) { return r.t < t; });
+    if (same == ours.rows.end() || std::abs(same->t - row.t) > 1e-12) continue;
+    ++compared;
+    angle = std::max(angle, std::abs(same->at.theta_g - row.gear_angle));
+    speed = std::max(speed, std::abs(same->at.omega_g - row.gear_speed));
+    force = std::max(force, std::abs(same->at.normal_force - row.normal_force));
+    CHECK(sign(same->at.mode.motion) == row.motion);
+    CHECK(sign(same->at.mode.flank) == row.flank);
+  }
+  CHECK(compared + 2 >= theirs.rows.size());
+  CHECK(angle < tolerance);
+  CHECK(speed < tolerance);
+  CHECK(force < 100 * tolerance);
+}
+
+}  // namespace
+
+TEST_CASE("an FMU of fig. 9 makes the events of fig. 9") { agrees(shipped("fig09_switching.toml"), {}, 12); }
+
+TEST_CASE("an FMU takes its effects along") {
+  agrees(shipped("fig09_switching.toml"),
+         {"effect.worm_coulomb.torque_Nm=0.002", "effect.gear_coulomb.torque_Nm=0.003",
+          "effect.worm_viscous.coefficient_Nms_per_rad=1e-5", "effect.stribeck.drop=0.05",
+          "effect.stribeck.speed_m_per_s=0.1", "effect.static_friction.rise=0.02",
+          "effect.torque_offset.torque_Nm=0.003", "effect.load_magnitude.share=0.1", "effect.load_angle.angle_deg=10",
+          "effect.gear_inertia.inertia_kgm2=1e-4", "effect.encoder_offset.angle_rad=0.1"},
+         12);
+  agrees(shipped("fig09_switching.toml"),
+         {"effect.torque_gain.share=0.1", "effect.cogging.amplitude_Nm=0.001", "effect.cogging.periods=3",
+          "effect.cogging.phase_deg=20", "effect.friction_asymmetry.change=0.01",
+          "effect.position_friction.amplitude=0.05", "effect.position_friction.phase_deg=0",
+          "effect.friction_drift.share=0.1", "effect.friction_drift.time_s=2",
+          "effect.load_spring.stiffness_Nm_per_rad=0.01", "effect.load_spring.angle_deg=0",
+          "effect.gear_viscous.coefficient_Nms_per_rad=1e-4"},
+         8);
+}
+
+TEST_CASE("an FMU of elastic teeth makes every impact") {
+  agrees(shipped("fig09_backlash.toml"), {"run.duration_s=0.5", "run.relative_tolerance=1e-12"}, 11, 1e-6, 1e-5);
+}
+
+TEST_CASE("jumps of the load are events that the FMU announces, jumps of the torque events that it takes") {
+  const Folder folder;
+  const std::string motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
+  const std::string load = "kind = \"constant\"\ntorque_Nm = 0.02\n[run]\nduration_s = 0.01\n";
+  folder.write("steps.toml",
+               edited(edited(good_scenario, motor,
+                             "[[motor.torque]]\nkind = \"staircase\"\nrise_Nm = -0.02\ninterval_s = 0.04\nsteps = 3\n"
+                             "[[motor.torque]]\nkind = \"step\"\ntorque_Nm = 0.06\ntime_s = 0.2\n"),
+                      load,
+                      "kind = \"step\"\ntorque_Nm = 0.2\ntime_s = 0.07\n[effect.worm_coulomb]\ntorque_Nm = 0.03\n"
+                      "[run]\nduration_s = 0.3\nrelative_tolerance = 1e-12\n"));
+  agrees(folder / "steps.toml", {}, 2);
+}
+
+TEST_CASE("a parameter that the importer sets is that of the scenario") {
+  const Exported with(shipped("fig09_switching.toml"), {"effect.worm_coulomb.torque_Nm=0.001"});
+  Instance changed(*with.fmu);
+  changed.set("effect.worm_coulomb.torque_Nm", 0.004);
+  changed.set("mesh.friction", 0.2);
+  changed.set("mesh.lead_angle_rad", 0.08);
+  changed.set("initial.gear_angle_rad", 0.3);
+  EventLoop loop(changed, with.scenario.motor);
+  const ImportedRun set = loop(1.0, 0.1);
+  const Scenario same = load_scenario(
+      shipped("fig09_switching.toml"),
+      {"effect.worm_coulomb.torque_Nm=0.004", "mesh.friction=0.2", "initial.gear_angle_rad=0.3", "run.duration_s=1"},
+      Purpose::run);
+  Scenario stated = same;
+  std::get<MeshParameters<double>>(stated.mesh).lambda = 0.08;
+  const Trajectory ours = simulate_scenario(stated);
+  CHECK(set.events.size() == ours.events.size());
+  CHECK(std::abs(set.rows.back().gear_angle - ours.rows.back().at.theta_g) < 1e-8);
+}
+
+TEST_CASE("an FMU refuses what it cannot do, with a reason in the log") {
+  const Exported exported(shipped("fig09_switching.toml"));
+  CHECK_THROWS_WITH(Instance(*exported.fmu, "{0}"),
+                    "the GUID {0} is not that of " + (exported.folder / "resources/plant.json"));
+  CHECK_THROWS_WITH(Instance(*exported.fmu, "", fmi2CoSimulation), "this FMU is one for model exchange");
+  Instance instance(*exported.fmu);
+  CHECK_THROWS_WITH(instance.set("mesh.friction", -1.0), "mesh.friction = -1 is not a value that it may have");
+  CHECK_THROWS_WITH(instance.set("gear_angle", 1.0), "there is no variable with the value reference 0");
+  CHECK_THROWS_WITH(instance.real("gear_angle"), "the instance is not initialized");
+  CHECK_THROWS_WITH(instance.call<decltype(fmi2DoStep)>("fmi2DoStep", 0.0, 0.1, 0), "fmi2DoStep is not supported");
+  instance.set("mesh.friction", 20.0);
+  CHECK_THROWS_WITH(instance.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode"),
+                    Catch::Matchers::StartsWith("mesh.friction = 20 is not below mu_g = 13.4"));
+  instance.call<decltype(fmi2Reset)>("fmi2Reset");
+  CHECK(instance.real("mesh.friction") == 0.25);
+}
+
+TEST_CASE("a kept state brings an instance back") {
+  const Exported exported(shipped("fig09_switching.toml"));
+  Instance instance(*exported.fmu);
+  instance.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
+  instance.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode");
+  fmi2FMUstate kept = nullptr;
+  instance.call<decltype(fmi2GetFMUstate)>("fmi2GetFMUstate", &kept);
+  const double x[] = {0.5, 1.0};
+  instance.call<decltype(fmi2SetContinuousStates)>("fmi2SetContinuousStates", x, size_t{2});
+  CHECK(instance.real("gear_angle") == 0.5);
+  instance.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", kept);
+  CHECK(instance.real("gear_angle") == 0.0);
+  instance.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &kept);
+  CHECK(kept == nullptr);
+}
+
+TEST_CASE("1000 cycles of instantiate, run, reset, run and free leave nothing behind") {
+  const Exported exported(shipped("fig09_switching.toml"));
+  std::size_t after_warm_up = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Instance instance(*exported.fmu);
+    for (const double end : {0.02, 0.01}) {
+      EventLoop loop(instance, exported.scenario.motor, 0.01);
+      loop(end, end);
+      instance.call<decltype(fmi2Reset)>("fmi2Reset");
+    }
+    if (k == 100) after_warm_up = mallinfo2().uordblks;
+  }
+  CHECK(mallinfo2().uordblks < after_warm_up + 20000);  // 22 bytes a cycle
+}
+
+TEST_CASE("the library of an FMU has every function of the standard and needs the C library alone") {
+  const Exported exported(shipped("fig09_switching.toml"));
+  std::ifstream header(WORMDRIVE_FMI_HEADER);
+  int functions = 0;
+  for (std::string word; header >> word;) {
+    if (!word.starts_with("fmi2") || word.find('(') == std::string::npos) continue;
+    const std::string name = word.substr(0, word.find('('));
+    INFO(name);
+    CHECK(exported.fmu->symbol(name.c_str()) != nullptr);
+    ++functions;
+  }
+  CHECK(functions == 44);
+  const Outcome needs =
+      Process({"/usr/bin/objdump", "-p", exported.folder / "binaries/linux64/wormdrive_fmu.so"}, exported.folder.path())
+          .wait();
+  std::istringstream lines(needs.out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("NEEDED") != std::string::npos) {
+      INFO(line);
+      CHECK((line.find("libc.so") != std::string::npos || line.find("libm.so") != std::string::npos ||
+             line.find("ld-linux") != std::string::npos));
+    }
+}
+
+TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[reference]") {
+  const std::string schema = WORMDRIVE_REFERENCE_DATA "/../fmi/fmi2ModelDescription.xsd", xmllint = "/usr/bin/xmllint";
+  if (!std::filesystem::exists(schema) || !std::filesystem::exists(xmllint)) {
+    WARN("skipped: reference data not found");
+    return;
+  }
+  for (const std::string name : {"fig09_switching", "fig09_backlash", "fig09_stribeck", "fig08_ramp_07cm_forward"}) {
+    const Exported exported(shipped(name + ".toml"));
+    const Outcome outcome =
+        Process({xmllint, "--noout", "--schema", schema, "modelDescription.xml"}, exported.folder.path()).wait();
+    INFO(outcome.err);
+    CHECK(outcome.exit == 0);
+  }
+}
+
+TEST_CASE("what cannot be an FMU is refused with a way out, and nothing is written") {
+  refuse_all(Folder(), {{"a delay",
+                         good_scenario + "[effect.actuator_delay]\ndelay_s = 1e-3\n",
+                         "s.toml: error: effect.actuator_delay needs a memory of the past, which an FMU for model "
+                         "exchange does not have; switch it off (effect.actuator_delay.on = false) and put the delay "
+                         "or lag beside the FMU in the importing tool",
+                         {"fmu", "s.toml"},
+                         true},
+                        {"a place that cannot be written",
+                         good_scenario,
+                         "wormdrive: cannot write nowhere/a.fmu.part: No such file or directory",
+                         {"fmu", "s.toml", "-o", "nowhere/a.fmu"},
+                         true,
+                         4}});
+}

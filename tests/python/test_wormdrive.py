@@ -1,0 +1,247 @@
+"""The Python package: the same numbers and words as the program, arrays that own themselves, threads, signals, leaks.
+
+Run by ctest with PYTHONPATH, WORMDRIVE_SCENARIOS, WORMDRIVE_PROGRAM and, for the malformed scenarios, WORMDRIVE_TESTS.
+"""
+
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import wormdrive
+
+SCENARIOS = Path(os.environ["WORMDRIVE_SCENARIOS"])
+PROGRAM = os.environ.get("WORMDRIVE_PROGRAM")
+FIG09 = SCENARIOS / "fig09_switching.toml"
+FIG10 = SCENARIOS / "fig10_sliding_014rad_bare.toml"
+
+SHORT = {
+    "title": "A short one",
+    "mesh": {"ratio": 60, "lead_angle_deg": 4, "pressure_angle_deg": 20, "worm_pitch_radius_m": 0.011,
+             "gear_pitch_radius_m": 0.045, "friction": 0.25, "worm_inertia_kgm2": 2.53e-5, "gear_inertia_kgm2": 7.39e-4},
+    "motor": {"torque": {"kind": "constant", "torque_Nm": -0.05}},
+    "load": {"kind": "constant", "torque_Nm": 0.02},
+    "run": {"duration_s": 0.01},
+}
+
+
+def resident_kib():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4
+
+
+class Runs(unittest.TestCase):
+    def test_columns_are_those_of_the_result_file(self):
+        import h5py
+
+        with tempfile.TemporaryDirectory() as folder:
+            for name, end in ((FIG09, 0.3), (SCENARIOS / "fig09_backlash.toml", 0.3), (FIG10, 1.2)):
+                scenario = wormdrive.Scenario(name, run={"duration_s": end})
+                result = scenario.run()
+                path = Path(folder, "theirs.h5")
+                subprocess.run([PROGRAM, "run", name, "--set", f"run.duration_s={end}", "-o", path, "--quiet"], check=True)
+                result.write(Path(folder, "ours.h5"))
+                with h5py.File(path) as theirs, h5py.File(Path(folder, "ours.h5")) as ours:
+                    self.assertEqual(set(theirs), set(ours))
+                    for group in theirs:
+                        table = getattr(result, group)
+                        self.assertEqual(set(theirs[group]), set(table))
+                        for column, data in theirs[group].items():
+                            np.testing.assert_array_equal(table[column], data[:])
+                            np.testing.assert_array_equal(ours[group][column][:], data[:])
+                            self.assertEqual(table.units[column], data.attrs.get("units", ""))
+                    for key in ("title", "scenario", "solver", "solver_steps", "surface", "ratio"):
+                        self.assertEqual(theirs.attrs[key], ours.attrs[key])
+                    if "controller" in theirs:
+                        self.assertEqual(result.metrics["error_rms"], theirs["controller"].attrs["error_rms"])
+
+    def test_scenarios_are_paths_texts_dicts_or_prepared(self):
+        text = FIG09.read_text()
+        angle = wormdrive.run(FIG09).trajectory.gear_angle[-1]
+        self.assertEqual(wormdrive.run(str(FIG09)).trajectory.gear_angle[-1], angle)
+        self.assertEqual(wormdrive.run(text).trajectory.gear_angle[-1], angle)
+        self.assertEqual(wormdrive.run(wormdrive.Scenario(text)).trajectory.gear_angle[-1], angle)
+        short = wormdrive.run(SHORT)
+        self.assertEqual(short.title, "A short one")
+        self.assertEqual(short.trajectory.time[-1], 0.01)
+
+    def test_overrides_are_tables_or_keys_with_dots(self):
+        by_table = wormdrive.Scenario(SHORT, mesh={"friction": np.float64(0.2)}, effect={"worm_coulomb": {"torque_Nm": 1e-3}})
+        by_key = wormdrive.Scenario(SHORT, **{"mesh.friction": 0.2, "effect.worm_coulomb.torque_Nm": 1e-3})
+        self.assertEqual(by_table.toml, by_key.toml)
+        self.assertIn("friction = 0.2", by_table.toml)
+        self.assertEqual(wormdrive.Scenario(by_table, mesh={"friction": 0.1}).run().toml.count("friction = 0.1"), 1)
+
+    def test_an_array_outlives_its_result(self):
+        speed = wormdrive.run(FIG09).trajectory.gear_speed
+        copy = speed.copy()
+        gc.collect()
+        for _ in range(20):
+            wormdrive.run(SHORT).trajectory.gear_speed.sum()
+        self.assertFalse(speed.flags.owndata)  # a capsule does
+        np.testing.assert_array_equal(speed, copy)
+
+    def test_xarray(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.skipTest("no xarray")
+        dataset = wormdrive.run(FIG09).to_xarray()
+        self.assertEqual(dataset.gear_speed.attrs["units"], "rad/s")
+        self.assertLess(float(dataset.gear_speed.sel(time=1.0, method="nearest")), 2.0)
+
+    def test_steady_and_check(self):
+        torque = wormdrive.steady(SHORT, [[-10.0, 10.0]], load={"torque_Nm": 0.0})
+        self.assertEqual(torque.shape, (1, 2))
+        np.testing.assert_allclose(torque, 0.0, atol=1e-15)  # without load and bearings nothing holds it up
+        rubbing = wormdrive.steady(SHORT, [-10.0, 10.0], **{"effect.worm_coulomb.torque_Nm": 1e-3, "load.torque_Nm": 0.0})
+        np.testing.assert_allclose(rubbing, [-1e-3, 1e-3], rtol=1e-12)
+        told = json.loads(subprocess.run([PROGRAM, "check", FIG09, "--json"], check=True, capture_output=True).stdout)
+        ours = wormdrive.check(FIG09)
+        for key in ("title", "parameters", "derived", "warnings", "scenario"):
+            self.assertEqual(ours[key], told[key])
+
+
+STUDY = {
+    "title": "Friction", "scenario": "short.toml",
+    "sweep": {"design": "monte_carlo", "trials": 40, "seed": 3},
+    "parameter": [{"path": "mesh.friction", "distribution": "uniform", "low": 0.2, "high": 0.3}],
+    "threshold": [{"metric": "final_gear_speed", "above_rad_per_s": 0.0}],
+}
+
+
+class Studies(unittest.TestCase):
+    def test_a_sweep_has_the_rows_of_the_program(self):
+        import h5py
+
+        with tempfile.TemporaryDirectory() as folder:
+            study = SCENARIOS / "studies/fig10_sliding.toml"
+            shorter = study.read_text().replace("trials = 200", "trials = 20").replace("../", f"{SCENARIOS}/")
+            Path(folder, "study.toml").write_text(shorter)
+            subprocess.run([PROGRAM, "sweep", "study.toml", "-q", "-o", "theirs.h5"], check=True, cwd=folder)
+            ours = wormdrive.sweep(Path(folder, "study.toml"), threads=2)
+            ours.write(Path(folder, "ours.h5"))
+            with h5py.File(Path(folder, "theirs.h5")) as theirs, h5py.File(Path(folder, "ours.h5")) as written:
+                self.assertEqual(set(theirs["trials"]), set(ours.trials))
+                for name, column in theirs["trials"].items():
+                    np.testing.assert_array_equal(ours.trials[name], column[:], err_msg=name)
+                    np.testing.assert_array_equal(written["trials"][name][:], column[:], err_msg=name)
+                np.testing.assert_array_equal(written["summary/thresholds/missed"][:], theirs["summary/thresholds/missed"][:])
+
+    def test_a_study_is_a_dict_or_text_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            Path("short.toml").write_text(wormdrive.Scenario(SHORT).toml)
+            sweep = wormdrive.sweep(STUDY)
+            self.assertEqual(len(sweep.trials.index), 40)
+            self.assertTrue(np.all((sweep.trials["mesh.friction"] >= 0.2) & (sweep.trials["mesh.friction"] <= 0.3)))
+            self.assertEqual(sweep.reasons, [])
+            friction = sweep.trials["mesh.friction"]
+            del sweep
+            gc.collect()
+            self.assertLessEqual(friction.max(), 0.3)  # an array keeps its sweep alive
+            with self.assertRaises(wormdrive.InputError) as caught:
+                wormdrive.sweep({**STUDY, "scenario": "no.toml"})
+            self.assertIn("no.toml", str(caught.exception))
+            os.chdir("/")
+
+    def test_a_diagnosis_says_what_the_program_says(self):
+        bench = SCENARIOS / "example_bench.toml", SCENARIOS / "example_bench.csv"
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
+            theirs = json.loads(Path(folder, "diagnosis.json").read_text())
+            ours = wormdrive.diagnose(*bench)
+            del ours.findings["program"], theirs["program"]
+            self.assertEqual(ours.findings, theirs)
+            self.assertEqual(ours.extended, Path(folder, "extended.toml").read_text())
+            self.assertLess(np.nanstd(ours.residual.after), np.nanstd(ours.residual.before))
+
+
+class Faults(unittest.TestCase):
+    def test_errors_are_the_usual_exceptions_too(self):
+        with self.assertRaises(ValueError):
+            wormdrive.run(SHORT, mesh={"frction": 1})
+        self.assertTrue(issubclass(wormdrive.OutputError, OSError))
+        with self.assertRaisesRegex(wormdrive.OutputError, "cannot create /nowhere/a.h5.part: No such file or directory"):
+            wormdrive.run(SHORT).write("/nowhere/a.h5")
+        with self.assertRaisesRegex(wormdrive.InputError, r"no.toml: error: cannot be read: No such file or directory"):
+            wormdrive.run("no.toml")
+        with self.assertRaises(wormdrive.InputError) as caught:
+            wormdrive.run(SHORT, **{"mesh.friction": 14})
+        self.assertTrue(str(caught.exception).startswith("--set mesh.friction=14: error: mesh.friction = 14 is not below mu_g"))
+        with self.assertRaises(TypeError):
+            wormdrive.run(SHORT, mesh={"friction": object()})
+
+    def test_a_halt_keeps_the_run_up_to_there(self):
+        with self.assertRaises(wormdrive.SimulationHalted) as caught:
+            wormdrive.run({**SHORT, "load": {"kind": "constant", "torque_Nm": 0.5}, "motor": {"torque": [
+                {"kind": "ramp", "rate_Nm_per_s": 1.0}, {"kind": "step", "time_s": 0.1, "torque_Nm": 1e308}]}},
+                run={"duration_s": 0.2})
+        self.assertTrue(str(caught.exception).startswith("cannot go on at t = 0.1 s, forward, "), str(caught.exception))
+        self.assertEqual(caught.exception.result.trajectory.time[-1], 0.1)
+
+    def test_malformed_scenarios_say_what_the_program_says(self):
+        tests = os.environ.get("WORMDRIVE_TESTS")
+        if not tests:
+            self.skipTest("the program of the C++ tests is not built")
+        with tempfile.TemporaryDirectory() as folder:
+            listed = Path(folder, "cases")
+            subprocess.run([tests, "--filenames-as-tags", "[#bad_scenarios],[#bad_effects],[#bad_controllers],[#bad_tables],[#bad_teeth]"],
+                           env={**os.environ, "WORMDRIVE_LIST_CASES": str(listed)}, check=True, capture_output=True)
+            cases = [json.loads(line) for line in listed.read_text().splitlines()]
+            self.assertGreater(len(cases), 100)
+            os.chdir(folder)
+            os.mkdir("folder")  # which a case takes for a file
+            for case in cases:
+                for name, content in {**case["beside"], "s.toml": case["scenario"]}.items():
+                    Path(name).write_bytes(bytes.fromhex(content))
+                with self.subTest(case["name"]), self.assertRaises(wormdrive.InputError) as caught:
+                    wormdrive.run("s.toml")
+                said, expected = str(caught.exception), case["message"]
+                if expected.endswith("*"):
+                    self.assertTrue(said.startswith(expected[:-1]) and "\n" not in said, said)
+                else:
+                    self.assertEqual(said, expected)
+            os.chdir("/")
+
+
+class Python(unittest.TestCase):
+    def test_threads_run_side_by_side(self):
+        scenario, ticks, done = wormdrive.Scenario(FIG10, run={"duration_s": 5}), [], threading.Event()
+        runner = threading.Thread(target=lambda: (scenario.run(), done.set()))
+        runner.start()
+        while not done.wait(0.005):
+            ticks.append(time.monotonic())
+        runner.join()
+        self.assertGreater(len(ticks), 3)  # with the lock held there would be one
+
+    def test_ctrl_c_ends_a_run(self):
+        code = ("import wormdrive, sys\nprint('ready', flush=True)\n"
+                f"try: wormdrive.run({str(FIG10)!r}, run={{'duration_s': 100000, 'report_interval_s': 0.1}})\n"
+                "except KeyboardInterrupt: sys.exit(42)\n")
+        child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+        child.stdout.readline()
+        time.sleep(0.5)
+        child.send_signal(signal.SIGINT)
+        self.assertEqual(child.wait(30), 42)
+        child.stdout.close()
+
+    def test_ten_thousand_runs_leave_nothing_behind(self):
+        scenario = wormdrive.Scenario(SHORT, run={"solver": "taylor", "report_interval_s": 0.005})
+        for k in range(10000):
+            if k == 1000:
+                before = resident_kib()
+            scenario.run().trajectory.gear_angle
+        self.assertLess(resident_kib() - before, 2000)  # 220 bytes a run
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,15 @@
+# Writes a C++ source with the contents of files: cmake -DOUTPUT=x.cpp -DFILES=name=path;name=path -P embed.cmake
+set(text "#include \"cli/report_assets.hpp\"\n\nnamespace wormdrive::assets {\n")
+foreach(entry ${FILES})
+  string(REGEX MATCH "^([^=]+)=(.*)$" ignored "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  file(READ "${CMAKE_MATCH_2}" hex HEX)
+  string(LENGTH "${hex}" length)
+  math(EXPR length "${length} / 2")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
+  string(REGEX REPLACE "(0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,)" "\\1\n" hex "${hex}")
+  string(APPEND text "static const unsigned char ${name}_bytes[] = {${hex} 0};\n"
+                     "const std::string_view ${name}(reinterpret_cast<const char*>(${name}_bytes), ${length});\n")
+endforeach()
+string(APPEND text "}  // namespace wormdrive::assets\n")
+file(WRITE "${OUTPUT}" "${text}")
