@@ -76,6 +76,11 @@ def scaled(unit, values):
     return (1.0, unit) if unit == "1" else style.scale(unit, values)
 
 
+def is_wide(values):
+    """Returns whether a few values are so large that a straight axis would squeeze all others into a line."""
+    return values.min() > 0 and values.max() > 100 * np.median(values)
+
+
 def shown(metric):
     """Returns the limits that lie near the values; others would squeeze them into a line."""
     low, high = metric.values.min(), metric.values.max()
@@ -93,7 +98,13 @@ def missing_note(metric, factor, unit):
 def draw_histogram(axes, metric, factor, unit):
     """Draws the histogram with quantiles and limits."""
     values = factor * metric.values
-    axes.hist(values, bins=min(80, max(10, int(np.sqrt(values.size)))), color=style.MID_BLUE)
+    bins = min(80, max(10, int(np.sqrt(values.size))))
+    if is_wide(values):
+        axes.set_xscale("log")
+        bins = np.geomspace(values.min(), values.max(), bins + 1)
+    else:
+        style.few_ticks(axes.xaxis)
+    axes.hist(values, bins=bins, color=style.MID_BLUE)
     handles = []
     for percent, dash in zip(QUANTILES, (":", "-", "--", "-.")):
         handles.append(axes.axvline(np.quantile(values, percent / 100), color=style.INK, linestyle=dash, linewidth=1.2,
@@ -101,7 +112,6 @@ def draw_histogram(axes, metric, factor, unit):
     for limit, _ in shown(metric):
         handles.append(axes.axvline(factor * limit, color=style.VERMILLION, label="limit"))
     style.header(axes, handles)
-    style.few_ticks(axes.xaxis)
     axes.set(xlabel=labelled(metric.name, unit) + missing_note(metric, factor, unit), ylabel="trials")
 
 
@@ -110,14 +120,19 @@ def draw_exceedance(axes, metric, factor, unit):
     values = np.sort(factor * metric.values)
     below = any(not above for _, above in metric.limits)
     share = np.arange(values.size, 0, -1) / values.size
-    x, y = style.decimate(values, share[::-1] if below else share) if values[-1] > values[0] else (values, share)
-    axes.semilogy(x, y, color=style.BLUE, drawstyle="steps-post")
+    wide = is_wide(values)
+    x = np.log(values) if wide else values
+    x, y = style.decimate(x, share[::-1] if below else share) if values[-1] > values[0] else (x, share)
+    axes.semilogy(np.exp(x) if wide else x, y, color=style.BLUE, drawstyle="steps-post")
     for limit, above in shown(metric):
         axes.axvline(factor * limit, color=style.VERMILLION)
         beyond = np.mean(values > factor * limit if above else values < factor * limit)
         axes.annotate(f"{100 * beyond:.3g} %", (factor * limit, 0.5), xycoords=("data", "axes fraction"),
                       textcoords="offset points", xytext=(5, 0), color=style.VERMILLION)
-    style.few_ticks(axes.xaxis)
+    if wide:
+        axes.set_xscale("log")
+    else:
+        style.few_ticks(axes.xaxis)
     axes.set(xlabel=labelled(metric.name, unit), ylabel=f"share of the trials {'below' if below else 'above'}")
 
 
@@ -156,7 +171,10 @@ def draw_matrix(figure, place, parameters, metric):
             x_factor, x_scaled = scaled(x_unit, x)
             axes.scatter(x_factor * x[chosen], y_factor * y[chosen], s=4, c=colours, linewidths=0, rasterized=True)
             style.few_ticks(axes.xaxis)
-            style.few_ticks(axes.yaxis)
+            if y is metric.values and is_wide(y):
+                axes.set_yscale("log")
+            else:
+                style.few_ticks(axes.yaxis)
             axes.tick_params(labelsize=9, labelbottom=i + 1 == len(rows), labelleft=j == 0)
             if i + 1 == len(rows):
                 axes.set_xlabel(labelled(short(x_name), x_scaled), size=9)
