@@ -32,7 +32,7 @@ else
   echo "skipped: GNU parallel is not installed"
 fi
 
-if command -v mpirun > /dev/null && ldd "$program" | grep -q libmpi; then
+if command -v mpirun > /dev/null && [[ $(ldd "$program") == *libmpi* ]]; then
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
   bash "$jobs/slurm_mpi.sh" study.toml mpi.h5
   is_whole mpi.h5
