@@ -31,6 +31,7 @@ packages=(
   python3-numpy        # plots, the Python module
   python3-h5py         # plots: reads the result files
   python3-matplotlib   # plots: draws them
+  libxml2-utils        # tests: FMUs against the schema of the standard
 )  # git is not on the list: with it the commit is recorded in the results, without it they say so
 
 if ! command -v apt-get >/dev/null; then

@@ -210,7 +210,7 @@ TEST_CASE("the library of an FMU has every function of the standard and needs th
 
 TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[reference]") {
   const std::string schema = WORMDRIVE_REFERENCE_DATA "/../fmi/fmi2ModelDescription.xsd", xmllint = "/usr/bin/xmllint";
-  if (!std::filesystem::exists(schema) || !std::filesystem::exists(xmllint)) {
+  if (!std::filesystem::exists(schema)) {
     WARN("skipped: reference data not found");
     return;
   }
