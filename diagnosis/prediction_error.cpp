@@ -33,31 +33,60 @@ std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::siz
   return begins;
 }
 
-/// Predictions of a hypothesis from all beginnings, against what was measured, or, where innovations are given, against
-/// the motion with these.
-std::vector<Stretch> stretches(const Evaluation& by, const Hypothesis& h, double horizon,
-                               std::span<const double> innovations = {}) {
-  std::vector<Stretch> all;
-  std::vector<FilteredStates> states;
-  const Effects<double> effects = extended(h);
-  if (!by.innovations(effects, h.noise, {}, &states)) return all;
-  const InnovationLayout& layout = by.layout();
-  for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
-    const PreparedRecording& recording = layout.recordings[r];
-    const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
-    const std::vector<std::size_t> begins = beginnings(recording, steps);
-    auto errors = by.run_on(effects, h.noise, r, states[r], begins, steps);
-    std::vector<std::vector<double>> other;
-    if (!innovations.empty()) other = by.run_on(effects, h.noise, r, states[r], begins, steps, innovations);
-    for (std::size_t q = 0; q < begins.size(); ++q) {
-      for (std::size_t k = 0; k < errors[q].size(); ++k)
-        errors[q][k] -= innovations.empty() ? recording.data.gear_angle[begins[q] + 1 + k] : other[q][k];
-      all.push_back(
-          {r, begins[q], layout.block[layout.begins[r] + begins[q]], mean_square(errors[q]), std::move(errors[q])});
-    }
+/// A hypothesis that has gone through the recordings, ready to predict from all beginnings.
+class Forecast {
+ public:
+  Forecast(const Evaluation& by, const Hypothesis& h) : by_(by), noise_(h.noise), effects_(extended(h)) {
+    goes_on_ = by.innovations(effects_, noise_, {}, &states_).has_value();
   }
-  return all;
-}
+
+  /// Against what was measured.
+  std::vector<Stretch> of_data(double horizon) const {
+    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
+      const std::vector<double>& angle = by_.layout().recordings[r].data.gear_angle;
+      std::vector<std::vector<double>> measured;
+      for (const std::size_t begin : begins) {
+        const auto from = angle.begin() + static_cast<std::ptrdiff_t>(begin + 1);
+        measured.emplace_back(from, from + static_cast<std::ptrdiff_t>(steps));
+      }
+      return measured;
+    });
+  }
+  /// Against its own motion with innovations.
+  std::vector<Stretch> of_noise(double horizon, std::span<const double> innovations) const {
+    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
+      return by_.run_on(effects_, noise_, r, states_[r], begins, steps, innovations);
+    });
+  }
+
+ private:
+  /// truth(recording, begins, steps): what comes after each beginning.
+  template <class Truth>
+  std::vector<Stretch> stretches(double horizon, Truth&& truth) const {
+    std::vector<Stretch> all;
+    if (!goes_on_) return all;
+    const InnovationLayout& layout = by_.layout();
+    for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
+      const PreparedRecording& recording = layout.recordings[r];
+      const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
+      const std::vector<std::size_t> begins = beginnings(recording, steps);
+      auto errors = by_.run_on(effects_, noise_, r, states_[r], begins, steps);
+      const auto told = truth(r, begins, steps);
+      for (std::size_t q = 0; q < begins.size(); ++q) {
+        for (std::size_t k = 0; k < errors[q].size(); ++k) errors[q][k] -= told[q][k];
+        all.push_back(
+            {r, begins[q], layout.block[layout.begins[r] + begins[q]], mean_square(errors[q]), std::move(errors[q])});
+      }
+    }
+    return all;
+  }
+
+  const Evaluation& by_;
+  ProcessNoise noise_;
+  Effects<double> effects_;
+  std::vector<FilteredStates> states_;
+  bool goes_on_ = false;
+};
 
 double rms(const std::vector<Stretch>& all) {
   double sum = 0.0;
@@ -119,7 +148,9 @@ NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   return noise;
 }
 
-double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon) { return rms(stretches(by, h, horizon)); }
+double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon) {
+  return rms(Forecast(by, h).of_data(horizon));
+}
 
 std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypothesis& before, const Hypothesis& after,
                                                std::uint64_t seed) {
@@ -128,17 +159,18 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
   constexpr std::uint64_t draws = 4;
   for (std::uint64_t k = 0; k < draws; ++k)
     noises.push_back(drawn_innovations(by.layout(), after.residuals, after.noise_model, seed + k));
+  const Forecast forecast_before(by, before), forecast_after(by, after);
   for (const double horizon : horizons) {
     PredictionError e;
     e.horizon = horizon;
-    const std::vector<Stretch> then = stretches(by, before, horizon), now = stretches(by, after, horizon);
+    const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
     if (now.empty()) continue;
     e.before = rms(then);
     e.after = rms(now);
     bootstrap(now, seed, e);
     std::vector<Stretch> drawn;
     for (const std::vector<double>& noise : noises)
-      for (Stretch& s : stretches(by, after, horizon, noise)) drawn.push_back(std::move(s));
+      for (Stretch& s : forecast_after.of_noise(horizon, noise)) drawn.push_back(std::move(s));
     e.floor = rms(drawn);
     all.push_back(e);
   }
@@ -148,8 +180,9 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
 std::vector<PredictionExample> prediction_examples(const Evaluation& by, const Hypothesis& before,
                                                    const Hypothesis& after) {
   std::vector<PredictionExample> examples;
+  const Forecast forecast_before(by, before), forecast_after(by, after);
   for (const double horizon : horizons) {
-    const std::vector<Stretch> then = stretches(by, before, horizon), now = stretches(by, after, horizon);
+    const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
     if (then.empty() || then.size() != now.size()) continue;
     std::vector<std::size_t> order(then.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
