@@ -1,24 +1,6 @@
 // Eight trials in a register, for processors with AVX-512.
 #if defined(__x86_64__)
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <deque>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
+#include "control/lane_library.hpp"
 
 #include <immintrin.h>
 

@@ -1,23 +1,5 @@
 // Two trials in a register, for every processor.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <deque>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
+#include "control/lane_library.hpp"
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
