@@ -58,6 +58,8 @@ bool multiply_payload(Scenario& scenario, double by) {
   return true;
 }
 
+}  // namespace
+
 Recording simulated(const Scenario& scenario) {
   Recording recording;
   recording.period = scenario.control->sampling.period;
@@ -69,11 +71,11 @@ Recording simulated(const Scenario& scenario) {
     }
   };
   run_scenario(scenario, listeners);
-  recording.gear_resolution = 2.0 * std::numbers::pi / scenario.control->sensor.counts;
+  recording.valid.assign(recording.samples(), 1);
+  const double counts = scenario.control->sensor.counts;
+  recording.gear_resolution = counts > 0.0 ? 2.0 * std::numbers::pi / counts : 0.0;
   return recording;
 }
-
-}  // namespace
 
 Experiment splitting_experiment(const Scenario& extended, const Scenario& stated, const std::vector<Suspect>& members,
                                 double size, const std::vector<Coordinate>& toleranced, const Magnitudes& sizes,

@@ -4,10 +4,14 @@
 #include <vector>
 
 #include "diagnosis/magnitudes.hpp"
+#include "diagnosis/recording.hpp"
 #include "diagnosis/suspects.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace wormdrive {
+
+/// What a run of a scenario with a controller writes down. Throws Halt.
+Recording simulated(const Scenario& scenario);
 
 /// A scenario that would tell a class of causes apart, and why.
 struct Experiment {

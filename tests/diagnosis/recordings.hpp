@@ -2,12 +2,10 @@
 // Recordings for the tests of the diagnosis' parts: the program's own closed loop, disturbed and measured.
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "control/random.hpp"
-#include "diagnosis/recording.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "diagnosis/experiment.hpp"
 
 namespace wormdrive::test {
 
@@ -49,24 +47,6 @@ inline Scenario nominal_arm() {
   return s;
 }
 
-/// What a run of a scenario with a controller writes down.
-inline Recording measured(const Scenario& run) {
-  Recording recording;
-  recording.period = run.control->sampling.period;
-  RunListeners listeners;
-  listeners.samples = [&](const std::vector<ControlRecord>& samples) {
-    for (const ControlRecord& s : samples) {
-      recording.motor_torque.push_back(s.decided.torque);
-      recording.gear_angle.push_back(s.measured.angle);
-    }
-  };
-  run_scenario(run, listeners);
-  recording.valid.assign(recording.samples(), 1);
-  const double counts = run.control->sensor.counts;
-  recording.gear_resolution = counts > 0.0 ? 2.0 * std::numbers::pi / counts : 0.0;
-  return recording;
-}
-
 /// Records a drive that follows a motion.
 inline Recording record(Scenario drive, const RecordingConditions& conditions = {}) {
   ControlScenario control;
@@ -89,7 +69,7 @@ inline Recording record(Scenario drive, const RecordingConditions& conditions = 
   drive.run.duration = conditions.duration;
   drive.run.solver = SolverKind::taylor;
   drive.run.relative_tolerance = 1e-9;
-  return measured(drive);
+  return simulated(drive);
 }
 
 }  // namespace wormdrive::test

@@ -82,7 +82,7 @@ TEST_CASE("the proposed experiment, made and diagnosed with the first recording,
   made.effects = {};
   set_field(made.effects, planted);
   made.control->disturbance.deviation = 5e-4;
-  Recording second = measured(made);
+  Recording second = simulated(made);
   second.load = made.load;
   const Diagnosis after = diagnose(exact_arm(), {first, second});
   CAPTURE(after.sentence);
