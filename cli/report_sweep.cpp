@@ -99,8 +99,8 @@ ReportTable metric_table(const SweepSummary& summary) {
   for (const MetricSummary& m : summary.metrics)
     if (m.count > 0)
       table.rows.push_back({words(m.metric.name), std::string(m.metric.unit.symbol), static_cast<double>(m.count),
-                            m.mean, m.quantiles[1].value, with_interval(m.quantiles[2], 1.0),
-                            with_interval(m.quantiles[3], 1.0), m.greatest});
+                            m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]),
+                            m.greatest});
   return table;
 }
 
@@ -111,8 +111,7 @@ ReportTable influence_table(const SweepSummary& summary) {
   for (const Influence& i : summary.influences) {
     table.rows.push_back({i.parameter, i.rank_correlation});
     if (i.sobol)
-      table.rows.back().insert(table.rows.back().end(),
-                               {with_interval(i.sobol->total, 1.0), with_interval(i.sobol->first, 1.0)});
+      table.rows.back().insert(table.rows.back().end(), {with_interval(i.sobol->total), with_interval(i.sobol->first)});
   }
   return table;
 }

@@ -12,8 +12,8 @@ namespace wormdrive {
 namespace {
 
 constexpr StudentT torque_law;
-constexpr double least_torque_scale =
-    1e-6;  ///< a share of the points' deviations: data without noise have a likelihood too
+/// A share of the points' deviations: data without noise have a likelihood too.
+constexpr double least_torque_scale = 1e-6;
 
 bool fitted(Part part, int half) {
   switch (part) {
