@@ -77,7 +77,7 @@ void print_blind_spots(const Diagnosis& d) {
   if (!unobservable.empty()) print_item("unseen", fmt::format("{}", fmt::join(unobservable, ", ")));
 }
 
-void print(const Diagnosis& d, const std::vector<std::string>& written) {
+void print(const Diagnosis& d, const std::vector<std::string>& written, const std::string& folder) {
   fmt::print("{}\n", d.sentence);
   for (const std::string& remark : d.remarks) print_item("data", remark);
   print_ranking(d);
@@ -87,7 +87,24 @@ void print(const Diagnosis& d, const std::vector<std::string>& written) {
                                     e.standard_error, e.low, e.high));
   print_blind_spots(d);
   if (d.experiment) print_item("next", d.experiment_reason);
-  print_item("wrote", fmt::format("{}", fmt::join(written, ", ")));
+  print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder));
+}
+
+/// The ids of effects, "none" without one.
+std::string ids(const std::vector<EstimatedEffect>& effects) {
+  std::vector<std::string> names;
+  for (const EstimatedEffect& effect : effects) names.push_back(effect.effect);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The extended scenario as a file that says of itself what was added and why.
+std::string with_reasons(const Diagnosis& d) {
+  std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
+  if (!d.equivalents.empty())
+    text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
+  if (!d.calibration.empty())
+    text += fmt::format("# Stated values that moved within [tolerance]: {}.\n", ids(d.calibration));
+  return text + to_toml(d.extended);
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
@@ -125,21 +142,20 @@ int diagnose_command(const DiagnoseOptions& options) {
 
   make_folder(folder);
   std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
-  const std::string extended = to_toml(diagnosis.extended);
-  write_text_file(inside("extended.toml"), extended);
+  write_text_file(inside("extended.toml"), with_reasons(diagnosis));
   if (diagnosis.experiment) {
     write_text_file(inside("experiment.toml"), to_toml(*diagnosis.experiment));
     written.push_back(inside("experiment.toml"));
   }
   write_diagnosis(inside("diagnosis.h5"), diagnosis,
-                  {"diagnosis", scenario.title, extended, options.scenario.command_line});
+                  {"diagnosis", scenario.title, to_toml(diagnosis.extended), options.scenario.command_line});
   if (options.pictures)
     for (const std::string& picture : draw_pictures(inside("diagnosis.h5"), folder)) written.push_back(picture);
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
   write_text_file(inside("diagnosis.json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   written.push_back(inside("diagnosis.json"));  // the last: where it is, the rest is too
   if (options.scenario.json) print_json(json);
-  if (talk) print(diagnosis, written);
+  if (talk) print(diagnosis, written, folder);
   return 0;
 }
 
