@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <thread>
 #include <unistd.h>
 
@@ -59,13 +60,12 @@ void print_ranking(const Diagnosis& d) {
 
 void print_gain(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction) {
-    const bool torque = e.unit.symbol == unit::newton_metre.symbol;
-    print_item(
-        "gain",
-        fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} {} (95 %: {:.3g} to {:.3g}){}",
-                    torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
-                    1e3 * e.before, 1e3 * e.after, torque ? "mN m" : "mrad", 1e3 * e.after_low, 1e3 * e.after_high,
-                    std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
+    const bool torque = std::isnan(e.horizon);
+    print_item("gain",
+               fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} m{} (95 %: {:.3g} to {:.3g}){}",
+                           torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
+                           1e3 * e.before, 1e3 * e.after, e.unit.symbol, 1e3 * e.after_low, 1e3 * e.after_high,
+                           std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
   }
 }
 
@@ -100,6 +100,26 @@ std::vector<std::string> draw_pictures(const std::string& file, const std::strin
   return pictures;
 }
 
+/// Loads of recordings that are not the scenario's, by file.
+std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options) {
+  std::map<std::string, std::vector<std::string>> overrides;
+  for (const std::string& load : options.loads) {
+    const auto file = std::find_if(options.data.begin(), options.data.end(),
+                                   [&](const std::string& data) { return load.starts_with(data + ":"); });
+    if (file == options.data.end())
+      refuse({"--load " + load}, fmt::format("must be FILE:KEY=VALUE of one of the recordings {}, as in {}:mass_kg=0.9",
+                                             fmt::join(options.data, ", "), options.data.front()));
+    overrides[*file].push_back("load." + load.substr(file->size() + 1));
+  }
+  std::map<std::string, LoadParameters> loads;
+  for (const auto& [file, keys] : overrides) {
+    std::vector<std::string> all = options.scenario.overrides;
+    all.insert(all.end(), keys.begin(), keys.end());
+    loads[file] = load_scenario(options.scenario.file, all, Purpose::look).load;
+  }
+  return loads;
+}
+
 }  // namespace
 
 int diagnose_command(const DiagnoseOptions& options) {
@@ -112,6 +132,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
       refuse_to_overwrite(inside(name), input);
   const DataKind kind = kind_of_data(options.data, scenario);
+  const std::map<std::string, LoadParameters> loads = own_loads(options);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   const Diagnosis diagnosis = [&] {
     const Phases phases(!talk);
@@ -120,7 +141,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     settings.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
-    return diagnose_files(scenario, kind, options.data, settings);
+    return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
 
   make_folder(folder);

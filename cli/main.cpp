@@ -148,6 +148,13 @@ int main(int argc, char** argv) {
                    "recordings over time (.csv, .h5), records at constant speed or a break-in table (.csv), told apart "
                    "by their columns; several of one kind are diagnosed together")
       ->required();
+  diagnose_app
+      ->add_option("--load", diagnose.loads,
+                   "load of one recording where it is not the scenario's, as in --load heavy.csv:mass_kg=0.9; may be "
+                   "repeated")
+      ->type_name("FILE:KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   diagnose_app->add_option("-o,--output", diagnose.output, "folder for what is found")->required();
   diagnose_app->add_option("--seed", diagnose.seed, "of the bootstraps")->check(CLI::Range(0.0, 9007199254740992.0));
   diagnose_app->add_option("--threads", diagnose.threads, "default: as many as there are")->check(CLI::Range(1, 1024));
