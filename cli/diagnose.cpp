@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <thread>
 #include <unistd.h>
@@ -10,15 +9,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "bindings/diagnosis_folder.hpp"
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
-#include "diagnosis/diagnose_files.hpp"
-#include "diagnosis/diagnosis_file.hpp"
-#include "diagnosis/diagnosis_json.hpp"
-#include "output/text_file.hpp"
-#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
 
 namespace wormdrive {
 namespace {
@@ -91,11 +85,11 @@ void print(const Diagnosis& d, const std::vector<std::string>& written) {
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
-std::vector<std::string> draw_pictures(const std::string& file, const std::string& folder) {
+std::vector<std::string> draw_pictures(const DiagnosisFolder& folder) {
   std::vector<std::string> pictures;
   for (const std::string name : {"prediction", "residual", "ranking", "certificate"}) {
-    const std::string picture = folder + "/" + name + ".png";
-    if (draw({{file}, picture, "", name}) == 0) pictures.push_back(picture);
+    const std::string picture = folder.inside(name + ".png");
+    if (draw({{folder.inside("diagnosis.h5")}, picture, "", name}) == 0) pictures.push_back(picture);
   }
   return pictures;
 }
@@ -124,13 +118,9 @@ std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options) 
 
 int diagnose_command(const DiagnoseOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
-  const std::string folder = (std::filesystem::path(options.output) / "").parent_path().string();
-  const auto inside = [&](const std::string& name) { return folder + "/" + name; };
   std::vector<std::string> inputs = options.data;
   inputs.push_back(options.scenario.file);
-  for (const std::string& input : inputs)
-    for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
-      refuse_to_overwrite(inside(name), input);
+  const DiagnosisFolder folder(options.output, inputs);
   const DataKind kind = kind_of_data(options.data, scenario);
   const std::map<std::string, LoadParameters> loads = own_loads(options);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
@@ -144,21 +134,10 @@ int diagnose_command(const DiagnoseOptions& options) {
     return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
 
-  make_folder(folder);
-  std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
-  const std::string extended = to_toml(diagnosis.extended);
-  write_text_file(inside("extended.toml"), extended);
-  if (diagnosis.experiment) {
-    write_text_file(inside("experiment.toml"), to_toml(*diagnosis.experiment));
-    written.push_back(inside("experiment.toml"));
-  }
-  write_diagnosis(inside("diagnosis.h5"), diagnosis,
-                  {"diagnosis", scenario.title, extended, options.scenario.command_line});
-  if (options.pictures)
-    for (const std::string& picture : draw_pictures(inside("diagnosis.h5"), folder)) written.push_back(picture);
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
-  write_text_file(inside("diagnosis.json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  written.push_back(inside("diagnosis.json"));  // the last: where it is, the rest is too
+  const std::vector<std::string> written =
+      folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
+                   [&] { return options.pictures ? draw_pictures(folder) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk) print(diagnosis, written);
   return 0;
