@@ -94,7 +94,7 @@ int replay_command(const ReplayOptions& options);
 
 struct SummaryOptions {
   std::string sweep;
-  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first one
+  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first with a unit
   unsigned worst = 5;  ///< trials shown
   bool json = false;
 };

@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bindings/diagnosis_folder.hpp"
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "diagnosis/diagnosis_folder.hpp"
 #include "scenarios/load_scenario.hpp"
 
 namespace wormdrive {
@@ -71,7 +71,7 @@ void print_blind_spots(const Diagnosis& d) {
   if (!unobservable.empty()) print_item("unseen", fmt::format("{}", fmt::join(unobservable, ", ")));
 }
 
-void print(const Diagnosis& d, const std::vector<std::string>& written) {
+void print(const Diagnosis& d, const std::vector<std::string>& written, const std::string& folder) {
   fmt::print("{}\n", d.sentence);
   for (const std::string& remark : d.remarks) print_item("data", remark);
   print_ranking(d);
@@ -81,7 +81,7 @@ void print(const Diagnosis& d, const std::vector<std::string>& written) {
                                     e.standard_error, e.low, e.high));
   print_blind_spots(d);
   if (d.experiment) print_item("next", d.experiment_reason);
-  print_item("wrote", fmt::format("{}", fmt::join(written, ", ")));
+  print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder));
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
@@ -139,7 +139,7 @@ int diagnose_command(const DiagnoseOptions& options) {
       folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
                    [&] { return options.pictures ? draw_pictures(folder) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
-  if (talk) print(diagnosis, written);
+  if (talk) print(diagnosis, written, folder.path());
   return 0;
 }
 

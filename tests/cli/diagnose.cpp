@@ -42,6 +42,10 @@ TEST_CASE("a diagnosis writes its folder, names the friction, and its extended s
     CHECK(std::filesystem::exists(folder / (std::string("out/") + name)));
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) CHECK(entry.path().extension() != ".part");
   CHECK(report(folder).at("verdict") != "adequate");
+  CHECK(outcome.out.find("out/diagnosis.json    see it: wormdrive report out\n") != std::string::npos);
+  CHECK(folder.read("out/extended.toml").starts_with(
+      "# A scenario that wormdrive diagnose has extended; causes: static_friction.\n"
+      "# The data cannot tell the causes of this class apart: static_friction, mesh_friction.\n"));
   CHECK(folder.run({"run", "out/extended.toml", "-q"}).exit == 0);
 }
 
