@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/elastic_teeth.hpp"
 #include "diagnosis/adequacy.hpp"
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/certificate.hpp"
@@ -223,6 +224,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
                        [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
         switch_off(d.extended.effects, all[f.suspect].effect);
     give_teeth_to_bounce(d.extended, last.noise.bounce);
+    auto& uneven = std::get<std::optional<TransmissionError<double>>>(d.extended.effects.list);
+    if (has_elastic_teeth(d.extended.effects) && uneven) {
+      uneven.reset();
+      d.remarks.emplace_back("the extended scenario leaves transmission_error out: elastic teeth run at an even pitch");
+    }
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     describe(d, by, before, found.base);

@@ -2,6 +2,7 @@
 #include <optional>
 #include <thread>
 
+#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
 #include "bindings/python/module.hpp"
