@@ -11,7 +11,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
+#include "diagnosis/diagnosis_json.hpp"
+#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 
 namespace wormdrive {
