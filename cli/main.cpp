@@ -37,15 +37,17 @@ std::string command_line(int argc, char** argv) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
+/// An option that may be given several times, one value each.
+CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                          const std::string& type, const std::string& what) {
+  return command.add_option(name, values, what)->type_name(type)->take_all()->allow_extra_args(false);
+}
+
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "scenario (.toml), or a result file that carries one (.h5)")->required();
-  command
-      .add_option("--set", options.overrides,
-                  "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set "
-                  "motor.torque[1].amplitude_Nm=0.06; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_repeated(command, "--set", options.overrides, "KEY=VALUE",
+               "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set "
+               "motor.torque[1].amplitude_Nm=0.06; may be repeated");
   command.add_flag("-q,--quiet", options.quiet, "print faults only");
   command.add_flag("--json", options.json, "print the result as JSON");
 }
@@ -169,6 +171,9 @@ int main(int argc, char** argv) {
                    "recordings over time (.csv, .h5), records at constant speed or a break-in table (.csv), told apart "
                    "by their columns; several of one kind are diagnosed together")
       ->required();
+  add_repeated(
+      *diagnose_app, "--load", diagnose.loads, "FILE:KEY=VALUE",
+      "load of one recording where it is not the scenario's, as in --load heavy.csv:mass_kg=0.9; may be repeated");
   diagnose_app->add_option("-o,--output", diagnose.output, "folder for what is found")->required();
   diagnose_app->add_option("--seed", diagnose.seed, "of the bootstraps")
       ->check(CLI::Range(0.0, 9007199254740992.0, "NOT NEGATIVE"))

@@ -144,13 +144,19 @@ class Studies(unittest.TestCase):
             Path(folder, "study.toml").write_text(shorter)
             subprocess.run([PROGRAM, "sweep", "study.toml", "-q", "-o", "theirs.h5"], check=True, cwd=folder)
             ours = wormdrive.sweep(Path(folder, "study.toml"), threads=2)
-            ours.write(Path(folder, "ours.h5"))
+            ours.write(Path(folder, "ours.h5"), referee=3)
             with h5py.File(Path(folder, "theirs.h5")) as theirs, h5py.File(Path(folder, "ours.h5")) as written:
                 self.assertEqual(set(theirs["trials"]), set(ours.trials))
                 for name, column in theirs["trials"].items():
                     np.testing.assert_array_equal(ours.trials[name], column[:], err_msg=name)
                     np.testing.assert_array_equal(written["trials"][name][:], column[:], err_msg=name)
                 np.testing.assert_array_equal(written["summary/thresholds/missed"][:], theirs["summary/thresholds/missed"][:])
+                def judged(file):
+                    rows = np.flatnonzero(file["referee/judged"][:])
+                    return dict(zip(file["referee/trial"][:][rows], file["referee/angle_difference"][:][rows]))
+
+                self.assertEqual(len(judged(written)), 3)
+                self.assertLessEqual(judged(written).items(), judged(theirs).items())
 
     def test_a_study_is_a_dict_or_text_too(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -174,7 +180,14 @@ class Studies(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
             theirs = json.loads(Path(folder, "diagnosis.json").read_text())
-            ours = wormdrive.diagnose(*bench)
+            ours = wormdrive.diagnose(*bench, output=Path(folder, "ours"))
+            written = json.loads(Path(folder, "ours/diagnosis.json").read_text())
+            self.assertEqual(written, ours.findings)
+            self.assertEqual(Path(folder, "ours/extended.toml").read_text(), ours.extended)
+            subprocess.run([PROGRAM, "report", Path(folder, "ours")], check=True, capture_output=True)
+            self.assertTrue(Path(folder, "ours/report.html").exists())
+            with self.assertRaisesRegex(wormdrive.InputError, "diagnosis.h5: error: the result would overwrite .*diagnosis.h5"):
+                wormdrive.diagnose(Path(folder, "diagnosis.h5"), bench[1], output=folder)
             del ours.findings["program"], theirs["program"]
             self.assertEqual(ours.findings, theirs)
             self.assertEqual(ours.extended, Path(folder, "extended.toml").read_text())

@@ -162,9 +162,10 @@ class Sweep:
         """The trials as an xarray.Dataset over their index."""
         return self.trials.to_xarray()
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the HDF5 file that `wormdrive sweep` writes, without a referee's verdicts; raises OutputError."""
-        self._sweep.write(os.fspath(path), _command_line())
+    def write(self, path: Union[str, "os.PathLike[str]"], *, referee: int = 8) -> None:
+        """Writes the HDF5 file that `wormdrive sweep` writes; raises OutputError. referee: so many trials are made again by
+        CVODE, and how far it is from them stands in the file."""
+        self._sweep.write(os.fspath(path), _command_line(), referee)
 
     def __repr__(self) -> str:
         return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"
@@ -202,12 +203,10 @@ class Scenario:
         assignments = list(_assignments(overrides))
         if isinstance(source, Scenario):
             self._scenario = _core.Scenario.parse(source.toml, "scenario", assignments, _look) if assignments else source._scenario
-        elif isinstance(source, Mapping):
-            self._scenario = _core.Scenario.parse(_document(source), "dict", assignments, _look)
-        elif isinstance(source, str) and "\n" in source:
-            self._scenario = _core.Scenario.parse(source, "text", assignments, _look)
+        elif (stated := _text_of(source)) is not None:
+            self._scenario = _core.Scenario.parse(*stated, assignments, _look)
         else:
-            self._scenario = _core.Scenario.load(os.fspath(source), assignments, _look)
+            self._scenario = _core.Scenario.load(os.fspath(source), assignments, _look)  # type: ignore[arg-type]
 
     @property
     def title(self) -> str:
@@ -253,31 +252,45 @@ def check(scenario: Source, /, **overrides: Any) -> dict[str, Any]:
 
 def sweep(study: Union[str, "os.PathLike[str]", Mapping[str, Any]], /, *, threads: int = 0) -> Sweep:
     """Makes the trials of a study: a path (.toml), TOML text or a dict; of the latter two the scenario is looked for in the
-    working directory. threads=0: as many as the machine has; the rows do not depend on it."""
-    if isinstance(study, Mapping):
-        return Sweep(_core.sweep_text(_document(study), "dict", threads))
-    if isinstance(study, str) and "\n" in study:
-        return Sweep(_core.sweep_text(study, "text", threads))
-    return Sweep(_core.sweep_file(os.fspath(study), threads))
+    working directory. threads=0: as many as the machine has; the rows do not depend on it. All rows stay in memory: what must
+    survive an interruption is for `wormdrive sweep`, which --resume takes up again."""
+    if (stated := _text_of(study)) is not None:
+        return Sweep(_core.sweep_text(*stated, threads))
+    return Sweep(_core.sweep_file(os.fspath(study), threads))  # type: ignore[arg-type]
 
 
-def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0, **overrides: Any) -> Diagnosis:
+def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0,
+             output: Optional[Union[str, "os.PathLike[str]"]] = None, **overrides: Any) -> Diagnosis:
     """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
-    names of a CSV file, {"time_s": array, ...}."""
+    names of a CSV file, {"time_s": array, ...}. output: a folder for the files of `wormdrive diagnose`, pictures apart;
+    `wormdrive report` makes a page of it."""
     core = Scenario(scenario, _look=True, **overrides)._scenario
+    folder = None if output is None else os.fspath(output)
+    scenario_file = "" if isinstance(scenario, Scenario) or _text_of(scenario) is not None else os.fspath(scenario)
+
+    def found(files: list[str]) -> Diagnosis:
+        return Diagnosis(_core.diagnose(core, files, seed, threads, folder, scenario_file, _command_line()))
+
     if isinstance(data, Mapping):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "data.csv")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(",".join(data) + "\n")
                 file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
-            return Diagnosis(_core.diagnose(core, [path], seed, threads))
+            return found([path])
     files = [data] if isinstance(data, (str, os.PathLike)) else data
-    return Diagnosis(_core.diagnose(core, [os.fspath(file) for file in files], seed, threads))
+    return found([os.fspath(file) for file in files])
 
 
 def _command_line() -> str:
     return f"python {sys.argv[0] if sys.argv else ''}".strip()
+
+
+def _text_of(source: Any) -> Optional[tuple[str, str]]:
+    """The TOML text of a dict or a text, and its name in messages; None of what must be a path."""
+    if isinstance(source, Mapping):
+        return _document(source), "dict"
+    return (source, "text") if isinstance(source, str) and "\n" in source else None
 
 
 def _document(tables: Mapping[str, Any]) -> str:
