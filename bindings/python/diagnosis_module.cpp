@@ -2,12 +2,16 @@
 #include <optional>
 #include <thread>
 
+#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
-#include "bindings/diagnosis_folder.hpp"
 #include "bindings/python/module.hpp"
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
+#include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/diagnosis_folder.hpp"
+#include "diagnosis/diagnosis_json.hpp"
+#include "scenarios/write_scenario.hpp"
 
 namespace py = pybind11;
 

@@ -38,6 +38,20 @@ def resident_kib():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4
 
 
+class Tables(unittest.TestCase):
+    def test_a_table_shows_its_columns(self):
+        shown = repr(wormdrive.run(SHORT).trajectory)
+        self.assertTrue(shown.startswith("<wormdrive.Table of "), shown)
+        self.assertIn(" rows: time [s], gear_angle [rad], ", shown)
+        self.assertIn(" motion, flank>", shown)
+
+    def test_flags_are_words_by_value(self):
+        events = wormdrive.run(FIG09).events
+        self.assertEqual(events.words("kind")[:2], ["break_away", "flank_change"])
+        self.assertEqual(events.flag_meanings["motion_after"], {-1: "backward", 0: "stuck", 1: "forward"})
+        self.assertEqual(events.words("motion_after")[0], "backward")
+
+
 class Runs(unittest.TestCase):
     def test_columns_are_those_of_the_result_file(self):
         import h5py
@@ -97,6 +111,8 @@ class Runs(unittest.TestCase):
         dataset = wormdrive.run(FIG09).to_xarray()
         self.assertEqual(dataset.gear_speed.attrs["units"], "rad/s")
         self.assertLess(float(dataset.gear_speed.sel(time=1.0, method="nearest")), 2.0)
+        self.assertEqual(dataset.motion.attrs["flag_values"], [-1, 0, 1])
+        self.assertEqual(dataset.motion.attrs["flag_meanings"], "backward stuck forward")
 
     def test_steady_and_check(self):
         torque = wormdrive.steady(SHORT, [[-10.0, 10.0]], load={"torque_Nm": 0.0})
