@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/report_kinds.hpp"
+#include "diagnosis/diagnosis_json.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
@@ -44,14 +45,20 @@ std::string estimates(const json& effect) {
 }
 
 /// What a verdict means, for those who have not read the documentation.
+std::string_view meaning(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate: return "nothing that these data show is missing from the scenario";
+    case Verdict::named: return "the cause, or several, are known";
+    case Verdict::ambiguous: return "one of a class of causes that these data cannot tell apart";
+    case Verdict::unexplained: return "something is missing that no effect of the catalogue accounts for";
+  }
+  return "";
+}
+
 std::string explained(const std::string& verdict) {
-  const std::map<std::string, std::string> meanings{
-      {"adequate", "nothing that these data show is missing from the scenario"},
-      {"named", "the cause, or several, are known"},
-      {"ambiguous", "one of a class of causes that these data cannot tell apart"},
-      {"unexplained", "something is missing that no effect of the catalogue accounts for"}};
-  const auto known = meanings.find(verdict);
-  return known == meanings.end() ? verdict : fmt::format("{}: {}", verdict, known->second);
+  for (const Verdict known : {Verdict::adequate, Verdict::named, Verdict::ambiguous, Verdict::unexplained})
+    if (name(known) == verdict) return fmt::format("{}: {}", verdict, meaning(known));
+  return verdict;
 }
 
 /// "of a recording over time, bench.csv"

@@ -174,6 +174,8 @@ TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
   const nlohmann::json data = data_in(folder.read("out/report.html"));
   const nlohmann::json findings = nlohmann::json::parse(folder.read("out/diagnosis.json"));
   CHECK(data.at("verdict") == findings.at("sentence"));
+  CHECK(data.at("summary").get<std::string>().starts_with("Diagnosis of a break-in table, b.csv. Verdict " +
+                                                          findings.at("verdict").get<std::string>() + ": "));
   CHECK(table_in(data, "Evidence: every effect that was tried").at("rows").size() == findings.at("ranking").size());
   CHECK(table_in(data, "What these data can show").at("rows").size() == findings.at("certificate").size());
   CHECK(data.at("groups")[0].at("panels")[0].at("series").size() == 3);
