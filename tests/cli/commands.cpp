@@ -106,6 +106,15 @@ TEST_CASE("check --json states parameters with units, and a scenario that can be
   CHECK(said.at("regime").get<std::string>().starts_with("gear self-locking; "));
   folder.write("again.toml", said.at("scenario"));
   CHECK(json::parse(printed(folder, {"check", "again.toml", "--json"})) == said);
+  // where the worm is slowest, at k = 1 - 0.2 rad, eq. 17 has the least room
+  const std::string eccentric = "effect.transmission_error={amplitude_deg=11.459155902616466, phase_deg=0}";
+  const json slower = json::parse(printed(folder, {"check", fig9, "--json", "--set", eccentric})).at("derived");
+  const auto value = [&](const json& derived, const std::string& name) {
+    return derived.at(name).at("value").get<double>();
+  };
+  const double surface = value(said.at("derived"), "Jw i/Jg"), C1 = value(slower, "C1");
+  CHECK(std::abs(value(slower, "C1 + Jw i k^2/Jg") - (C1 + 0.64 * surface)) <= 1e-12);
+  CHECK(std::abs(value(said.at("derived"), "C1 + Jw i/Jg") - (C1 + surface)) <= 1e-12);
   folder.write("mass.toml", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n");
   CHECK(json::parse(printed(folder, {"check", "mass.toml", "--json"})).at("derived") == json::object());
 }
