@@ -6,7 +6,8 @@
 
 // `wormdrive diagnose` from file to folder: what it writes, what the report holds, and what it refuses.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_diagnose {
+
 using nlohmann::json;
 
 namespace {
@@ -141,3 +142,5 @@ TEST_CASE("tolerances and column names that cannot be are told") {
       {"empty", with("[data]\ngear_angle_rad = \"\"\n"), "s.toml:20:18: error: data.gear_angle_rad = \"\" names no column"},
   });
 }
+
+}  // namespace wormdrive::test::cli_diagnose

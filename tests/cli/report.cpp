@@ -5,8 +5,7 @@
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_report {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST_CASE("what is no result, or no longer whole, gets no report") {
                {"report", "."},
                true}});
 }
+
+}  // namespace wormdrive::test::cli_report

@@ -10,7 +10,7 @@
 
 // What a second encoder, on the worm, adds to a diagnosis. The data are the recovery tests' own.
 
-using namespace wormdrive;
+namespace wormdrive::test::diagnosis_worm_encoder {
 
 namespace {
 
@@ -110,3 +110,5 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
   CHECK(two.causes[0].effect == "backlash");
   CHECK(two.remarks.at(0) == "best of the catalogue, but it leaves structure behind: worm viscous");
 }
+
+}  // namespace wormdrive::test::diagnosis_worm_encoder
