@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 tools/install_packages.sh
 cmake --preset release
-cmake --build --preset release --target wormdrive
+cmake --build --preset release --target wormdrive wormdrive_python
 
 wormdrive=build/release/wormdrive
 mkdir -p out
@@ -21,7 +21,9 @@ In $PWD/out:
 $(find out -type f -printf '  %-32P %9s bytes\n' | sort)
 
 What next, from $PWD:
-  $wormdrive --help                        all commands
-  cp scenarios/fig09_switching.toml my_drive.toml       a drive of your own: edit it, then run it
-  ./run_tests.sh                                        check this build
+  export PATH="\$PWD/build/release:\$PATH"    then \`wormdrive --help\` lists the commands
+  export PYTHONPATH="\$PWD/build/release/python"    then Python imports wormdrive
+  wormdrive report out/fig09_switching.h5    the first run as a page for the browser
+  wormdrive new my_drive.toml    a drive of your own: edit it, then wormdrive run my_drive.toml
+  ./run_tests.sh    check this build
 END

@@ -43,10 +43,11 @@ int steady_command(const SteadyOptions& options);
 
 struct DiagnoseOptions {
   ScenarioOptions scenario;
-  std::vector<std::string> data;  ///< CSV, or results of run
-  std::string output;             ///< folder
-  double seed = 1;                ///< of bootstraps
-  int threads = 0;                ///< 0: as many as there are
+  std::vector<std::string> data;   ///< CSV, or results of run
+  std::vector<std::string> loads;  ///< "file:key=value"
+  std::string output;              ///< folder
+  double seed = 1;                 ///< of bootstraps
+  int threads = 0;                 ///< 0: as many as there are
   bool pictures = true;
 };
 int diagnose_command(const DiagnoseOptions& options);
@@ -93,7 +94,7 @@ int replay_command(const ReplayOptions& options);
 
 struct SummaryOptions {
   std::string sweep;
-  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first one
+  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first with a unit
   unsigned worst = 5;  ///< trials shown
   bool json = false;
 };

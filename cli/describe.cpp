@@ -91,12 +91,6 @@ std::string default_output(const std::string& scenario_file, const std::string& 
   return file.stem().string() + (stored ? "_again" : "") + suffix;
 }
 
-void refuse_to_overwrite(const std::string& output, const std::string& input) {
-  for (const std::string& written : {output, output + ".part"})
-    if (std::error_code none; std::filesystem::equivalent(written, input, none))
-      refuse({output}, fmt::format("the result would overwrite {}; choose another --output", input));
-}
-
 void print_json(const nlohmann::json& json) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }

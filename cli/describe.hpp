@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "output/trajectory.hpp"
+#include "scenarios/overwriting.hpp"
 #include "scenarios/run_scenario.hpp"
 #include "scenarios/warnings.hpp"
 #include "scenarios/write_run.hpp"
@@ -28,9 +29,6 @@ void print_item(const std::string& label, const std::string& text);
 
 /// NAME.h5 beside the current directory for a scenario NAME.toml; never the scenario file itself.
 std::string default_output(const std::string& scenario_file, const std::string& suffix);
-
-/// Throws InputFault if writing the output, or its part, would destroy the file that the command reads.
-void refuse_to_overwrite(const std::string& output, const std::string& input);
 
 /// Prints JSON; bytes of a file name that are no UTF-8 are replaced.
 void print_json(const nlohmann::json& json);

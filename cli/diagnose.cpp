@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <map>
 #include <thread>
 #include <unistd.h>
 
@@ -12,12 +12,10 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "diagnosis/diagnose_files.hpp"
-#include "diagnosis/diagnosis_file.hpp"
+#include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
-#include "output/text_file.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
 
 namespace wormdrive {
 namespace {
@@ -59,13 +57,12 @@ void print_ranking(const Diagnosis& d) {
 
 void print_gain(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction) {
-    const bool torque = e.unit.symbol == unit::newton_metre.symbol;
-    print_item(
-        "gain",
-        fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} {} (95 %: {:.3g} to {:.3g}){}",
-                    torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
-                    1e3 * e.before, 1e3 * e.after, torque ? "mN m" : "mrad", 1e3 * e.after_low, 1e3 * e.after_high,
-                    std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
+    const bool torque = std::isnan(e.horizon);
+    print_item("gain",
+               fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} m{} (95 %: {:.3g} to {:.3g}){}",
+                           torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
+                           1e3 * e.before, 1e3 * e.after, e.unit.symbol, 1e3 * e.after_low, 1e3 * e.after_high,
+                           std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
   }
 }
 
@@ -77,7 +74,7 @@ void print_blind_spots(const Diagnosis& d) {
   if (!unobservable.empty()) print_item("unseen", fmt::format("{}", fmt::join(unobservable, ", ")));
 }
 
-void print(const Diagnosis& d, const std::vector<std::string>& written) {
+void print(const Diagnosis& d, const std::vector<std::string>& written, const std::string& folder) {
   fmt::print("{}\n", d.sentence);
   for (const std::string& remark : d.remarks) print_item("data", remark);
   print_ranking(d);
@@ -87,31 +84,48 @@ void print(const Diagnosis& d, const std::vector<std::string>& written) {
                                     e.standard_error, e.low, e.high));
   print_blind_spots(d);
   if (d.experiment) print_item("next", d.experiment_reason);
-  print_item("wrote", fmt::format("{}", fmt::join(written, ", ")));
+  print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder));
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
-std::vector<std::string> draw_pictures(const std::string& file, const std::string& folder) {
+std::vector<std::string> draw_pictures(const DiagnosisFolder& folder) {
   std::vector<std::string> pictures;
   for (const std::string name : {"prediction", "residual", "ranking", "certificate"}) {
-    const std::string picture = folder + "/" + name + ".png";
-    if (draw({{file}, picture, "", name}) == 0) pictures.push_back(picture);
+    const std::string picture = folder.inside(name + ".png");
+    if (draw({{folder.inside("diagnosis.h5")}, picture, "", name}) == 0) pictures.push_back(picture);
   }
   return pictures;
+}
+
+/// Loads of recordings that are not the scenario's, by file.
+std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options) {
+  std::map<std::string, std::vector<std::string>> overrides;
+  for (const std::string& load : options.loads) {
+    const auto file = std::find_if(options.data.begin(), options.data.end(),
+                                   [&](const std::string& data) { return load.starts_with(data + ":"); });
+    if (file == options.data.end())
+      refuse({"--load " + load}, fmt::format("must be FILE:KEY=VALUE of one of the recordings {}, as in {}:mass_kg=0.9",
+                                             fmt::join(options.data, ", "), options.data.front()));
+    overrides[*file].push_back("load." + load.substr(file->size() + 1));
+  }
+  std::map<std::string, LoadParameters> loads;
+  for (const auto& [file, keys] : overrides) {
+    std::vector<std::string> all = options.scenario.overrides;
+    all.insert(all.end(), keys.begin(), keys.end());
+    loads[file] = load_scenario(options.scenario.file, all, Purpose::look).load;
+  }
+  return loads;
 }
 
 }  // namespace
 
 int diagnose_command(const DiagnoseOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
-  const std::string folder = (std::filesystem::path(options.output) / "").parent_path().string();
-  const auto inside = [&](const std::string& name) { return folder + "/" + name; };
   std::vector<std::string> inputs = options.data;
   inputs.push_back(options.scenario.file);
-  for (const std::string& input : inputs)
-    for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
-      refuse_to_overwrite(inside(name), input);
+  const DiagnosisFolder folder(options.output, inputs);
   const DataKind kind = kind_of_data(options.data, scenario);
+  const std::map<std::string, LoadParameters> loads = own_loads(options);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   const Diagnosis diagnosis = [&] {
     const Phases phases(!talk);
@@ -120,26 +134,15 @@ int diagnose_command(const DiagnoseOptions& options) {
     settings.threads =
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
-    return diagnose_files(scenario, kind, options.data, settings);
+    return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
 
-  make_folder(folder);
-  std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
-  const std::string extended = to_toml(diagnosis.extended);
-  write_text_file(inside("extended.toml"), extended);
-  if (diagnosis.experiment) {
-    write_text_file(inside("experiment.toml"), to_toml(*diagnosis.experiment));
-    written.push_back(inside("experiment.toml"));
-  }
-  write_diagnosis(inside("diagnosis.h5"), diagnosis,
-                  {"diagnosis", scenario.title, extended, options.scenario.command_line});
-  if (options.pictures)
-    for (const std::string& picture : draw_pictures(inside("diagnosis.h5"), folder)) written.push_back(picture);
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
-  write_text_file(inside("diagnosis.json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  written.push_back(inside("diagnosis.json"));  // the last: where it is, the rest is too
+  const std::vector<std::string> written =
+      folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
+                   [&] { return options.pictures ? draw_pictures(folder) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
-  if (talk) print(diagnosis, written);
+  if (talk) print(diagnosis, written, folder.path());
   return 0;
 }
 

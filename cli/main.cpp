@@ -18,6 +18,7 @@
 #include "events/halt.hpp"
 #include "output/part_file.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
 
 namespace {
 
@@ -36,15 +37,17 @@ std::string command_line(int argc, char** argv) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
+/// An option that may be given several times, one value each.
+CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                          const std::string& type, const std::string& what) {
+  return command.add_option(name, values, what)->type_name(type)->take_all()->allow_extra_args(false);
+}
+
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("scenario", options.file, "scenario (.toml), or a result file that carries one (.h5)")->required();
-  command
-      .add_option("--set", options.overrides,
-                  "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set "
-                  "motor.torque[1].amplitude_Nm=0.06; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_repeated(command, "--set", options.overrides, "KEY=VALUE",
+               "override a key, as in --set motor.torque.amplitude_Nm=0.06; of several terms --set "
+               "motor.torque[1].amplitude_Nm=0.06; may be repeated");
   command.add_flag("-q,--quiet", options.quiet, "print faults only");
   command.add_flag("--json", options.json, "print the result as JSON");
 }
@@ -85,7 +88,18 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), first) != names.end()) return std::nullopt;
+  if (const auto meant = probably_meant(first, names))
+    return fmt::format("wormdrive: error: unknown command '{}'; did you mean '{}'?", first, *meant);
   return fmt::format("wormdrive: error: unknown command '{}'; the commands are {}", first, fmt::join(names, ", "));
+}
+
+/// Help and version as CLI11 prints them; a fault on one line, with the command whose help has the answer.
+int told(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);
+  std::string command = "wormdrive";
+  for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
+  std::cerr << fmt::format("{}: error: {}; see {} --help\n", command, error.what(), command);
+  return bad_input;
 }
 
 /// A finite number that is greater than 0, or at least 0; CLI::PositiveNumber prints the largest double in full.
@@ -127,8 +141,13 @@ int main(int argc, char** argv) {
       app.add_subcommand("statics", "locking regime and break-in torques over the load torque");
   add_scenario_options(*statics_app, statics.scenario);
   statics_app->add_option("-o,--output", statics.output, "also write the map as HDF5");
-  statics_app->add_option("--max-load", statics.max_load, "largest load torque [N m]")->check(positive);
-  statics_app->add_option("--points", statics.points, "loads from -max to +max")->check(CLI::Range(3, 100000));
+  statics_app
+      ->add_option("--max-load", statics.max_load,
+                   "largest load torque [N m]; default: 1.5 times that of the arm, without one 1.5 N m")
+      ->check(positive);
+  statics_app->add_option("--points", statics.points, "loads from -max to +max")
+      ->check(CLI::Range(3, 100000))
+      ->capture_default_str();
 
   SteadyOptions steady;
   CLI::App* const steady_app = app.add_subcommand("steady", "motor torque needed to run at constant speed");
@@ -136,8 +155,12 @@ int main(int argc, char** argv) {
   steady_app->add_option("-o,--output", steady.output, "also write curve and records as HDF5");
   steady_app->add_option("--data", steady.data,
                          "CSV: record, worm_speed_rad_per_s, motor_torque_Nm; compared with the model");
-  steady_app->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]")->check(positive);
-  steady_app->add_option("--points", steady.points, "speeds in each direction")->check(CLI::Range(1, 100000));
+  steady_app
+      ->add_option("--max-speed", steady.max_speed, "largest worm speed [rad/s]; default: that of the data, else 100")
+      ->check(positive);
+  steady_app->add_option("--points", steady.points, "speeds in each direction")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
 
   DiagnoseOptions diagnose;
   CLI::App* const diagnose_app =
@@ -148,10 +171,16 @@ int main(int argc, char** argv) {
                    "recordings over time (.csv, .h5), records at constant speed or a break-in table (.csv), told apart "
                    "by their columns; several of one kind are diagnosed together")
       ->required();
+  add_repeated(
+      *diagnose_app, "--load", diagnose.loads, "FILE:KEY=VALUE",
+      "load of one recording where it is not the scenario's, as in --load heavy.csv:mass_kg=0.9; may be repeated");
   diagnose_app->add_option("-o,--output", diagnose.output, "folder for what is found")->required();
-  diagnose_app->add_option("--seed", diagnose.seed, "of the bootstraps")->check(CLI::Range(0.0, 9007199254740992.0));
+  diagnose_app->add_option("--seed", diagnose.seed, "of the bootstraps")
+      ->check(CLI::Range(0.0, 9007199254740992.0, "NOT NEGATIVE"))
+      ->capture_default_str();
   diagnose_app->add_option("--threads", diagnose.threads, "default: as many as there are")->check(CLI::Range(1, 1024));
-  diagnose_app->add_flag("!--no-pictures", diagnose.pictures, "write no pictures");
+  diagnose_app->add_flag_callback(
+      "--no-pictures", [&] { diagnose.pictures = false; }, "write no pictures");
 
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
@@ -202,8 +231,9 @@ int main(int argc, char** argv) {
       app.add_subcommand("summary", "what a sweep comes to: quantiles, risks, what matters most");
   summary_app->add_option("sweep", summary.sweep, "result of a sweep (.h5)")->required();
   summary_app->add_option("--metric", summary.metric,
-                          "by which parameters and trials are ranked; default: that of the first threshold");
-  summary_app->add_option("--worst", summary.worst, "how many of the worst trials are shown");
+                          "by which parameters and trials are ranked; default: that of the first threshold, else the "
+                          "first metric with a unit");
+  summary_app->add_option("--worst", summary.worst, "how many of the worst trials are shown")->capture_default_str();
   summary_app->add_flag("--json", summary.json, "print the result as JSON");
 
   WorstOptions worst;
@@ -212,9 +242,12 @@ int main(int argc, char** argv) {
   worst_app->add_option("sweep", worst.sweep, "result of a sweep (.h5)")->required();
   worst_app->add_option("-o,--output", worst.output, "result file of the worst run")->required();
   worst_app->add_option("--metric", worst.metric, "whose worst value is looked for; default: as in summary");
-  worst_app->add_option("--evaluations", worst.evaluations, "runs at most")->check(CLI::Range(4, 1000000));
+  worst_app->add_option("--evaluations", worst.evaluations, "runs at most")
+      ->check(CLI::Range(4, 1000000))
+      ->capture_default_str();
   worst_app->add_option("--tail", worst.tail, "probability that is left out at either end of each number")
-      ->check(CLI::Range(1e-12, 0.49));
+      ->check(CLI::Range(1e-12, 0.49))
+      ->capture_default_str();
   worst_app->add_option("--threads", worst.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
   worst_app->add_flag("-q,--quiet", worst.quiet, "print faults only");
   FmuOptions fmu;
@@ -229,11 +262,12 @@ int main(int argc, char** argv) {
   CLI::App* const list_app =
       app.add_subcommand("list", "list effects, loads, torques, controllers, references or scenarios");
   list_app
-      ->add_option("what", what,
+      ->add_option("topic", what,
                    "effects (effects.md: as a page), loads, torques, controllers, references or scenarios")
       ->required()
       ->check(CLI::IsMember({"effects", "effects.md", "loads", "torques", "controllers", "references", "scenarios"}));
 
+  app.footer("wormdrive COMMAND --help tells more of a command. To start: wormdrive new my_drive.toml");
   if (const auto fault = unknown_command(app, argc, argv)) {
     std::cerr << *fault << '\n';
     return bad_input;
@@ -241,7 +275,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : bad_input;
+    return told(app, error);
   }
   for (ScenarioOptions* options :
        {&run.scenario, &check, &statics.scenario, &steady.scenario, &diagnose.scenario, &fmu.scenario})

@@ -84,7 +84,8 @@ amplitude_rad = 0.14
 frequency_Hz = 1
 
 [sensor]
-counts = 4000                         # of the encoder, per turn of the gear
+counts = 240000                       # of the encoder, per turn of the gear: 4000 per turn of the worm. One count per
+                                      # sample should be well within the layer: here 0.026 rad/s
 )";
 
 constexpr std::string_view axis_lines = R"([mesh]

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include "cli/commands.hpp"
+#include "cli/describe.hpp"
 #include "output/hdf5.hpp"
 #include "scenarios/faults.hpp"
 
@@ -20,6 +21,12 @@ std::string script() {
   return std::filesystem::exists(installed) ? installed : WORMDRIVE_PLOTS_SOURCE "/plot.py";
 }
 
+/// The picture that is written.
+std::string picture(const PlotOptions& options) {
+  return options.output.empty() ? std::filesystem::path(options.files.front()).replace_extension(".png").string()
+                                : options.output;
+}
+
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
@@ -30,16 +37,15 @@ int plot_command(const PlotOptions& options) {
     else if (!is_hdf5(file))
       faults.add({file}, "not an HDF5 file; wormdrive run writes one");
   faults.raise();
-  return draw(options);
+  const int code = draw(options);
+  if (code == 0) print_item("wrote", picture(options));
+  return code;
 }
 
 int draw(const PlotOptions& options) {
-  const std::filesystem::path first(options.files.front());
   std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
   words.insert(words.end(), options.files.begin(), options.files.end());
-  words.insert(words.end(),
-               {"-o", options.output.empty() ? std::filesystem::path(first).replace_extension(".png").string()
-                                             : options.output});
+  words.insert(words.end(), {"-o", picture(options)});
   if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
   std::vector<char*> argv;

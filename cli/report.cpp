@@ -18,6 +18,7 @@ struct KindOfPage {
 };
 constexpr KindOfPage pages[] = {{"run", report_of_run},
                                 {"statics", report_of_statics},
+                                {"steady", report_of_steady},
                                 {"sweep", report_of_sweep},
                                 {"diagnosis", report_of_diagnosis}};
 
@@ -26,7 +27,7 @@ ReportPage page_of(const ResultFile& file) {
   for (const KindOfPage& known : pages)
     if (known.name == kind) return known.page(file);
   refuse({file.path()},
-         fmt::format("is the result of '{}'; a report shows a run, statics, a sweep or a diagnosis", kind));
+         fmt::format("is the result of '{}'; a report shows a run, statics, steady, a sweep or a diagnosis", kind));
 }
 
 ReportTable provenance(const ResultFile& file) {

@@ -30,14 +30,34 @@ double number(const json& value) { return value.is_number() ? value.get<double>(
 std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
 std::string estimate(const json& parameter) {
-  const std::string unit = text(parameter.at("unit"));
-  return fmt::format("{} {:.4g} ± {:.2g}{} (95 %: {:.4g} to {:.4g})", words(text(parameter.at("name"))),
-                     number(parameter.at("value")), number(parameter.at("standard_error")),
-                     unit == "1" ? "" : " " + unit, number(parameter.at("low")), number(parameter.at("high")));
+  const std::string unit = text(parameter.at("unit")), shown_unit = unit == "1" ? "" : " " + unit;
+  const std::string name = words(text(parameter.at("name")));
+  const double value = number(parameter.at("value")), error = number(parameter.at("standard_error"));
+  if (std::isnan(error)) return fmt::format("{} {:.4g}{}", name, value, shown_unit);
+  return fmt::format("{} {:.4g} ± {:.2g}{} (95 %: {:.4g} to {:.4g})", name, value, error, shown_unit,
+                     number(parameter.at("low")), number(parameter.at("high")));
 }
 std::string estimates(const json& effect) {
   std::string all;
   for (const json& parameter : effect.at("parameters")) all += (all.empty() ? "" : "; ") + estimate(parameter);
+  return all;
+}
+
+/// What a verdict means, for those who have not read the documentation.
+std::string explained(const std::string& verdict) {
+  const std::map<std::string, std::string> meanings{
+      {"adequate", "nothing that these data show is missing from the scenario"},
+      {"named", "the cause, or several, are known"},
+      {"ambiguous", "one of a class of causes that these data cannot tell apart"},
+      {"unexplained", "something is missing that no effect of the catalogue accounts for"}};
+  const auto known = meanings.find(verdict);
+  return known == meanings.end() ? verdict : fmt::format("{}: {}", verdict, known->second);
+}
+
+/// "of a recording over time, bench.csv"
+std::string described_data(const json& data) {
+  std::string all = text(data.at("kind"));
+  for (const json& file : data.at("files")) all += ", " + std::filesystem::path(text(file)).filename().string();
   return all;
 }
 
@@ -64,8 +84,14 @@ void add_evidence(ReportPage& page, const json& findings) {
       });
   add(page,
       {"Prediction on data not used for the fit",
-       {{"horizon [s]", true}, {"before", true}, {"after", true}, {"95 % interval"}, {"noise floor", true}, {"unit"}},
-       {}},
+       {{"horizon [s]", true},
+        {"stated model", true},
+        {"extended model", true},
+        {"95 % interval"},
+        {"noise floor", true},
+        {"unit"}},
+       {},
+       "Rms error at the end of predictions so far ahead; the noise floor is what no model can go below."},
       findings.at("gain"), [](const json& g) {
         return std::vector<Cell>{number(g.at("horizon_s")),
                                  number(g.at("before")),
@@ -114,9 +140,9 @@ std::vector<ReportPanel> residual_panels(const ResultFile& file, const std::vect
     return ReportSeries{name, file.attribute(at, "units"), meaning.empty() ? file.attribute(at, "long_name") : meaning,
                         file.column(at)};
   };
-  std::vector<ReportPanel> panels{
-      {over,
-       {series("before", "torque that the stated model lacks"), series("after", "that the extended model lacks")}}};
+  std::vector<ReportPanel> panels{{over,
+                                   {series("before", "torque that the stated model lacks"),
+                                    series("after", "torque that the extended model lacks")}}};
   for (const std::string name : {"gear_speed", "gear_angle", "load_torque"})
     if (ReportSeries one = series(name, "");
         std::any_of(one.values.begin(), one.values.end(), [](double x) { return !std::isnan(x); }))
@@ -142,7 +168,7 @@ struct Predictions {
 /// The error of predictions of one horizon over time, one stretch after the other with a gap between them.
 ReportPanel prediction_panel(const Predictions& p, double horizon) {
   const std::string what = fmt::format("error of the angle predicted {:g} s ahead", horizon);
-  ReportPanel panel{{}, {{"before", "rad", what + ", before", {}}, {"after", "rad", "after", {}}}};
+  ReportPanel panel{{}, {{"before", "rad", what + ", stated model", {}}, {"after", "rad", "extended model", {}}}};
   std::map<double, double> start;  // of each stretch
   for (std::size_t k = 0; k < p.time.size(); ++k) start.try_emplace(p.example[k], p.time[k]);
   std::vector<std::size_t> rows;
@@ -197,7 +223,8 @@ void add_torques(const ResultFile& file, ReportPage& page) {
 ReportPage report_of_diagnosis(const ResultFile& file) {
   const json findings = read_findings(file);
   ReportPage page;
-  page.summary = fmt::format("verdict: {}", text(findings.at("verdict")));
+  page.summary = fmt::format("Diagnosis of {}. Verdict {}", described_data(findings.at("data")),
+                             explained(text(findings.at("verdict"))));
   page.verdict = text(findings.at("sentence"));
   for (const json& remark : findings.at("remarks")) page.remarks.push_back(text(remark));
   if (const std::string next = text(findings.at("experiment")); !next.empty()) page.remarks.push_back("Next: " + next);

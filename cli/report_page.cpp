@@ -59,8 +59,9 @@ Json as_json(const ReportEvent& e) {
 }
 
 Json as_json(const ReportGroup& group) {
-  Json json{{"title", group.title},    {"over", group.over},     {"units", group.units},
-            {"panels", Json::array()}, {"bands", Json::array()}, {"events", Json::array()}};
+  Json json{{"title", group.title},          {"over", group.over},     {"units", group.units},
+            {"panels", Json::array()},       {"bands", Json::array()}, {"events", Json::array()},
+            {"all_events", group.all_events}};
   for (const ReportPanel& panel : group.panels) json["panels"].push_back(as_json(panel));
   for (const ReportBand& b : group.bands) json["bands"].push_back({b.from, b.to, b.kind, b.meaning});
   for (const ReportEvent& e : group.events) json["events"].push_back(as_json(e));

@@ -49,6 +49,7 @@ struct ReportGroup {
   std::vector<ReportPanel> panels;
   std::vector<ReportBand> bands = {};
   std::vector<ReportEvent> events = {};
+  std::size_t all_events = 0;  ///< that happen, of which those are shown
 };
 
 struct ReportTable {

@@ -118,17 +118,23 @@ ReportPage report_of_run(const ResultFile& file) {
   ReportPage page;
   if (file.has("controller")) {
     group.panels.push_back(tracking_error(file));
-    for (ReportPanel& panel : panels(file, "controller", {{"torque", "applied_torque"}, {"sliding_variable"}}, steps))
-      group.panels.push_back(std::move(panel));
+    const bool sliding = scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law);
+    std::vector<std::vector<std::string>> wanted{{"torque", "applied_torque"}};
+    if (sliding) wanted.push_back({"sliding_variable"});
+    for (ReportPanel& panel : panels(file, "controller", wanted, steps)) group.panels.push_back(std::move(panel));
     page.tables.push_back(control_table(file));
   }
   group.bands = bands(file);
   group.events = events(file);
-  const std::size_t rows = group.panels.front().over.size(), count = file.column("events/time").size();
+  RunSummary happened;
+  for (const double kind : file.column("events/kind")) ++happened.events[static_cast<std::size_t>(kind)];
+  group.all_events = static_cast<std::size_t>(happened.total_events());
+  const std::vector<double>& time = group.panels.front().over;
   const std::string regime = describe_mesh(scenario);
-  page.summary = fmt::format("{}{}{:g} s, {} rows, {} events{}", regime, regime.empty() ? "" : ". ",
-                             group.panels.front().over.back() - group.panels.front().over.front(), rows, count,
-                             count > most_events ? fmt::format(", of which the first {} are shown", most_events) : "");
+  page.summary =
+      fmt::format("{}{}{:g} s, {} rows, {}{}", regime, regime.empty() ? "" : ". ", time.back() - time.front(),
+                  time.size(), describe_events(happened),
+                  group.all_events > most_events ? fmt::format(" (the first {} are shown)", most_events) : "");
   page.groups.push_back(std::move(group));
   return page;
 }

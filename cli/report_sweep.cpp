@@ -20,17 +20,21 @@ struct Values {
   std::vector<double> values;
   std::vector<std::size_t> rows;
 };
-Values values_of(const ResultFile& file, const std::string& metric) {
+Values values_of(const ResultFile& file, const std::vector<double>& status, const std::string& metric) {
   Values of{file.column("trials/" + metric), {}};
-  const std::vector<double> status = file.column("trials/status");
   for (std::size_t k = 0; k < status.size(); ++k)
     if (status[k] == static_cast<double>(TrialStatus::done) && std::isfinite(of.values[k])) of.rows.push_back(k);
   return of;
 }
 
+/// "error max: largest error"
+std::string described(const Metric& metric) {
+  const std::string name = words(metric.name);
+  return metric.meaning.empty() || metric.meaning == name ? name : fmt::format("{}: {}", name, metric.meaning);
+}
+
 /// Which value of a metric what share of the drives stays below; its tails with every drive.
-ReportPanel distribution(const ResultFile& file, const SweepSummary& summary, const MetricSummary& m) {
-  const Values column = values_of(file, m.metric.name);
+ReportPanel distribution(const Values& column, const SweepSummary& summary, const MetricSummary& m) {
   std::vector<double> rising;
   for (const std::size_t row : column.rows) rising.push_back(column.values[row]);
   std::sort(rising.begin(), rising.end());
@@ -40,7 +44,7 @@ ReportPanel distribution(const ResultFile& file, const SweepSummary& summary, co
   std::sort(shown.begin(), shown.end());
   shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
   ReportPanel panel;
-  ReportSeries series{m.metric.name, std::string(m.metric.unit.symbol), words(m.metric.name), {}};
+  ReportSeries series{m.metric.name, std::string(m.metric.unit.symbol), described(m.metric), {}};
   for (const std::size_t k : shown) {
     panel.over.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(rising.size()));
     series.values.push_back(rising[k]);
@@ -52,9 +56,7 @@ ReportPanel distribution(const ResultFile& file, const SweepSummary& summary, co
 }
 
 /// A metric over a parameter: some trials, and what half and 95 % of all trials around stay below.
-ReportPanel cloud(const ResultFile& file, const Metric& metric, const std::string& parameter) {
-  const Values y = values_of(file, metric.name);
-  const std::vector<double> x = file.column("trials/" + parameter);
+ReportPanel cloud(const Values& y, const Metric& metric, const std::vector<double>& x) {
   std::vector<std::size_t> rows = y.rows;
   std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
   const std::string units(metric.unit.symbol);
@@ -93,14 +95,15 @@ ReportTable metric_table(const SweepSummary& summary) {
                      {"median", true},
                      {"95 % lie below [interval]"},
                      {"99 % lie below [interval]"},
-                     {"greatest", true}},
+                     {"greatest", true},
+                     {"meaning"}},
                     {},
                     "Intervals hold the true quantile with 95 % confidence."};
   for (const MetricSummary& m : summary.metrics)
     if (m.count > 0)
       table.rows.push_back({words(m.metric.name), std::string(m.metric.unit.symbol), static_cast<double>(m.count),
                             m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]),
-                            m.greatest});
+                            m.greatest, m.metric.meaning});
   return table;
 }
 
@@ -133,10 +136,14 @@ ReportTable worst_table(const SweepReader& sweep, const SweepSummary& summary) {
 
 std::string verdict(const SweepSummary& summary) {
   std::string text;
-  for (const ThresholdSummary& t : summary.thresholds)
-    text += fmt::format("{}{} of {} drives ({} %) have {} {} {:g} {}.", text.empty() ? "" : " ", t.missed, t.of,
-                        with_interval(t.share, 100.0), words(t.threshold.metric), t.threshold.above ? "above" : "below",
-                        t.threshold.limit, t.unit.symbol);
+  for (const ThresholdSummary& t : summary.thresholds) {
+    const std::string interval =
+        summary.sample ? fmt::format("; 95 % confidence: {:.3g} to {:.3g} %", 100.0 * t.share.low, 100.0 * t.share.high)
+                       : "";
+    text += fmt::format("{}{} of {} drives have {} {} {:g} {} ({:.3g} %{}).", text.empty() ? "" : " ", t.missed, t.of,
+                        words(t.threshold.metric), t.threshold.above ? "above" : "below", t.threshold.limit,
+                        t.unit.symbol, 100.0 * t.share.value, interval);
+  }
   return text;
 }
 
@@ -162,10 +169,13 @@ ReportPage report_of_sweep(const ResultFile& file) {
   std::stable_partition(drawn.begin(), drawn.end(),
                         [&](const MetricSummary* m) { return m->metric.name == summary.ranked_by; });
   if (drawn.size() > most_metrics) drawn.resize(most_metrics);
+  const std::vector<double> status = file.column("trials/status");
   ReportGroup spread{"Spread: the value below which a share of the drives stays", "share of drives", "1", {}};
-  for (const MetricSummary* m : drawn) spread.panels.push_back(distribution(file, summary, *m));
+  for (const MetricSummary* m : drawn)
+    spread.panels.push_back(distribution(values_of(file, status, m->metric.name), summary, *m));
   if (!spread.panels.empty()) page.groups.push_back(std::move(spread));
-  if (!drawn.empty() && drawn.front()->metric.name == summary.ranked_by)
+  if (!drawn.empty() && drawn.front()->metric.name == summary.ranked_by) {
+    const Values ranked = values_of(file, status, summary.ranked_by);
     for (std::size_t k = 0; k < std::min(most_parameters, summary.influences.size()); ++k) {
       const auto parameter =
           std::find_if(study.parameters.begin(), study.parameters.end(),
@@ -173,8 +183,9 @@ ReportPage report_of_sweep(const ResultFile& file) {
       page.groups.push_back({fmt::format("{} over {}", words(summary.ranked_by), parameter->name),
                              parameter->name,
                              std::string(parameter->si_unit.symbol),
-                             {cloud(file, drawn.front()->metric, parameter->name)}});
+                             {cloud(ranked, drawn.front()->metric, file.column("trials/" + parameter->name))}});
     }
+  }
   page.tables = {metric_table(summary), influence_table(summary), worst_table(sweep, summary)};
   page.texts.push_back({"Study", study.text});
   return page;

@@ -40,6 +40,18 @@ std::vector<std::string> ResultFile::columns(const std::string& table) const {
   return names;
 }
 
+std::vector<std::string> ResultFile::texts(const std::string& name) const {
+  const std::string action = "cannot read " + name;
+  const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, action), space(H5Dget_space(dataset), H5Sclose, action);
+  if (H5Tis_variable_str(type) <= 0) throw OutputFault(action + ": it holds no texts");
+  std::vector<char*> pointers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), action);
+  const std::vector<std::string> copies(pointers.begin(), pointers.end());
+  check_hdf5(H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data()), action);
+  return copies;
+}
+
 std::vector<std::pair<std::string, double>> ResultFile::numbers(const std::string& object) const {
   const std::string action = "cannot read " + object;
   const Hdf5Handle at(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, action);

@@ -16,6 +16,8 @@ class ResultFile {
   const std::string& path() const { return path_; }
   bool has(const std::string& table) const { return H5Lexists(file_, table.c_str(), H5P_DEFAULT) > 0; }
   std::vector<double> column(const std::string& name) const { return read_column(file_, name); }
+  /// A column of texts.
+  std::vector<std::string> texts(const std::string& name) const;
   /// The columns of numbers of a table, flags included.
   std::vector<std::string> columns(const std::string& table) const;
   /// The attributes of an object that are one number, by their names.

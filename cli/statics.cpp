@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -64,6 +65,16 @@ void write(const std::string& output, const Scenario& scenario, const StaticsMap
   file.finish();
 }
 
+/// The effects that hold or push the drive at rest beside its teeth, of which the map knows nothing.
+std::string beside_the_teeth(const Scenario& scenario) {
+  std::vector<std::string_view> ids;
+  scenario.effects.for_each([&]<class Effect>(const std::optional<Effect>& effect) {
+    for (const std::string_view id : {"worm_coulomb", "gear_coulomb", "bearing_asymmetry", "torque_offset", "cogging"})
+      if (effect && Effect::id == id) ids.push_back(id);
+  });
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
 void print_table(const StaticsMap& map, bool outside) {
   fmt::print("\n  {:>14} {:>18} {:>18} {:>16}\n", "load [N m]", outside ? "moves from [N m]" : "backward [N m]",
              outside ? "to [N m]" : "forward [N m]", "H tau_l [N m]");
@@ -103,6 +114,8 @@ int statics_command(const StaticsOptions& options) {
              outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
                      : "motor torque at which the gear starts to turn, over the load torque:");
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
+  if (const std::string ids = beside_the_teeth(scenario); !ids.empty())
+    print_item("without", ids + "; the table is of the teeth alone");
   print_table(map, outside);
   if (!options.output.empty())
     print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));

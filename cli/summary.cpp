@@ -43,6 +43,11 @@ void print_influences(const SweepSummary& summary) {
       fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
 }
 
+/// " N m"; nothing for a plain number.
+std::string in_unit(const Unit& unit) {
+  return unit.symbol == unit::none.symbol ? "" : fmt::format(" {}", unit.symbol);
+}
+
 void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
   if (summary.worst.empty()) return;
   fmt::print("\n  worst trials\n");
@@ -51,9 +56,10 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
     std::string values;
     for (std::size_t k = 0; k < study.metrics.size(); ++k)
       if (study.metrics[k].name == summary.ranked_by)
-        values += fmt::format("{} {:.6g} {}", summary.ranked_by, trial.metrics[k], study.metrics[k].unit.symbol);
+        values += fmt::format("{} {:.6g}{}", summary.ranked_by, trial.metrics[k], in_unit(study.metrics[k].unit));
     for (std::size_t k = 0; k < study.parameters.size(); ++k)
-      values += fmt::format(", {} {:.6g}", study.parameters[k].name, trial.parameters[k]);
+      values += fmt::format(", {} {:.6g}{}", study.parameters[k].name, trial.parameters[k],
+                            in_unit(study.parameters[k].si_unit));
     fmt::print("  trial {:<9} {}\n", trial.index, values);
   }
   fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", sweep.path(), summary.worst.front().index);

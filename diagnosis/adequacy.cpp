@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <string>
+#include <vector>
+
+#include <unsupported/Eigen/FFT>
 
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parallel.hpp"
@@ -116,8 +120,9 @@ class Scores {
     test.what.axis = axis.name;
     const auto degrees = static_cast<double>(m);
     const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
-    test.what.evidence = (all.score - less.score - degrees) / std::sqrt(2.0 * degrees);
-    test.gain = held_out_gain(V);
+    test.what.gain = 0.5 * (all.score - less.score);
+    test.what.evidence = (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
+    test.held_out = held_out_gain(V);
     std::vector<double> sum(by_.layout().samples, 0.0);
     double squares = 0.0, count = 0.0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
@@ -193,7 +198,7 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
   const InnovationLayout& layout = by.layout();
   const PreparedRecording& r = layout.recordings[recording];
   const std::size_t begin = layout.leading(recording).begin;
-  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.01 / r.data.period)));
+  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.005 / r.data.period)));
   const std::size_t n = r.samples() / bin;
   std::vector<double> w(n, 0.0);
   for (std::size_t k = 0; k < n * bin; ++k) {
@@ -201,26 +206,20 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
     const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
     w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
   }
-  constexpr double highest = 25.0;  // [Hz]
+  Eigen::FFT<double> transform;
+  std::vector<std::complex<double>> spectrum;
+  transform.fwd(spectrum, w);
+  constexpr double lowest = 1.0, highest = 50.0;  // [Hz]; what is slower is a matter of angle and time
   const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
-  std::vector<double> power(lines, 0.0);
-  for (std::size_t f = 1; f < lines; ++f) {
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(f) / static_cast<double>(n);
-    double c = 1.0, s = 0.0, a = 0.0, b = 0.0;
-    const double cr = std::cos(turn), sr = std::sin(turn);
-    for (const double x : w) {
-      a += x * c;
-      b += x * s;
-      const double next = c * cr - s * sr;
-      s = s * cr + c * sr;
-      c = next;
-    }
-    power[f] = a * a + b * b;
-  }
+  std::vector<double> power(lines);
+  std::transform(spectrum.begin(), spectrum.begin() + static_cast<std::ptrdiff_t>(lines), power.begin(),
+                 [](std::complex<double> x) { return std::norm(x); });
   ScoreTest test;
+  constexpr std::size_t around = 25;
+  // the median of m exponential variates is known as well as the mean of 0.48 m of them
+  constexpr double variates = 0.48 * (2 * around + 1);
   double strongest = 0.0, frequency = 0.0;
-  for (std::size_t f = 3; f < lines; ++f) {
-    constexpr std::size_t around = 25;
+  for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(lowest * r.duration())); f < lines; ++f) {
     std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
                              power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
@@ -231,8 +230,10 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
       frequency = static_cast<double>(f) / (static_cast<double>(n * bin) * r.data.period);
     }
   }
+  test.what.gain = strongest;
   test.what.axis = name + " at " + std::to_string(frequency).substr(0, 5) + " Hz";
-  test.what.evidence = strongest - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
+  test.what.evidence =
+      variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
   return test;
 }
 
@@ -254,12 +255,13 @@ std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, co
   }
   const Scores scores(by, h, 0.005 * sizes.torque);
   std::vector<ScoreTest> all;
-  const double least_torque = sizes.has_worm_encoder ? rules.least_share * sizes.torque : 0.0;
+  const double least_torque =
+      sizes.torque * (sizes.has_worm_encoder ? rules.least_share_of_two_encoders : rules.least_share);
   for (const Axis1D& axis : axes) {
     all.push_back(scores(axis, a.moving));
     ScoreTest& test = all.back();
-    test.found =
-        test.what.evidence > rules.most_deviations && test.gain > rules.most_gain && test.what.torque > least_torque;
+    test.found = test.what.evidence > rules.most_deviations && test.held_out > rules.most_gain &&
+                 test.what.torque > least_torque;
   }
   for (std::size_t r = 0; r < by.layout().recordings.size(); ++r)
     for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {

@@ -9,10 +9,11 @@ namespace wormdrive {
 
 /// From when on something is left.
 struct AdequacyRules {
-  double most_deviations = 1.5;  ///< of a score above what noise gives
-  double most_gain = 4.0;        ///< of data that the torque was not fitted to [nats]
-  double least_share = 0.005;    ///< of the rms torque, where a worm's encoder leads: it rounds more than it is noisy
-  double most_line = 8.0;        ///< log of a spectral line above its neighbours, less that of the number of lines
+  double most_deviations = 1.5;                ///< of a score above what noise gives
+  double most_gain = 4.0;                      ///< of data that the torque was not fitted to [nats]
+  double least_share = 5e-4;                   ///< of the rms torque; what is smaller is of no account
+  double least_share_of_two_encoders = 0.005;  ///< where a worm's encoder leads: it rounds more than it is noisy
+  double most_line = 8.0;  ///< of a spectral line: -log of the chance that noise makes one as strong
 };
 
 /// Looks for structure that a hypothesis leaves in the residuals: a torque that is a free function of speed, of angle
@@ -24,7 +25,7 @@ std::vector<Remainder> remainders(const Evaluation& by, const Hypothesis& h, con
 /// All that was tested, whether anything was found or not.
 struct ScoreTest {
   Remainder what;
-  double gain{};  ///< of data that the torque was not fitted to [nats]
+  double held_out{};  ///< gain of data that the torque was not fitted to [nats]
   bool found = false;
 };
 std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,

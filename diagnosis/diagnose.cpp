@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "core/elastic_teeth.hpp"
 #include "diagnosis/adequacy.hpp"
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/certificate.hpp"
@@ -17,6 +19,7 @@
 #include "diagnosis/residual_torque.hpp"
 #include "diagnosis/selection.hpp"
 #include "diagnosis/tolerances.hpp"
+#include "diagnosis/units_on_axis.hpp"
 #include "diagnosis/verdict.hpp"
 #include "scenarios/build.hpp"
 
@@ -123,6 +126,17 @@ void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, cons
   d.noise_torque = noise.torque;
 }
 
+/// What no test of the residuals saw, for it took it for outliers, may show in the error ahead.
+std::optional<Remainder> error_above_noise(const Diagnosis& d) {
+  constexpr double most = 3.0;
+  for (const PredictionError& e : d.prediction)
+    if (e.horizon == told_horizon && e.after > most * e.floor)
+      return Remainder{
+          fmt::format("an error {} s ahead that is {:.2g} times that of noise", e.horizon, e.after / e.floor),
+          e.after / e.floor, 0.0, std::numeric_limits<double>::infinity()};
+  return std::nullopt;
+}
+
 /// Looks for a motion that splits the class of a diagnosis.
 void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Suspect>& all,
                         const std::vector<Coordinate>& stated, const Magnitudes& sizes,
@@ -198,9 +212,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
+  if (const auto excess = error_above_noise(d)) d.remainders.push_back(*excess);
+  d.extended = scenario;
+  put_units_on_axis(d, scenario.axis);
   judge(d, found, all, sizes);
 
-  d.extended = scenario;
   if (!d.causes.empty()) {
     d.extended.effects = extended(last);
     for (const Found& f : found.causes)
@@ -208,9 +224,15 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
                        [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
         switch_off(d.extended.effects, all[f.suspect].effect);
     give_teeth_to_bounce(d.extended, last.noise.bounce);
+    auto& uneven = std::get<std::optional<TransmissionError<double>>>(d.extended.effects.list);
+    if (has_elastic_teeth(d.extended.effects) && uneven) {
+      uneven.reset();
+      d.remarks.emplace_back("the extended scenario leaves transmission_error out: elastic teeth run at an even pitch");
+    }
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     describe(d, by, before, found.base);
+    put_units_on_axis(d, scenario.axis);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))

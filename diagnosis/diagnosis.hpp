@@ -66,6 +66,7 @@ struct Remainder {
   std::string axis;   ///< "speed", "angle and direction", "load", "time", "worm phase", ...
   double evidence{};  ///< standard deviations above what noise gives
   double torque{};    ///< rms of it [N m]
+  double gain{};      ///< log likelihood that it would add [nats]
 };
 
 /// One sample of the residual torque, before and after; columns of the maps.

@@ -56,7 +56,8 @@ json as_json(const Visibility& v) {
 }
 
 json as_json(const Remainder& r) {
-  return {{"axis", r.axis}, {"evidence", number(r.evidence)}, {"torque_Nm", number(r.torque)}};
+  return {
+      {"axis", r.axis}, {"evidence", number(r.evidence)}, {"torque_Nm", number(r.torque)}, {"gain", number(r.gain)}};
 }
 
 template <class List>

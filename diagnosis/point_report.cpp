@@ -129,8 +129,9 @@ std::vector<Remainder> point_remainders(const TorquePoints& points, const std::v
   if (evidence < flagged) return {};
   double sum = 0.0;
   for (const double e : errors) sum += e * e;
-  return {{moving ? "speed" : "load", evidence,
-           std::sqrt(std::min(1.0, correlation) * sum / static_cast<double>(errors.size()))}};
+  const double share = std::min(1.0, correlation);
+  return {{moving ? "speed" : "load", evidence, std::sqrt(share * sum / static_cast<double>(errors.size())),
+           -0.5 * pairs * std::log1p(-std::min(0.999, share * share))}};
 }
 
 void judge_points(Diagnosis& d, const PointSelection& selection, const std::vector<PointCandidate>& candidates) {

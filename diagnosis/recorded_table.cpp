@@ -63,7 +63,8 @@ RecordedTable from_csv(const std::string& path, const Scenario& scenario) {
           column("gear_speed", false)};
 }
 
-/// The rows of a run without a controller that lie on the even grid of its report interval.
+/// The rows of a run without a controller that lie on the even grid of its report interval; of the two rows of an event
+/// on the grid the one after it, from where its torque holds on.
 void keep_even_rows(RecordedTable& table) {
   std::vector<double>& time = table.time.values;
   std::vector<double> steps;
@@ -73,7 +74,11 @@ void keep_even_rows(RecordedTable& table) {
   std::vector<std::size_t> even;
   for (std::size_t k = 0; k < time.size(); ++k) {
     const double rows = (time[k] - time.front()) / interval;
-    if (std::abs(rows - std::round(rows)) < 1e-6) even.push_back(k);
+    if (std::abs(rows - std::round(rows)) > 1e-6) continue;
+    if (even.empty() || time[k] - time[even.back()] > 0.5 * interval)
+      even.push_back(k);
+    else
+      even.back() = k;
   }
   for (RecordedValues* column : {&table.time, &table.torque, &table.angle, &table.worm_angle}) {
     if (column->values.empty()) continue;

@@ -42,20 +42,30 @@ std::string gain_sentence(const Diagnosis& d) {
   if (!e) return "";
   constexpr double milli = 1e3;
   return fmt::format(
-      " On data not used for the fit the {} s prediction error falls from {:.3g} to {:.3g} mrad (noise floor {:.2g}).",
-      e->horizon, milli * e->before, milli * e->after, milli * e->floor);
+      " On data not used for the fit the {} s prediction error falls from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
+      e->horizon, milli * e->before, milli * e->after, e->unit.symbol, milli * e->floor);
 }
 
-/// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion.
+/// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
+/// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
 constexpr double most_noise = 1.0 / 3.0;
 
-bool drowned(const Diagnosis& d, double torque) { return d.noise_torque > most_noise * torque; }
+bool drowned(const Diagnosis& d, double torque) {
+  const bool bounces =
+      std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
+  return !bounces && d.noise_torque > most_noise * torque;
+}
 
 std::string remainder_sentence(const Diagnosis& d, double torque) {
+  const bool linear = d.extended.axis == Axis::linear;
+  const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
   if (drowned(d, torque))
-    return fmt::format(" {:.2g} N m rms, of {:.2g} N m of the motor, pass for noise.", d.noise_torque, torque);
+    return fmt::format(" {:.2g} {} rms, of {:.2g} {} of the motor, pass for noise.", d.noise_torque, unit, torque,
+                       unit);
   const Remainder& r = d.remainders.front();
-  if (r.torque > 0.0) return fmt::format(" A torque of {:.2g} N m rms over {} remains unexplained.", r.torque, r.axis);
+  if (r.torque > 0.0)
+    return fmt::format(" A {} of {:.2g} {} rms over {} remains unexplained.", linear ? "force" : "torque", r.torque,
+                       unit, r.axis);
   return fmt::format(" {} remains unexplained.", r.axis);
 }
 
@@ -94,10 +104,15 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     return;
   }
 
-  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work.
-  constexpr double most_of_the_work = 3.0;
+  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of all that
+  // the data show, or somewhat less of that and of the error ahead.
+  constexpr double most_of_the_evidence = 30.0, much_of_the_evidence = 6.0, most_of_the_error = 3.0;
   const PredictionError* e = told(d);
-  const bool most_done = e && e->before >= most_of_the_work * e->after;
+  double left = 0.0;
+  for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
+  const double explained = 0.5 * (selection.base.bic - selection.model.bic);
+  const bool predicts = e && e->before >= most_of_the_error * e->after;
+  const bool most_done = explained >= (predicts ? much_of_the_evidence : most_of_the_evidence) * left;
   if (drowned(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
     const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;

@@ -117,11 +117,11 @@ def draw_examples(result, examples):
                                  label="after")
             style.few_ticks(cell.xaxis)
             style.few_ticks(cell.yaxis)
-            cell.set_ylabel(f"[{unit}]", labelpad=1)
+            cell.set_title(f"{horizon:g} s ahead [{unit}]", loc="left", size=12)
             cell.tick_params(labelsize=10)
-        cells[0].set_title(f"{horizon:g} s ahead, change of the gear angle", loc="left", size=12)
     for cell in grid[-1]:
         cell.set_xlabel("time [s]")
+    figure.supylabel("change of the gear angle", size=13)
     legend_above(figure, handles)
     return figure
 
@@ -218,7 +218,8 @@ def draw_ranking(result):
                for k in rows]
     axes.barh(rows, size, color=colours, height=0.62)
     axes.set_xscale("log")
-    axes.set_xlim(1.0, np.max(size) * 60.0)
+    # as far as the longest bar with its words reaches
+    axes.set_xlim(1.0, max(30.0, np.max(size) ** 1.6))
     axes.set_yticks(rows, [effects[k] for k in rows])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)

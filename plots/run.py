@@ -1,5 +1,6 @@
 """The picture of a run: gear angle, gear speed with its modes, torques with the switching surface, tracking error."""
 
+import textwrap
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from result import NotAResult, attribute, column, columns, flags, group, number,
 
 MOST_EVENTS = 200  # drawn one by one
 LARGEST = 6  # times the motor torque: beyond it the switching surface no longer sets the limits of its axis
+LONGEST_NOTE = 80  # characters on a line beside the reference; a longer one makes the panels narrower
 NARROWEST = 1 / 700  # band that is drawn when there are more events, as part of the time axis
 
 MODES = {  # (motion, flank): label, colour
@@ -201,7 +203,7 @@ def draw(result):
     elif not few:
         counts = ", ".join(f"{rows.size} × {EVENTS[kind][0]}" for kind, rows in kinds.items())
         note = f"{event_time.size} events, not drawn: {counts}" + ("; white: modes too brief" if skipped else "")
-        legend.append(Line2D([], [], linestyle="none", label=note))
+        legend.append(Line2D([], [], linestyle="none", label=textwrap.fill(note, LONGEST_NOTE)))
     if legend:
         bare = len(legend) == 1 and not few  # a note alone has no line to show
         style.header(panels[0], legend, **({"handlelength": 0.0, "handletextpad": 0.0} if bare else {}),

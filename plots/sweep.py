@@ -72,8 +72,8 @@ def labelled(name, unit):
 
 
 def scaled(unit, values):
-    """Returns a factor and a unit of readable size; pure numbers stay."""
-    return (1.0, unit) if unit == "1" else style.scale(unit, values)
+    """Returns a factor and a unit of readable size; pure numbers stay, and so do kg, which has a prefix already."""
+    return (1.0, unit.replace("^2", "²")) if unit == "1" or unit.startswith("kg") else style.scale(unit, values)
 
 
 def is_wide(values):
@@ -127,8 +127,9 @@ def draw_exceedance(axes, metric, factor, unit):
     for limit, above in shown(metric):
         axes.axvline(factor * limit, color=style.VERMILLION)
         beyond = np.mean(values > factor * limit if above else values < factor * limit)
-        axes.annotate(f"{100 * beyond:.3g} %", (factor * limit, 0.5), xycoords=("data", "axes fraction"),
-                      textcoords="offset points", xytext=(5, 0), color=style.VERMILLION)
+        # beside the crossing, on the side from which the curve comes down
+        axes.annotate(f"{100 * beyond:.3g} %", (factor * limit, max(beyond, share[-1])), textcoords="offset points",
+                      xytext=(-6 if below else 6, 4), ha="right" if below else "left", color=style.VERMILLION)
     if wide:
         axes.set_xscale("log")
     else:

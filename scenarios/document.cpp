@@ -1,6 +1,7 @@
 #include "scenarios/document.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -25,12 +26,26 @@ void refuse_nul(std::string_view text, const std::string& name) {
          "a NUL byte; a scenario is plain text or a result file (.h5)");
 }
 
+/// What was probably meant at a place where TOML cannot be read; empty if nothing is known of it.
+std::string_view hint(std::string_view text, const Location& where) {
+  for (std::uint32_t line = 1; line < where.line; ++line)
+    text = text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
+  const auto is = [&](std::size_t column, int (*what)(int)) {  // counted from 1, as in where
+    return column >= 1 && column <= text.size() && what(static_cast<unsigned char>(text[column - 1])) != 0;
+  };
+  const auto comma = [](int c) -> int { return c == ','; };
+  if (is(where.column, comma) && is(where.column - 1, std::isdigit) && is(where.column + 1, std::isdigit))
+    return "; decimals take a point, as in 0.25";
+  return is(where.column, std::isalpha) ? "; a word needs quotes, as in kind = \"constant\"" : "";
+}
+
 toml::table parse(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const Location where = location(error.source());
-    refuse({name, where.line, where.column}, fmt::format("not valid TOML: {}", error.description()));
+    refuse({name, where.line, where.column},
+           fmt::format("not valid TOML: {}{}", error.description(), hint(text, where)));
   }
 }
 

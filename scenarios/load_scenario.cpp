@@ -132,6 +132,8 @@ class ScenarioReader {
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                         Purpose purpose) {
   const toml::table root = parse_document(text, name, overrides);
+  if (root.contains("sweep") && !root.contains("mesh"))
+    refuse({name}, "this is a study, which wormdrive sweep takes; the scenario is the file that it names");
   Faults faults;
   Scenario scenario = ScenarioReader(root, name, faults).read(purpose);
   faults.raise();

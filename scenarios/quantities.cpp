@@ -97,6 +97,7 @@ std::vector<Quantity> derived(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   const double Jg = total_gear_inertia(scenario);
   if (!mesh.has_teeth) return {};
+  const double slope = scenario.effects.least_slope(), surface = mesh.Jw * mesh.i * slope * slope / Jg;
   std::vector<Quantity> list{
       {"C1", "1", "C(+mu), gear torque ratio where friction helps the worm", mesh.C1()},
       {"C2", "1", "C(-mu), gear torque ratio where friction hinders the worm", mesh.C2()},
@@ -105,7 +106,10 @@ std::vector<Quantity> derived(const Scenario& scenario) {
       {"mu_g", "1", "friction from which the worm cannot drive the gear", mesh.mu_g()},
       {"Jg", "kg m^2", "inertia of the gear side with the load", Jg},
       {"Jw i/Jg", "1", "slope of the switching surface tau_m = (Jw i/Jg) tau_l", mesh.Jw * mesh.i / Jg},
-      {"C1 + Jw i/Jg", "1", "eq. 17 holds while it is positive", mesh.C1() + mesh.Jw * mesh.i / Jg},
+      {slope < 1.0 ? "C1 + Jw i k^2/Jg" : "C1 + Jw i/Jg", "1",
+       slope < 1.0 ? "eq. 17 holds while it is positive; k: slope of the worm angle where the worm is slowest"
+                   : "eq. 17 holds while it is positive",
+       mesh.C1() + surface},
       {"efficiency forward", "1", "1/(i C2), worm drives", forward_efficiency(mesh)},
       {"efficiency backward", "1", "i C1, gear drives; negative when self-locking", backward_efficiency(mesh)}};
   if (has_elastic_teeth(scenario.effects)) {

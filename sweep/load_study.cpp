@@ -175,6 +175,10 @@ class StudyReader {
 Study read(const std::string& text, const std::string& name,
            const std::function<Scenario(const std::string& scenario, const std::vector<Setting>&)>& source) {
   const toml::table root = parse_document(text, name, {});
+  if (root.contains("mesh") && !root.contains("sweep"))
+    refuse({name},
+           "this is a scenario, which wormdrive run takes; a sweep takes a study, which names the scenario: "
+           "scenario = \"FILE.toml\", [sweep], [[parameter]]");
   Faults faults;
   const std::string scenario = root["scenario"].value_or(std::string());
   Study study = StudyReader(root, name, faults).read([&](const auto& settings) { return source(scenario, settings); });

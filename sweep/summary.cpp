@@ -197,7 +197,11 @@ class Summariser {
 }  // namespace
 
 std::string default_ranking(const Study& study) {
-  return study.thresholds.empty() ? study.metrics.front().name : study.thresholds.front().metric;
+  if (!study.thresholds.empty()) return study.thresholds.front().metric;
+  const auto with_unit = std::find_if(study.metrics.begin(), study.metrics.end(), [](const Metric& metric) {
+    return metric.unit.symbol != unit::none.symbol;  // many trials count the same events: no rank tells them apart
+  });
+  return (with_unit != study.metrics.end() ? *with_unit : study.metrics.front()).name;
 }
 
 double worse(const Study& study, const std::string& metric) {

@@ -63,7 +63,7 @@ struct SweepSummary {
 };
 
 /// The metric by which trials are ranked unless somebody asks for another one: that of the first threshold, else the
-/// first one.
+/// first one with a unit, else the first one.
 std::string default_ranking(const Study& study);
 
 /// +1 where the greatest values of a metric are the worst, -1 where the least are: where a threshold is missed below.

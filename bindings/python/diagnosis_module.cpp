@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
 
 #include "bindings/python/module.hpp"
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
 #include "scenarios/write_scenario.hpp"
 
@@ -15,8 +18,21 @@ namespace py = pybind11;
 namespace wormdrive {
 namespace {
 
+/// Where what was found is to be kept, and what a file of it says of its origin.
+struct Kept {
+  std::optional<DiagnosisFolder> folder;
+  std::string command_line;
+};
+Kept kept(const std::optional<std::string>& output, std::vector<std::string> inputs, const std::string& scenario_file,
+          const std::string& command_line) {
+  if (!output) return {};
+  if (!scenario_file.empty()) inputs.push_back(scenario_file);
+  return {DiagnosisFolder(*output, inputs), command_line};
+}
+
 /// What was found: the JSON of a report, the scenarios that follow, the residual torque as a table.
-py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads) {
+py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads,
+                  const Kept& kept) {
   DiagnosisSettings settings;
   settings.seed = seed;
   settings.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -25,9 +41,12 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
     settings.progress = [&](const std::string&) { watch(); };
     return diagnose_files(scenario, kind, files, settings);
   });
+  const nlohmann::json findings = as_json(found, name(kind), files);
+  if (kept.folder)
+    kept.folder->write(found, findings, scenario.title, kept.command_line, [] { return std::vector<std::string>{}; });
   ResidualTorque& r = found.residual;
   py::dict result;
-  result["findings"] = as_json(found, name(kind), files).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  result["findings"] = findings.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   result["extended"] = to_toml(found.extended);
   result["experiment"] = found.experiment ? py::object(py::str(to_toml(*found.experiment))) : py::none();
   py::list residual;
@@ -46,6 +65,12 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
 
 }  // namespace
 
-void add_diagnosis(py::module_& m) { m.def("diagnose", &diagnose); }
+void add_diagnosis(py::module_& m) {
+  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads,
+                       const std::optional<std::string>& output, const std::string& scenario_file,
+                       const std::string& command_line) {
+    return diagnose(scenario, files, seed, threads, kept(output, files, scenario_file, command_line));
+  });
+}
 
 }  // namespace wormdrive

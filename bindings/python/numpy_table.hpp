@@ -19,9 +19,10 @@ pybind11::array own(std::vector<T>&& values) {
   return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(kept->size()), kept->data(), owner);
 }
 
-/// (name, units, long_name, flag_meanings, array): a column as wormdrive/__init__.py takes it.
+/// (name, units, long_name, flag_meanings, flag_values, array): a column as wormdrive/__init__.py takes it.
 inline pybind11::tuple described(const ColumnDescription& d, pybind11::array array) {
-  return pybind11::make_tuple(d.name, d.units, d.long_name, d.flag_meanings, std::move(array));
+  return pybind11::make_tuple(d.name, d.units, d.long_name, d.flag_meanings,
+                              std::vector<int>(d.flag_values.begin(), d.flag_values.end()), std::move(array));
 }
 
 }  // namespace wormdrive

@@ -1,5 +1,6 @@
 #include "bindings/python/run_result.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include "core/elastic_teeth.hpp"
@@ -11,10 +12,18 @@ namespace {
 
 template <class T>
 void take(std::vector<T>& whole, std::vector<T> part) {
-  if (whole.empty())
+  if (whole.capacity() == 0)
     whole = std::move(part);
   else
     whole.insert(whole.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+}
+
+/// Room for what a run leaves at even steps: growing, it would touch new memory again and again, which costs a short
+/// run as much as its simulation.
+template <class T>
+void make_room(std::vector<T>& list, double duration, double step) {
+  constexpr double most = 1e6, beside = 64.0;  // events have rows of their own
+  list.reserve(static_cast<std::size_t>(std::min(most, duration / step) + beside));
 }
 
 }  // namespace
@@ -26,7 +35,11 @@ void RunResult::run(std::function<void(double)> time) {
                                take(trajectory_.events, std::move(part.events));
                              },
                          .time = std::move(time)};
-  if (scenario_->control) listeners.samples = [this](const auto& part) { take(samples_, part); };
+  make_room(trajectory_.rows, scenario_->run.duration, scenario_->run.rows_every());
+  if (scenario_->control) {
+    make_room(samples_, scenario_->run.duration, scenario_->control->sampling.period);
+    listeners.samples = [this](const auto& part) { take(samples_, part); };
+  }
   try {
     summary_ = run_scenario(*scenario_, listeners);
   } catch (const Halt& halt) {

@@ -12,10 +12,14 @@ namespace py = pybind11;
 namespace wormdrive {
 namespace {
 
+/// 0: as many as the machine has.
+unsigned wanted_threads(unsigned threads) {
+  return threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
 std::unique_ptr<SweepResult> run(Study study, unsigned threads) {
   auto result = std::make_unique<SweepResult>(std::move(study));
-  const unsigned used = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-  without_python([&](SignalWatch& watch) { result->run(used, [&] { watch(); }); });
+  without_python([&](SignalWatch& watch) { result->run(wanted_threads(threads), [&] { watch(); }); });
   return result;
 }
 
@@ -38,7 +42,13 @@ void add_sweep(py::module_& m) {
       .def_property_readonly("title", [](const SweepResult& r) { return r.study().title; })
       .def("trials", &trials)
       .def("reasons", &SweepResult::reasons)
-      .def("write", &SweepResult::write, py::arg("path"), py::arg("command_line"));
+      .def(
+          "write",
+          [](const SweepResult& r, const std::string& path, const std::string& command_line, std::size_t referee) {
+            const py::gil_scoped_release others_may_run;
+            r.write(path, command_line, referee, wanted_threads(0));
+          },
+          py::arg("path"), py::arg("command_line"), py::arg("referee"));
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
   m.def("sweep_text", [](const std::string& text, const std::string& name, unsigned threads) {
     return run(read_study(text, name), threads);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sweep/ensemble.hpp"
+#include "sweep/referee.hpp"
 
 namespace wormdrive {
 
@@ -50,11 +51,17 @@ std::vector<std::string> SweepResult::reasons() const {
   return list;
 }
 
-void SweepResult::write(const std::string& path, const std::string& command_line) const {
+void SweepResult::write(const std::string& path, const std::string& command_line, std::size_t judged,
+                        unsigned threads) const {
   const TrialRange all{0, study_.trials()};
   SweepFile::create(path, study_, all, command_line);
   SweepFile file(path, study_, all);
   for (std::size_t row = 0; row < values_.front().size(); ++row) file.append(trial(row));
+  if (judged > 0 && study_.scenario.run.solver != SolverKind::cvode) {
+    file.flush();
+    const SweepReader sweep(file.part_path());
+    file.write(referee(sweep, threads, [&](std::size_t count) { return count >= judged; }));
+  }
   file.finish();
 }
 

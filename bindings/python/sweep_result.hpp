@@ -22,8 +22,9 @@ class SweepResult {
   const std::vector<double>& column(std::size_t k) const { return values_[k]; }
   /// The k-th text is what k + 1 in the column `reason` stands for.
   std::vector<std::string> reasons() const;
-  /// Writes the result file that `wormdrive sweep` would write, without a referee's verdicts. Throws OutputFault.
-  void write(const std::string& path, const std::string& command_line) const;
+  /// Writes the result file that `wormdrive sweep` would write; so many trials, chosen by the seed, CVODE makes again
+  /// beforehand, as a referee, where it has not made them itself. Throws OutputFault.
+  void write(const std::string& path, const std::string& command_line, std::size_t judged, unsigned threads) const;
 
  private:
   void take(const Trial& trial);

@@ -4,9 +4,17 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const $ = (id) => document.getElementById(id);
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const show = (x, digits = 6) =>
-    x === null || x === undefined ? "–" : typeof x === "number" ? String(Number(x.toPrecision(digits))) : x;
-  const with_unit = (name, unit) => (unit && unit !== "1" ? `${name} [${unit}]` : name);
+  function show(x, digits = 6) {
+    if (x === null || x === undefined) return "–";
+    if (typeof x !== "number") return x;
+    const short = Number(x.toPrecision(digits));
+    return short !== 0 && Math.abs(short) < 1e-3 ? short.toExponential() : String(short);
+  }
+  const typeset = (unit) => (unit && unit !== "1" ? unit.replace(/\^2/g, "²") : "");
+  const with_unit = (name, unit) => (typeset(unit) ? `${name} [${typeset(unit)}]` : name);
+  // "theta_g''" as the paper writes it
+  const symbols = { theta: "θ", tau: "τ" };
+  const written = (text) => text.replace(/\b(theta|tau)_/g, (all, name) => symbols[name] + "_").replace(/''/g, "″").replace(/(_\w)'/g, "$1′");
 
   function element(name, text, attributes) {
     const made = document.createElement(name);
@@ -37,10 +45,12 @@
     const box = element("section", undefined, { class: "group", "aria-label": group.title || "signals over " + group.over });
     if (group.title) box.append(element("h2", group.title));
     const legend = element("p", undefined, { class: "bands" });
-    new Map(group.bands.map(([, , kind, meaning]) => [kind, meaning])).forEach((meaning, kind) =>
-      legend.append(element("span", meaning, { style: `background: var(--${kind})` })));
+    const meanings = new Map(group.bands.map(([, , kind, meaning]) => [kind, meaning]));
+    ["stuck", "left", "right"].filter((kind) => meanings.has(kind)).forEach((kind) =>
+      legend.append(element("span", meanings.get(kind), { style: `background: var(--${kind})` })));
     if (group.bands.length) box.append(legend);
-    const now = element("p", "\u00a0", { class: "now", role: "status", "aria-live": "polite" });
+    const hint = "Point at a curve for its values" + (group.events.length ? ", at a line for the event" : "") + ".";
+    const now = element("p", hint, { class: "now", role: "status", "aria-live": "polite" });
     box.append(now);
     $("groups").append(box);
     let zooming = false;
@@ -86,18 +96,23 @@
       const frame = element("div", undefined, { class: "panel" }), heading = element("h3");
       const chart_box = element("div", undefined, { class: "chart", tabindex: "0", role: "img",
         "aria-label": panel.series.map((s) => s.meaning).join(", ") + " over " + group.over });
+      if (panels.length === 1) chart_box.classList.add("tall");
       panel.series.forEach((s, k) =>
-        heading.append(element("span", with_unit(s.meaning, s.units), { style: `--line: var(${colors[k]})` })));
+        heading.append(element("span", with_unit(written(s.meaning), s.units), { style: `--line: var(${colors[k]})` })));
+      panel.limits.forEach((y) => heading.append(element("span", "limit " + show(y), { style: "--line: var(--chosen)" })));
       frame.append(heading, chart_box);
       box.append(frame);
-      const cloud = panel.style === "points" ? { [panel.series[0].name]: { strokeWidth: 0, drawPoints: true, pointSize: 1.5, highlightCircleSize: 3 } } : {};
+      // what is filled is what matters: a line beside it may leave the picture
+      const kept = panel.filled ? panel.series.slice(0, 2).flatMap((s) => s.values).filter((y) => y !== null) : [];
+      const low = Math.min(...kept), high = Math.max(...kept), room = 0.15 * (high - low);
+      const cloud = panel.style === "points" ? { [panel.series[0].name]: { strokeWidth: 0, drawPoints: true, pointSize: panel.over.length > 500 ? 1.5 : 2.5, highlightCircleSize: 4 } } : {};
       const chart = new Dygraph(chart_box, panel.over.map((x, k) => [x, ...panel.series.map((s) => s.values[k])]), {
         labels: [group.over, ...panel.series.map((s) => s.name)], series: cloud, colors: panel.series.map((_, k) => css(colors[k])),
         gridLineColor: css("--grid"), axisLineColor: css("--rule"), dateWindow: [begin, end], legend: "never", strokeWidth: 1.4,
-        labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
+        yRangePad: 8, valueRange: high > low ? [low - room, high + room] : undefined, labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
         xlabel: panel === panels[panels.length - 1] ? with_unit(group.over, group.units) : undefined, xLabelHeight: 16,
         axes: { x: { axisLabelFormatter: (x) => show(x) },
-                y: { axisLabelWidth: 72, axisLabelFormatter: (y) => show(y) } },
+                y: { axisLabelWidth: 72, pixelsPerLabel: 22, axisLabelFormatter: (y) => show(y) } },
         highlightCallback: (event, x, points) => tell(x, points, chart_box), unhighlightCallback: () => tell(null),
         drawCallback: (drawn, initial) => { if (!initial) follow(drawn.xAxisRange(), drawn); }
       });
@@ -125,11 +140,11 @@
     // ---- what is under the pointer ----------------------------------------------------------------------------
     function describe(e) {
       const changes = e.changes.filter(([, , before, after]) => before !== after)
-        .map(([name, unit, before, after]) => `${name} ${show(before)} → ${show(after)} ${unit}`);
+        .map(([name, unit, before, after]) => `${name} ${show(before)} → ${show(after)} ${typeset(unit)}`);
       return [`${e.what} at ${show(e.at, 9)} ${group.units}: ${e.before} → ${e.after}`, ...changes].join("; ");
     }
     function tell(x, points, chart_box) {
-      if (x === null) { now.textContent = self.chosen >= 0 ? describe(group.events[self.chosen]) : "\u00a0"; return; }
+      if (x === null) { now.textContent = self.chosen >= 0 ? describe(group.events[self.chosen]) : hint; return; }
       const [from, to] = self.range(), near = (to - from) / Math.max(chart_box.clientWidth, 1) * 5;
       const event = group.events.find((e) => Math.abs(e.at - x) <= near);
       now.textContent = event ? describe(event)
@@ -174,10 +189,14 @@
   function table_of(title, heads, rows, note) {
     const box = element("section"), wide = element("div", undefined, { class: "wide" }), table = element("table");
     const head = element("tr"), top = element("thead"), body = element("tbody");
-    heads.forEach(([name, number]) => head.append(element("th", name, number ? { class: "number", scope: "col" } : { scope: "col" })));
+    // a long key may be parted at its dots
+    heads.forEach(([name, number]) => head.append(element("th", name.replace(/\./g, ".\u200b"), number ? { class: "number", scope: "col" } : { scope: "col" })));
     rows.forEach((row) => {
       const line = element("tr");
-      row.forEach((cell, k) => line.append(element("td", show(cell), heads[k][1] ? { class: "number" } : {})));
+      row.forEach((cell, k) => {
+        const unit = heads[k][0] === "unit";
+        line.append(element("td", unit ? typeset(cell) : show(cell), heads[k][1] ? { class: "number" } : unit ? { class: "unit" } : {}));
+      });
       body.append(line);
     });
     top.append(head);
@@ -191,9 +210,12 @@
   function event_table(self, group) {
     const changes = group.events[0].changes;
     const heads = [["#", 1], [with_unit(group.over, group.units), 1], ["event"], ["before"], ["after"],
-                   ...changes.flatMap(([name, unit]) => [[with_unit(name + " before", unit), 1], ["after", 1]])];
+                   ...changes.map(([name, unit]) => [with_unit(name, unit), 1])];
+    const change = (before, after) => show(before) === show(after) ? before : `${show(before)} → ${show(after)}`;
+    const note = group.events.length < group.all_events
+      ? `The first ${group.events.length} of ${group.all_events} events; /events of the result file has them all.` : "";
     self.table = table_of("Events", heads, group.events.map((e, k) =>
-      [k + 1, show(e.at, 9), e.what, e.before, e.after, ...e.changes.flatMap(([, , before, after]) => [before, after])]));
+      [k + 1, show(e.at, 9), e.what, e.before, e.after, ...e.changes.map(([, , before, after]) => change(before, after))]), note);
     self.table.classList.add("events");
     self.table.querySelectorAll("tbody tr").forEach((row, k) => {
       row.tabIndex = 0;
@@ -205,6 +227,7 @@
   const groups = data.groups.map(Group);
   current = groups[0] || null;
   if (!groups.length) $("keys").remove();
+  else if (!groups.some((g) => g.events.length)) $("event_keys").remove();
   data.tables.forEach((t) => table_of(t.title, t.heads, t.rows, t.note));
   data.texts.forEach(([title, text]) => {
     const details = element("details");

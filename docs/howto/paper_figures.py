@@ -31,8 +31,10 @@ fig9.set(title="Fig. 9: engagement switching", xlabel="time [s]", ylabel="gear s
 # %% fig. 10: tracking error under sliding control and PID
 for law in ("sliding_014rad_bare", "pid_014rad_bare"):
     loop = wormdrive.run(f"scenarios/fig10_{law}.toml", run={"solver": "taylor"}).controller
+    assert loop  # None in a run without a controller
     fig10.plot(loop.time, 1e3 * (loop.gear_angle - loop.reference_angle), label=law.split("_")[0])
 fig10.set(title="Fig. 10: tracking", xlabel="time [s]", ylabel="error [mrad]")
+figure.get_layout_engine().set(hspace=0.06, wspace=0.04)
 for panel in (fig7, fig8, fig10):
     panel.legend(fontsize="small")
 figure.savefig("paper_figures.png", dpi=150)

@@ -95,14 +95,23 @@ TEST_CASE("a command that does not exist, and words that do not belong, end with
   folder.write("s.toml", good_scenario);
   refuse_all(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, fmu, schema, new, diff, report, list",
                        {"simulate", "s.toml"}, true},
+                      {"misspelled command", "", "wormdrive: error: unknown command 'rum'; did you mean 'run'?", {"rum", "s.toml"}, true},
+                      {"no command", "", "wormdrive: error: A subcommand is required; see wormdrive --help", {}, true},
+                      {"no scenario", "", "wormdrive run: error: scenario is required; see wormdrive run --help", {"run"}, true},
+                      {"unknown option", "", "wormdrive run: error: The following argument was not expected: --fast; see wormdrive run --help",
+                       {"run", "s.toml", "--fast"}, true},
+                      {"a study", "[sweep]\ntrials = 3\n",
+                       "s.toml: error: this is a study, which wormdrive sweep takes; the scenario is the file that it names", {"run", "s.toml"}, true},
+                      {"no study", good_scenario,
+                       "s.toml: error: this is a scenario, which wormdrive run takes; a sweep takes a study, which names the scenario: scenario = \"FILE.toml\", [sweep], [[parameter]]",
+                       {"sweep", "s.toml"}, true},
                       {"statics without teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n",
                        "s.toml: error: mesh.kind = \"none\" has no statics; only teeth lock", {"statics", "s.toml"}, true}});
   struct Misuse {
     std::vector<std::string> words;
     std::string named;
   };
-  for (const Misuse& misuse : {Misuse{{}, "subcommand is required"}, {{"run"}, "scenario is required"},
-                               {{"run", "s.toml", "--fast"}, "--fast"}, {{"run", "s.toml", "s.toml"}, "s.toml"},
+  for (const Misuse& misuse : {Misuse{{"run", "s.toml", "s.toml"}, "s.toml"},
                                {{"run", "s.toml", "--set"}, "--set"}, {{"statics", "s.toml", "--points", "1"}, "--points"},
                                {{"statics", "s.toml", "--max-load", "-1"}, "--max-load: '-1' is not a number greater than 0"},
                                {{"steady", "s.toml", "--max-speed", "inf"}, "--max-speed: 'inf' is not a number greater than 0"},

@@ -24,6 +24,10 @@ TEST_CASE("a file that is no TOML is told with line and column") {
   refuse_all(Folder(), {
       {"no value", good_but("ratio = 60", "ratio = = 60"), "s.toml:3:9: error: not valid TOML: *"},
       {"no bracket", good_but("[mesh]", "[mesh"), "s.toml:2:6: error: not valid TOML: *"},
+      {"decimal comma", good_but("ratio = 60", "ratio = 60,5"),
+       "s.toml:3:11: error: not valid TOML: Error while parsing key-value pair: expected a comment or whitespace, saw ','; decimals take a point, as in 0.25"},
+      {"no quotes", good_but("\"constant\"", "constant"),
+       "s.toml:12:8: error: not valid TOML: Error while parsing value: could not determine value type; a word needs quotes, as in kind = \"constant\""},
       {"a key twice", good_but("ratio = 60", "ratio = 60\nratio = 61"), "s.toml:4:9: error: not valid TOML: *"},
       {"a table twice", good_scenario + "[mesh]\n", "s.toml:19:1: error: not valid TOML: *"},
       {"no end of text", good_but("A good one\"", "A good one"), "s.toml:1:20: error: not valid TOML: *"},

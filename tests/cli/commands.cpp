@@ -110,6 +110,14 @@ TEST_CASE("check --json states parameters with units, and a scenario that can be
   CHECK(json::parse(printed(folder, {"check", "mass.toml", "--json"})).at("derived") == json::object());
 }
 
+TEST_CASE("the break-in table says what it leaves out") {
+  const Folder folder;
+  CHECK(printed(folder, {"statics", fig9}).find("without") == std::string::npos);
+  CHECK(printed(folder, {"statics", fig9, "--set", "effect.worm_coulomb.torque_Nm=0.01", "--set",
+                         "effect.gear_coulomb.torque_Nm=0.1"})
+            .find("  without  worm_coulomb, gear_coulomb; the table is of the teeth alone\n") != std::string::npos);
+}
+
 TEST_CASE("JSON is valid whatever bytes a file name has") {
   const Folder folder;
   const json said = json::parse(printed(folder, {"run", fig9, "--json", "-o", "\xff.h5"}));
@@ -260,7 +268,7 @@ TEST_CASE("several results share one picture: break-aways in the map of statics,
   printed(folder, {"run", forward, "-q", "-o", "f.h5"});
   printed(folder, {"run", backward, "-q", "-o", "b.h5"});
   printed(folder, {"statics", forward, "-q", "-o", "s.h5"});
-  printed(folder, {"plot", "s.h5", "f.h5", "b.h5"});
+  CHECK(printed(folder, {"plot", "s.h5", "f.h5", "b.h5"}) == "  wrote    s.png\n");
   CHECK(std::filesystem::file_size(folder / "s.png") > 10000);
   printed(folder, {"plot", "f.h5", "b.h5", "--over", "motor_torque", "-o", "over.png"});
   CHECK(std::filesystem::file_size(folder / "over.png") > 10000);

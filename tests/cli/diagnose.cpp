@@ -43,6 +43,10 @@ TEST_CASE("a diagnosis writes its folder, names the friction, and its extended s
     CHECK(std::filesystem::exists(folder / (std::string("out/") + name)));
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) CHECK(entry.path().extension() != ".part");
   CHECK(report(folder).at("verdict") != "adequate");
+  CHECK(outcome.out.find("out/diagnosis.json    see it: wormdrive report out\n") != std::string::npos);
+  CHECK(folder.read("out/extended.toml").starts_with(
+      "# A scenario that wormdrive diagnose has extended; causes: static_friction.\n"
+      "# The data cannot tell the causes of this class apart: static_friction, mesh_friction.\n"));
   CHECK(folder.run({"run", "out/extended.toml", "-q"}).exit == 0);
 }
 
@@ -105,6 +109,10 @@ TEST_CASE("data of no kind, of two kinds and too few are told, and nothing is wr
       {"two kinds", "", "records.csv: error: holds records at constant speed, but b.csv holds a break-in table; diagnose them one by one",
        {"diagnose", scenario, "b.csv", "records.csv", "-o", "out"}, true},
       {"one record", "", "records.csv: error: 1 records at constant speed; a diagnosis needs at least 8, in both directions", words("records.csv"), true},
+      {"load of nothing", "", "--load c.csv:mass_kg=2: error: must be FILE:KEY=VALUE of one of the recordings b.csv, as in b.csv:mass_kg=0.9",
+       {"diagnose", scenario, "b.csv", "--load", "c.csv:mass_kg=2", "-o", "out"}, true},
+      {"load of a table", "", "b.csv: error: holds a break-in table; a load of its own is for a recording over time",
+       {"diagnose", scenario, "b.csv", "--load", "b.csv:torque_Nm=2", "-o", "out"}, true},
       {"absent", "", "absent.csv: error: cannot be read: No such file or directory", words("absent.csv"), true},
   });
 }
@@ -141,6 +149,22 @@ TEST_CASE("tolerances and column names that cannot be are told") {
       {"unknown", with("[data]\nmotor_torque = \"u\"\n"), "s.toml:20:1: error: unknown key 'motor_torque' in [data]; did you mean 'motor_torque_Nm'?"},
       {"empty", with("[data]\ngear_angle_rad = \"\"\n"), "s.toml:20:18: error: data.gear_angle_rad = \"\" names no column"},
   });
+}
+
+TEST_CASE("a recording with another payload is diagnosed with the load that it states") {
+  const Folder folder;
+  const std::string bench = shipped("example_bench.toml");
+  const auto keep = [&](const std::string& file, const std::string& mass) {
+    REQUIRE(folder.run({"run", bench, "--set", "run.duration_s=4", "--set", "run.report_interval_s=0.001", "--set", "load.mass_kg=" + mass, "-o", file, "-q"}).exit == 0);
+  };
+  keep("light.h5", "1.0");
+  keep("heavy.h5", "1.3");
+  std::vector<std::string> words{"diagnose", bench, "light.h5", "heavy.h5", "-o", "out", "-q", "--no-pictures"};
+  REQUIRE(folder.run(words).exit == 0);
+  CHECK(report(folder)["verdict"] != "adequate");
+  words.insert(words.end(), {"--load", "heavy.h5:mass_kg=1.3"});
+  REQUIRE(folder.run(words).exit == 0);
+  CHECK(report(folder)["verdict"] == "adequate");
 }
 
 }  // namespace wormdrive::test::cli_diagnose

@@ -1,9 +1,12 @@
 // The page that `wormdrive report` writes, without a browser.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
+#include "output/hdf5.hpp"
 
 namespace wormdrive::test::cli_report {
 
@@ -82,6 +85,57 @@ TEST_CASE("a report of statics shows the region of rest") {
   CHECK(table_in(data, "Break-in torques").at("rows").size() == 11);
 }
 
+TEST_CASE("a report of steady motion shows the model, and what was measured beside it") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario);
+  REQUIRE(folder.run({"steady", "s.toml", "-q", "-o", "curve.h5"}).exit == 0);
+  REQUIRE(folder.run({"report", "curve.h5"}).exit == 0);
+  const nlohmann::json alone = data_in(folder.read("curve.html")).at("groups").at(0);
+  CHECK(alone.at("units") == "rad/s");
+  CHECK(alone.at("panels").size() == 1);
+  const auto speed = alone.at("panels")[0].at("over").get<std::vector<double>>();
+  CHECK(std::is_sorted(speed.begin(), speed.end()));
+  const std::size_t still = static_cast<std::size_t>(std::find(speed.begin(), speed.end(), 0.0) - speed.begin());
+  REQUIRE(still < speed.size());
+  CHECK(alone.at("panels")[0].at("series")[0].at("values")[still].is_null());
+
+  std::string csv = "record,worm_speed_rad_per_s,motor_torque_Nm\n";
+  for (const std::string row : {"down,-20,-0.01\n", "up,20,0.03\n", "up,20,0.05\n"}) csv += row;
+  folder.write("data.csv", csv);
+  const Outcome steady = folder.run({"steady", "s.toml", "--data", "data.csv", "-q", "-o", "both.h5"});
+  INFO(steady.err);
+  REQUIRE(steady.exit == 0);
+  REQUIRE(folder.run({"report", "both.h5"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("both.html")), records = table_in(data, "Records").at("rows");
+  REQUIRE(records.size() == 2);
+  CHECK(records[0][0] == "down");
+  CHECK(records[1][2].get<double>() == Approx(0.04));
+  CHECK(records[1][4].get<double>() == Approx(0.04 - records[1][3].get<double>()));
+  CHECK(data.at("verdict").get<std::string>().starts_with("The model misses the mean torques of 2 records, "));
+  CHECK(data.at("groups")[0].at("panels").size() == 2);
+  const nlohmann::json panel = data.at("groups")[0].at("panels")[0];
+  const auto over = panel.at("over").get<std::vector<double>>();
+  const std::size_t up = static_cast<std::size_t>(std::find(over.begin(), over.end(), 20.0) - over.begin());
+  REQUIRE(up < over.size());
+  CHECK(panel.at("series")[0].at("values")[up].get<double>() == Approx(0.04));
+}
+
+TEST_CASE("a report of a run with many events says how many it leaves out") {
+  const Folder folder;
+  REQUIRE(
+      folder
+          .run({"run", shipped("fig09_switching.toml"), "-q", "-o", "a.h5", "--set", "motor.torque.frequency_Hz=900",
+                "--set", "motor.torque.amplitude_Nm=5", "--set", "run.solver=taylor"})
+          .exit == 0);
+  REQUIRE(folder.run({"report", "a.h5"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("a.html")), group = data.at("groups").at(0);
+  const std::size_t all = read_column(open_hdf5(folder / "a.h5"), "events/time").size();
+  REQUIRE(all > 2000);
+  CHECK(group.at("events").size() == 2000);
+  CHECK(group.at("all_events") == all);
+  CHECK(data.at("summary").get<std::string>().ends_with(" (the first 2000 are shown)"));
+}
+
 TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
@@ -104,7 +158,8 @@ TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
   CHECK(groups[1].at("over") == "mesh.friction");
   CHECK(cloud.at("series").size() == 3);
   CHECK(table_in(data, "Worst drives").at("rows").size() == 10);
-  CHECK(data.at("verdict").get<std::string>().find(" of 60 drives (") != std::string::npos);
+  CHECK(data.at("verdict").get<std::string>().find(" of 60 drives have final gear speed below -0.1 rad/s (") !=
+        std::string::npos);
 }
 
 TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
@@ -130,13 +185,13 @@ TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
 TEST_CASE("what is no result, or no longer whole, gets no report") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  REQUIRE(folder.run({"steady", "s.toml", "-q", "-o", "curve.h5"}).exit == 0);
+  write_attribute(create_hdf5(folder / "other.h5"), "kind", "something");
   refuse_all(folder,
-             {{"steady",
+             {{"a result of another kind",
                "",
-               "curve.h5: error: is the result of 'steady'; a report shows a run, statics, a sweep or a "
+               "other.h5: error: is the result of 'something'; a report shows a run, statics, steady, a sweep or a "
                "diagnosis",
-               {"report", "curve.h5"},
+               {"report", "other.h5"},
                true},
               {"a scenario",
                "",

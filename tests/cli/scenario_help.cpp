@@ -109,6 +109,14 @@ TEST_CASE("every kind of new scenario runs as it is written") {
   }
 }
 
+TEST_CASE("the controller of a new scenario keeps what Lemma 1 promises") {
+  const Folder folder;
+  REQUIRE(folder.run({"new", "mine.toml", "--kind", "controlled"}).exit == 0);
+  const Outcome run = folder.run({"run", "mine.toml"});
+  INFO(run.out << run.err);
+  CHECK(run.out.find("every promise kept") != std::string::npos);
+}
+
 TEST_CASE("what new and diff cannot do is told") {
   const Folder folder;
   folder.write("s.toml", good_scenario);

@@ -138,6 +138,8 @@ TEST_CASE("the measured axis: from its mass, friction is named and then that it 
   CHECK(named("worm_coulomb"));
   CHECK(named("worm_viscous"));
   CHECK(named("bearing_asymmetry"));
+  CHECK(d.sentence.find(" N s/m") != std::string::npos);
+  CHECK(d.sentence.find("rad") == std::string::npos);
   CHECK_FALSE(named("stribeck"));
   CHECK_FALSE(named("backlash"));
   const AxisModel found = axis_model(d.extended.effects);

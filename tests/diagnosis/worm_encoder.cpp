@@ -99,7 +99,7 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
   selection.causes = {{0, {}}, {1, {}}};
   Diagnosis one;
   one.causes = {{"backlash", {}}, {"worm_viscous", {}}};
-  one.remainders = {{"speed", 9.0, 1e-3}};
+  one.remainders = {{"speed", 9.0, 1e-3, 40.0}};
   Diagnosis two = one;
   judge(one, selection, all, Magnitudes{.torque = 0.05});
   CHECK(one.verdict == Verdict::unexplained);
@@ -109,6 +109,27 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
   REQUIRE(two.causes.size() == 1);
   CHECK(two.causes[0].effect == "backlash");
   CHECK(two.remarks.at(0) == "best of the catalogue, but it leaves structure behind: worm viscous");
+}
+
+TEST_CASE("a cause that does most of the work keeps its name beside structure that is left") {
+  std::vector<Suspect> all(1);
+  all[0].effect = "worm_viscous";
+  const auto judged = [&](double evidence, double error_after) {
+    Selection selection;
+    selection.causes = {{0, {}}};
+    selection.base.bic = evidence;
+    selection.model.bic = 0.0;
+    Diagnosis d;
+    d.causes = {{"worm_viscous", {}}};
+    d.remainders = {{"speed", 9.0, 1e-3, 40.0}};
+    d.prediction = {{.horizon = 0.25, .before = 1e-2, .after = error_after}};
+    judge(d, selection, all, Magnitudes{.torque = 0.05});
+    return d.verdict;
+  };
+  CHECK(judged(2300.0, 9e-3) == Verdict::unexplained);  // 1150 nats to 40 that are left
+  CHECK(judged(2500.0, 9e-3) == Verdict::named);
+  CHECK(judged(470.0, 2e-3) == Verdict::unexplained);  // where the error falls to a fifth as well
+  CHECK(judged(490.0, 2e-3) == Verdict::named);
 }
 
 }  // namespace wormdrive::test::diagnosis_worm_encoder

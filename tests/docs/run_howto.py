@@ -2,6 +2,7 @@
 """Checks that the documentation is true: run_howto.py PROGRAM [PICTURES]
 
   commands  code blocks marked `sh test` or `python test` run, page by page, in a folder with a copy of scenarios/
+  output    a block marked `text test` is what they print, numbers aside, `...` is what was left out; `$ COMMAND` runs it
   pictures  each picture on a page in docs/ is made by commands of that page
   code      what stands between // [howto] and // [/howto] in tests/docs/NAME.cpp stands in docs/howto/NAME.md
   links     every link between pages leads to a file, and to a heading in it
@@ -25,6 +26,7 @@ MARKED = re.compile(r"^// \[howto\]\n(.*?)^// \[/howto\]$", re.MULTILINE | re.DO
 PICTURE = re.compile(r"!\[[^\]]*\]\((?:\.\./)?(?:docs/)?pictures/([^)]*)\)")
 MADE = re.compile(r"([\w./]+)\.(?:h5|png)\b")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)")
+NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")  # differs from one processor and library to the next
 PRELUDE = "set -euo pipefail\ntrap 'status=$?; ((status == 0)) || echo \"$block: exit status $status\" >&2' EXIT\n"
 
 
@@ -40,6 +42,21 @@ def picture_faults(page, text):
             yield f"{name(page)}: no command draws pictures/{picture}"
 
 
+def shape(line):
+    """A printed line without its numbers and blanks."""
+    return " ".join(NUMBER.sub("#", line).split())
+
+
+def output_faults(page, text, printed):
+    """Yields the lines that a page shows as printed and that nothing has printed."""
+    known = set(map(shape, printed.splitlines()))
+    for block in BLOCK.finditer(text):
+        if (block["language"], block["mark"]) == ("text", " test"):
+            for line in block["code"].splitlines():
+                if not line.startswith("$ ") and line.strip() != "..." and shape(line) not in known:
+                    yield f"{name(page)}: no command prints '{line.strip()}'"
+
+
 def command_faults(page, text, program, pictures):
     """Runs the marked blocks of a page in one bash, keeps the pictures it shows, and returns what went wrong."""
     script, marks = PRELUDE, {" test", " pictures"} if pictures else {" test"}
@@ -47,6 +64,8 @@ def command_faults(page, text, program, pictures):
         code, line = block["code"], text.count("\n", 0, block.start()) + 1
         if block["language"] == "python":
             code = f"/usr/bin/python3 - <<'END_OF_BLOCK'\n{code}END_OF_BLOCK\n"
+        elif block["language"] == "text":
+            code = f"{code[2:].splitlines()[0]} || true\n" if code.startswith("$ ") else ""
         script += f"block={name(page)}:{line}\n{code}"
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "scenarios", Path(folder, "scenarios"))
@@ -54,13 +73,12 @@ def command_faults(page, text, program, pictures):
             Path(folder, beside).symlink_to(ROOT / beside)
         environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}",
                        "PYTHONPATH": str(program.parent / "python")}
-        run = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, stdout=subprocess.DEVNULL,
-                             stderr=subprocess.PIPE, text=True)
+        run = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
         for picture in PICTURE.findall(text) if pictures else []:
             for made in [Path(folder, picture), *Path(folder).glob(f"*/{picture}")]:
                 if made.is_file():
                     shutil.copy(made, pictures)
-    return [run.stderr.rstrip()] if run.returncode else []
+    return [run.stderr.rstrip()] if run.returncode else [*output_faults(page, text, run.stdout + run.stderr)]
 
 
 def anchors(text):

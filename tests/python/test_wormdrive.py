@@ -38,6 +38,20 @@ def resident_kib():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4
 
 
+class Tables(unittest.TestCase):
+    def test_a_table_shows_its_columns(self):
+        shown = repr(wormdrive.run(SHORT).trajectory)
+        self.assertTrue(shown.startswith("<wormdrive.Table of "), shown)
+        self.assertIn(" rows: time [s], gear_angle [rad], ", shown)
+        self.assertIn(" motion, flank>", shown)
+
+    def test_flags_are_words_by_value(self):
+        events = wormdrive.run(FIG09).events
+        self.assertEqual(events.words("kind")[:2], ["break_away", "flank_change"])
+        self.assertEqual(events.flag_meanings["motion_after"], {-1: "backward", 0: "stuck", 1: "forward"})
+        self.assertEqual(events.words("motion_after")[0], "backward")
+
+
 class Runs(unittest.TestCase):
     def test_columns_are_those_of_the_result_file(self):
         import h5py
@@ -97,6 +111,8 @@ class Runs(unittest.TestCase):
         dataset = wormdrive.run(FIG09).to_xarray()
         self.assertEqual(dataset.gear_speed.attrs["units"], "rad/s")
         self.assertLess(float(dataset.gear_speed.sel(time=1.0, method="nearest")), 2.0)
+        self.assertEqual(dataset.motion.attrs["flag_values"], [-1, 0, 1])
+        self.assertEqual(dataset.motion.attrs["flag_meanings"], "backward stuck forward")
 
     def test_steady_and_check(self):
         torque = wormdrive.steady(SHORT, [[-10.0, 10.0]], load={"torque_Nm": 0.0})
@@ -128,13 +144,19 @@ class Studies(unittest.TestCase):
             Path(folder, "study.toml").write_text(shorter)
             subprocess.run([PROGRAM, "sweep", "study.toml", "-q", "-o", "theirs.h5"], check=True, cwd=folder)
             ours = wormdrive.sweep(Path(folder, "study.toml"), threads=2)
-            ours.write(Path(folder, "ours.h5"))
+            ours.write(Path(folder, "ours.h5"), referee=3)
             with h5py.File(Path(folder, "theirs.h5")) as theirs, h5py.File(Path(folder, "ours.h5")) as written:
                 self.assertEqual(set(theirs["trials"]), set(ours.trials))
                 for name, column in theirs["trials"].items():
                     np.testing.assert_array_equal(ours.trials[name], column[:], err_msg=name)
                     np.testing.assert_array_equal(written["trials"][name][:], column[:], err_msg=name)
                 np.testing.assert_array_equal(written["summary/thresholds/missed"][:], theirs["summary/thresholds/missed"][:])
+                def judged(file):
+                    rows = np.flatnonzero(file["referee/judged"][:])
+                    return dict(zip(file["referee/trial"][:][rows], file["referee/angle_difference"][:][rows]))
+
+                self.assertEqual(len(judged(written)), 3)
+                self.assertLessEqual(judged(written).items(), judged(theirs).items())
 
     def test_a_study_is_a_dict_or_text_too(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -158,7 +180,14 @@ class Studies(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
             theirs = json.loads(Path(folder, "diagnosis.json").read_text())
-            ours = wormdrive.diagnose(*bench)
+            ours = wormdrive.diagnose(*bench, output=Path(folder, "ours"))
+            written = json.loads(Path(folder, "ours/diagnosis.json").read_text())
+            self.assertEqual(written, ours.findings)
+            self.assertEqual(Path(folder, "ours/extended.toml").read_text(), ours.extended)
+            subprocess.run([PROGRAM, "report", Path(folder, "ours")], check=True, capture_output=True)
+            self.assertTrue(Path(folder, "ours/report.html").exists())
+            with self.assertRaisesRegex(wormdrive.InputError, "diagnosis.h5: error: the result would overwrite .*diagnosis.h5"):
+                wormdrive.diagnose(Path(folder, "diagnosis.h5"), bench[1], output=folder)
             del ours.findings["program"], theirs["program"]
             self.assertEqual(ours.findings, theirs)
             self.assertEqual(ours.extended, Path(folder, "extended.toml").read_text())

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "diagnosis/read_recording.hpp"
-#include "recovery/truth/excitation.hpp"
 
 namespace recovery {
 namespace {
@@ -35,11 +34,6 @@ const T& one_of(const std::vector<T>& all, truth::Generator& generator) {
 double signed_amount(const truth::Secret& secret, truth::Size size, truth::Generator& generator) {
   const bool turn = secret.either_sign && std::bernoulli_distribution(0.5)(generator);
   return turn ? -secret.amount(size) : secret.amount(size);
-}
-
-bool same_or_twin(std::string_view named, const truth::Secret& secret) {
-  if (secret.effect == "dwell" && named == "static_friction") return true;
-  return named == secret.effect || std::find(secret.twins.begin(), secret.twins.end(), named) != secret.twins.end();
 }
 
 std::vector<const truth::Secret*> pool(const Plan& plan) {
@@ -83,19 +77,6 @@ Kind kind(std::string_view sought) {
     if (name(k) == sought) return k;
   throw std::invalid_argument("a campaign hides single, nothing, pair, cancelling or outside, not " +
                               std::string(sought));
-}
-
-std::string_view name(Score score) {
-  switch (score) {
-    case Score::exact: return "exact";
-    case Score::in_class: return "in class";
-    case Score::partial: return "partial";
-    case Score::extra: return "extra";
-    case Score::silent: return "silent";
-    case Score::wrong: return "wrong";
-    case Score::crash: return "crash";
-  }
-  return {};
 }
 
 std::vector<Case> draw(const Plan& plan) {
@@ -169,83 +150,46 @@ wormdrive::Scenario data_sheet(const Conditions& conditions) {
   return sheet;
 }
 
-Bench record(const Case& drawn) {
-  truth::Generator generator(drawn.seed);
-  Bench bench;
-  truth::Drive& drive = bench.drive;
+truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator) {
+  truth::Drive drive;
   drive.noise.coloured = drawn.conditions.coloured_torque;
   drive.sensor.counts = drawn.conditions.counts;
   drive.sensor.worm_counts = drawn.conditions.worm_counts;
   if (drawn.conditions.worm_counts > 0.0) drive.teeth.stiffness = rigid_teeth;
   truth::disturb_nominal(drive, drawn.conditions.errors, generator);
   for (const Hiding& hiding : drawn.hidden) hiding.secret->hide(drive, hiding.amount, generator);
-  const auto course = truth::rich_course(generator(), drawn.duration);
-  const auto law = truth::follow(course, truth::Geometry{}, truth::MeshFriction{}.level);
-  const auto recorded = truth::record(drive, law, {.duration = drawn.duration, .seed = generator()});
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() /
-      ("recovery_" + std::to_string(getpid()) + "_" + std::to_string(drawn.seed) + ".csv");
+  return drive;
+}
+
+wormdrive::Recording follow(const truth::Drive& drive, const truth::Course& course, const wormdrive::Scenario& sheet,
+                            std::uint64_t seed) {
+  truth::Geometry stated;
+  if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass) stated.mass = *arm->mass;
+  const auto law = truth::follow(course, stated, truth::MeshFriction{}.level);
+  const double duration = static_cast<double>(course.angle.size()) * course.period;
+  const auto recorded =
+      truth::record(drive, law, {.duration = duration, .start_angle = course.angle.front(), .seed = seed});
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("recovery_" + std::to_string(getpid()) + "_" + std::to_string(seed) + ".csv");
   truth::write_csv(recorded, file.string());
+  wormdrive::Recording recording;
   try {
-    bench.recording = wormdrive::read_recording(file.string(), data_sheet(drawn.conditions));
+    recording = wormdrive::read_recording(file.string(), sheet);
   } catch (...) {
     std::filesystem::remove(file);
     throw;
   }
   std::filesystem::remove(file);
-  bench.recording.name = "recording";
-  return bench;
+  recording.name = "recording";
+  return recording;
 }
 
-Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found) {
-  using wormdrive::Verdict;
-  Outcome outcome;
-  outcome.drawn = drawn;
-  outcome.told = found.sentence;
-  outcome.flagged = found.verdict == Verdict::unexplained || !found.remainders.empty();
-  const bool claims = found.verdict == Verdict::named || found.verdict == Verdict::ambiguous;
-  if (claims)
-    for (const auto& cause : found.causes) outcome.named.push_back(cause.effect);
-  outcome.class_size = std::max<std::size_t>(1, found.equivalents.size());
-  const auto is_hidden = [&](const std::string& named) {
-    return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
-                       [&](const Hiding& h) { return same_or_twin(named, *h.secret); });
-  };
-  const auto is_named = [&](const Hiding& h, const std::vector<std::string>& names) {
-    return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_or_twin(n, *h.secret); });
-  };
-  const auto named = [&](const Hiding& h) { return is_named(h, outcome.named); };
-  const auto in_class = [&](const Hiding& h) { return named(h) || is_named(h, found.equivalents); };
-  const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
-  const bool only_hidden =
-      std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
-  const bool class_of_twins = std::all_of(found.equivalents.begin(), found.equivalents.end(), is_hidden);
-  if (!claims || outcome.named.empty())
-    outcome.score = drawn.hidden.empty() ? Score::exact : Score::silent;
-  else if (drawn.hidden.empty())
-    outcome.score = Score::wrong;
-  else if (all_named && only_hidden && (found.verdict == Verdict::named || class_of_twins))
-    outcome.score = Score::exact;
-  else if (found.verdict == Verdict::ambiguous && std::all_of(drawn.hidden.begin(), drawn.hidden.end(), in_class) &&
-           outcome.named.size() <= drawn.hidden.size())
-    outcome.score = Score::in_class;
-  else
-    outcome.score = all_named ? Score::extra : only_hidden ? Score::partial : Score::wrong;
-  for (const Hiding& hiding : drawn.hidden)
-    for (const auto& cause : found.causes) {
-      if (cause.effect != hiding.secret->effect) continue;
-      for (const truth::TrueParameter& parameter : hiding.secret->parameters)
-        for (const wormdrive::Estimate& estimate : cause.parameters) {
-          if (estimate.field != parameter.field) continue;
-          const double is = parameter.of(drive);
-          outcome.errors.push_back(std::abs(estimate.value - is) / std::abs(is));
-          if (estimate.standard_error > 0.0)
-            outcome.deviations.push_back((estimate.value - is) / estimate.standard_error);
-        }
-    }
-  for (const auto& error : found.prediction)
-    if (std::abs(error.horizon - 0.25) < 1e-9 && error.floor > 0.0) outcome.held_out = error.after / error.floor;
-  return outcome;
+Bench record(const Case& drawn) {
+  truth::Generator generator(drawn.seed);
+  Bench bench{disturbed_drive(drawn, generator), {}};
+  const auto course = truth::rich_course(generator(), drawn.duration);
+  bench.recording = follow(bench.drive, course, data_sheet(drawn.conditions), generator());
+  return bench;
 }
 
 std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnose, int threads,

@@ -7,6 +7,7 @@
 
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/recording.hpp"
+#include "recovery/truth/excitation.hpp"
 #include "recovery/truth/hidden.hpp"
 
 namespace recovery {
@@ -74,6 +75,13 @@ struct Bench {
 };
 Bench record(const Case& drawn);
 
+/// The drive of a case, with what is hidden in it.
+truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator);
+
+/// Follows a course, writes a CSV file of it, and reads that as a user's.
+wormdrive::Recording follow(const truth::Drive& drive, const truth::Course& course, const wormdrive::Scenario& sheet,
+                            std::uint64_t seed);
+
 using Diagnose =
     std::function<wormdrive::Diagnosis(const wormdrive::Scenario&, const std::vector<wormdrive::Recording>&)>;
 
@@ -95,6 +103,7 @@ struct Outcome {
   Case drawn;
   Score score = Score::crash;
   bool flagged = false;            ///< unexplained, or something remains
+  bool observable = true;          ///< what is hidden is large enough to be named, by the diagnosis' own certificate
   std::vector<std::string> named;  ///< causes
   std::size_t class_size = 1;
   std::vector<double> errors;      ///< of the named causes' parameters, as shares of the truth
@@ -103,6 +112,9 @@ struct Outcome {
   double seconds = 0.0;
   std::string told;  ///< the sentence, or the exception's words
 };
+
+/// Whether a name is that of what is hidden, or of something with exactly the same data.
+bool same_or_twin(std::string_view named, const truth::Secret& secret);
 
 /// Compares names and parameters; the drive is the truth.
 Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found);

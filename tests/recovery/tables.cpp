@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -28,12 +29,6 @@ std::string hidden(const Outcome& outcome) {
   std::vector<std::string> parts;
   for (const Hiding& h : outcome.drawn.hidden) parts.emplace_back(h.secret->effect);
   return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, " + "));
-}
-
-std::string answer(const Outcome& outcome) {
-  if (outcome.score == Score::crash) return "crash";
-  if (outcome.named.empty()) return outcome.flagged ? "unexplained" : "adequate";
-  return fmt::format("{}", fmt::join(outcome.named, " + "));
 }
 
 std::vector<Outcome> of_size(const std::vector<Outcome>& outcomes, truth::Size size) {
@@ -69,6 +64,12 @@ std::string score_row(const std::string& title, const std::vector<Outcome>& outc
 
 }  // namespace
 
+std::string answer(const Outcome& outcome) {
+  if (outcome.score == Score::crash) return "crash";
+  if (outcome.named.empty()) return outcome.flagged ? "unexplained" : "adequate";
+  return fmt::format("{}{}", fmt::join(outcome.named, " + "), outcome.flagged ? ", in part" : "");
+}
+
 long count(const std::vector<Outcome>& outcomes, Score score) {
   return std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& o) { return o.score == score; });
 }
@@ -100,10 +101,23 @@ std::string tables(const Plan& plan, const std::vector<Outcome>& outcomes) {
   for (const truth::Size size : truth::sizes)
     if (const auto some = of_size(outcomes, size); !some.empty()) text += score_row(std::string(name(size)), some);
   text += score_row("all", outcomes);
+  if (plan.kind == Kind::single) {
+    std::vector<Outcome> observable;
+    std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(observable),
+                 [](const Outcome& o) { return o.observable; });
+    text += score_row("observable", observable);
+  }
   if (plan.kind == Kind::nothing) {
     const long named = count(outcomes, Score::wrong);
     text += fmt::format("\nFalse names: {} of {}; the rate is at most {:.1f} % (95 %).\n", named, outcomes.size(),
                         100.0 * rate_at_most(named, static_cast<long>(outcomes.size())));
+  }
+  if (plan.kind == Kind::outside) {
+    const auto honest = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) {
+      return o.score == Score::exact || (o.flagged && o.score != Score::crash);
+    });
+    text += fmt::format("\nSaid to be more than the catalogue has, or named `static_friction` for `dwell`: {} of {}.\n",
+                        honest, outcomes.size());
   }
   std::map<std::string, std::map<std::string, long>> confusion;
   for (const Outcome& o : outcomes)
@@ -126,7 +140,9 @@ std::string line(const Outcome& outcome) {
   return fmt::format("{:20} {:45} {:8} {:40} class {} errors [{:.1e}] {:.1f} s  {}", outcome.drawn.seed,
                      fmt::format("{}", fmt::join(parts, ", ")), name(outcome.score), answer(outcome),
                      outcome.class_size, fmt::join(outcome.errors, ", "), outcome.seconds,
-                     outcome.score == Score::crash ? outcome.told : "");
+                     outcome.score == Score::crash ? outcome.told
+                     : outcome.observable          ? ""
+                                                   : "below the certificate");
 }
 
 }  // namespace recovery

@@ -18,6 +18,9 @@ double rate_at_most(long k, long n);
 /// Tables in Markdown: scores by size, what was named for what was hidden, errors of the parameters, time.
 std::string tables(const Plan& plan, const std::vector<Outcome>& outcomes);
 
+/// What was named, or in a word why nothing was.
+std::string answer(const Outcome& outcome);
+
 /// One line per outcome: what was hidden, what was named.
 std::string line(const Outcome& outcome);
 

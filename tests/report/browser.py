@@ -113,6 +113,7 @@ def results(program, scenarios, folder):
     yield made("controlled", "run", fig10)
     yield made("million", "run", fig09, "--set", "run.report_interval_s=2e-6", "--set", "run.solver=taylor")
     yield made("statics", "statics", scenarios / "fig07_break_in_07cm_forward.toml")
+    yield made("steady", "steady", scenarios / "measured_worm_drive.toml")
     study = Path(folder, "study.toml")
     study.write_text(f"""title = "Where a drive stands after 20 ms"
 scenario = "{fig09}"

@@ -34,6 +34,14 @@ high = 0.025
 
 }  // namespace
 
+TEST_CASE("without a threshold trials are ranked by the first metric with a unit, not by a count", "[sweep]") {
+  const StudyFolder folder(good_study.substr(0, good_study.find("[[threshold]]")));
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const Outcome told = folder.run({"summary", "o.h5", "--json"});
+  REQUIRE(told.exit == 0);
+  CHECK(nlohmann::json::parse(told.out)["ranked_by"] == "final_gear_angle");
+}
+
 TEST_CASE("/summary holds what the command tells", "[sweep]") {
   const StudyFolder folder(study_but("= -2.5", "= -0.3"));
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);

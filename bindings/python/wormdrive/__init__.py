@@ -20,7 +20,12 @@ import tempfile
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Union
 
-from . import _core
+try:
+    import wormdrive._core as _core
+except ImportError as error:
+    python = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    raise ImportError(f"{os.path.dirname(__file__)} has no module that {python} can load ({error}); build it with that "
+                      "Python: cmake --build --preset release --target wormdrive_python") from None
 from ._core import InputError, OutputError, SimulationHalted
 
 __all__ = ["run", "steady", "check", "sweep", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
@@ -30,17 +35,22 @@ __version__ = _core.version().split()[1]
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scenario"]
 
 
-class Table(Mapping):
+class Table(Mapping[str, Any]):
     """Columns of one length by name, as NumPy arrays in SI: `table["time"]` or `table.time`.
 
-    `units` and `long_names` describe them as in a result file; `flag_meanings` tells the words of whole-numbered ones.
+    `units` and `long_names` describe them as in a result file; `flag_meanings` tells the word of each value of the flags
+    (`kind`, `motion`, `flank`), and `words("kind")` is the column in words.
     """
 
     def __init__(self, columns: list[_core.Column]):
-        self._arrays = {name: array for name, _, _, _, array in columns}
-        self.units = {name: unit for name, unit, _, _, _ in columns}
-        self.long_names = {name: long_name for name, _, long_name, _, _ in columns}
-        self.flag_meanings = {name: words.split() for name, _, _, words, _ in columns if words}
+        self._arrays: dict[str, Any] = {name: array for name, _, _, _, _, array in columns}
+        self.units = {name: unit for name, unit, _, _, _, _ in columns}
+        self.long_names = {name: long_name for name, _, long_name, _, _, _ in columns}
+        self.flag_meanings = {name: dict(zip(values, words.split())) for name, _, _, words, values, _ in columns if words}
+
+    def words(self, name: str) -> list[str]:
+        """A column of flags in words: "break_away", "forward", ..."""
+        return [self.flag_meanings[name][int(value)] for value in self[name]]
 
     def __getitem__(self, name: str) -> Any:
         return self._arrays[name]
@@ -57,6 +67,11 @@ class Table(Mapping):
         """Number of columns."""
         return len(self._arrays)
 
+    def __repr__(self) -> str:
+        rows = len(next(iter(self._arrays.values())))
+        columns = (f"{name} [{unit}]" if unit not in ("", "1") else name for name, unit in self.units.items())
+        return f"<wormdrive.Table of {rows} rows: {', '.join(columns)}>"
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
 
@@ -64,10 +79,11 @@ class Table(Mapping):
         """The table as an xarray.Dataset over its first column, units as attributes; needs xarray."""
         import xarray
 
-        def attributes(name: str) -> dict[str, str]:
+        def attributes(name: str) -> dict[str, Any]:
+            flags = self.flag_meanings.get(name, {})
             described = {"units": self.units[name], "long_name": self.long_names[name],
-                         "flag_meanings": " ".join(self.flag_meanings.get(name, []))}
-            return {key: text for key, text in described.items() if text}
+                         "flag_values": list(flags), "flag_meanings": " ".join(flags.values())}
+            return {key: value for key, value in described.items() if value}
 
         over = next(iter(self))
         data = {name: (over, array, attributes(name)) for name, array in self.items()}
@@ -146,9 +162,10 @@ class Sweep:
         """The trials as an xarray.Dataset over their index."""
         return self.trials.to_xarray()
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the HDF5 file that `wormdrive sweep` writes, without a referee's verdicts; raises OutputError."""
-        self._sweep.write(os.fspath(path), _command_line())
+    def write(self, path: Union[str, "os.PathLike[str]"], *, referee: int = 8) -> None:
+        """Writes the HDF5 file that `wormdrive sweep` writes; raises OutputError. referee: so many trials are made again by
+        CVODE, and how far it is from them stands in the file."""
+        self._sweep.write(os.fspath(path), _command_line(), referee)
 
     def __repr__(self) -> str:
         return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"
@@ -180,30 +197,30 @@ class Diagnosis:
 class Scenario:
     """A scenario that is read and checked, ready to run as often as wanted. Raises InputError with all faults at once."""
 
+    _scenario: _core.Scenario
+
     def __init__(self, source: Source, /, *, _look: bool = False, **overrides: Any):
         assignments = list(_assignments(overrides))
         if isinstance(source, Scenario):
-            self._core = _core.Scenario.parse(source.toml, "scenario", assignments, _look) if assignments else source._core
-        elif isinstance(source, Mapping):
-            self._core = _core.Scenario.parse(_document(source), "dict", assignments, _look)
-        elif isinstance(source, str) and "\n" in source:
-            self._core = _core.Scenario.parse(source, "text", assignments, _look)
+            self._scenario = _core.Scenario.parse(source.toml, "scenario", assignments, _look) if assignments else source._scenario
+        elif (stated := _text_of(source)) is not None:
+            self._scenario = _core.Scenario.parse(*stated, assignments, _look)
         else:
-            self._core = _core.Scenario.load(os.fspath(source), assignments, _look)
+            self._scenario = _core.Scenario.load(os.fspath(source), assignments, _look)  # type: ignore[arg-type]
 
     @property
     def title(self) -> str:
-        return self._core.title
+        return self._scenario.title
 
     @property
     def toml(self) -> str:
         """The resolved scenario: every value that holds, defaults included."""
-        return self._core.toml
+        return self._scenario.toml
 
     def run(self) -> Result:
         """Simulates; other threads run meanwhile, and Ctrl-C ends it. Raises SimulationHalted, whose `result` is the
         run up to there."""
-        core = self._core.run()
+        core = self._scenario.run()
         result = Result(core)
         if core.halted is not None:
             halt = SimulationHalted(core.halted)
@@ -222,44 +239,58 @@ def run(scenario: Source, /, **overrides: Any) -> Result:
 
 def steady(scenario: Source, worm_speed: Any, /, **overrides: Any) -> Any:
     """Motor torque [N m] that keeps the drive at worm speeds [rad/s], other than 0: an array of their shape."""
-    return Scenario(scenario, _look=True, **overrides)._core.steady(worm_speed)
+    return Scenario(scenario, _look=True, **overrides)._scenario.steady(worm_speed)
 
 
 def check(scenario: Source, /, **overrides: Any) -> dict[str, Any]:
     """What `wormdrive check --json` tells: title, parameters and what follows from them (value, unit, meaning),
     warnings, the resolved scenario."""
-    core = Scenario(scenario, _look=True, **overrides)._core
+    core = Scenario(scenario, _look=True, **overrides)._scenario
     return {"title": core.title, "parameters": core.parameters(), "derived": core.derived(),
             "warnings": core.warnings(), "scenario": core.toml}
 
 
 def sweep(study: Union[str, "os.PathLike[str]", Mapping[str, Any]], /, *, threads: int = 0) -> Sweep:
     """Makes the trials of a study: a path (.toml), TOML text or a dict; of the latter two the scenario is looked for in the
-    working directory. threads=0: as many as the machine has; the rows do not depend on it."""
-    if isinstance(study, Mapping):
-        return Sweep(_core.sweep_text(_document(study), "dict", threads))
-    if isinstance(study, str) and "\n" in study:
-        return Sweep(_core.sweep_text(study, "text", threads))
-    return Sweep(_core.sweep_file(os.fspath(study), threads))
+    working directory. threads=0: as many as the machine has; the rows do not depend on it. All rows stay in memory: what must
+    survive an interruption is for `wormdrive sweep`, which --resume takes up again."""
+    if (stated := _text_of(study)) is not None:
+        return Sweep(_core.sweep_text(*stated, threads))
+    return Sweep(_core.sweep_file(os.fspath(study), threads))  # type: ignore[arg-type]
 
 
-def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0, **overrides: Any) -> Diagnosis:
+def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0,
+             output: Optional[Union[str, "os.PathLike[str]"]] = None, **overrides: Any) -> Diagnosis:
     """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
-    names of a CSV file, {"time_s": array, ...}."""
-    core = Scenario(scenario, _look=True, **overrides)._core
+    names of a CSV file, {"time_s": array, ...}. output: a folder for the files of `wormdrive diagnose`, pictures apart;
+    `wormdrive report` makes a page of it."""
+    core = Scenario(scenario, _look=True, **overrides)._scenario
+    folder = None if output is None else os.fspath(output)
+    scenario_file = "" if isinstance(scenario, Scenario) or _text_of(scenario) is not None else os.fspath(scenario)
+
+    def found(files: list[str]) -> Diagnosis:
+        return Diagnosis(_core.diagnose(core, files, seed, threads, folder, scenario_file, _command_line()))
+
     if isinstance(data, Mapping):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "data.csv")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(",".join(data) + "\n")
                 file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
-            return Diagnosis(_core.diagnose(core, [path], seed, threads))
+            return found([path])
     files = [data] if isinstance(data, (str, os.PathLike)) else data
-    return Diagnosis(_core.diagnose(core, [os.fspath(file) for file in files], seed, threads))
+    return found([os.fspath(file) for file in files])
 
 
 def _command_line() -> str:
     return f"python {sys.argv[0] if sys.argv else ''}".strip()
+
+
+def _text_of(source: Any) -> Optional[tuple[str, str]]:
+    """The TOML text of a dict or a text, and its name in messages; None of what must be a path."""
+    if isinstance(source, Mapping):
+        return _document(source), "dict"
+    return (source, "text") if isinstance(source, str) and "\n" in source else None
 
 
 def _document(tables: Mapping[str, Any]) -> str:

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "diagnosis/diagnose.hpp"
+#include "recovery/programs/experiments.hpp"
+#include "recovery/programs/thresholds.hpp"
 #include "recovery/tables.hpp"
 
 namespace {
@@ -69,7 +71,8 @@ Where nominal values are exact the data sheet says so (`[tolerance]` 0), else it
 | silent | no name |
 | wrong | a name that is not hidden: the worst |
 
-`flagged`: something is said to remain; `class`: mean size; `error`: median of the named parameters, with the nominal
+`observable`: those large enough to be named by the certificate that came with the diagnosis; `flagged`: something is
+said to remain; `class`: mean size; `error`: median of the named parameters, with the nominal
 error counted in; `covered`: share of the 95 % intervals that hold the truth; `held out`: prediction error at 0.25 s on
 data not used for the fit over that of the noise, median.
 
@@ -85,7 +88,10 @@ int main(int argc, char** argv) {
   bool worm_encoder = false, all = false;
   int threads = 2;
   double scale = 1.0;
-  app.add_option("--hide", kind, "single, nothing, pair, cancelling or outside");
+  app.add_option(
+      "--hide", kind,
+      "single, nothing, pair, cancelling or outside; or thresholds, unseen or experiments: from which size on "
+      "effects are named, effects in motions that cannot show them, experiments that are proposed");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--sizes", sizes, "small, medium, large")->delimiter(',');
   app.add_option("--effects", plan.effects, "only these")->delimiter(',');
@@ -99,7 +105,8 @@ int main(int argc, char** argv) {
   app.add_option("--output", output, "Markdown file to write");
   CLI11_PARSE(app, argc, argv);
   try {
-    plan.kind = recovery::kind(kind);
+    const bool special = kind == "thresholds" || kind == "unseen" || kind == "experiments";
+    plan.kind = special ? Kind::single : recovery::kind(kind);
     plan.conditions = recovery::conditions(conditions);
     if (worm_encoder) plan.conditions.worm_counts = 4096;
     plan.sizes.clear();
@@ -110,13 +117,26 @@ int main(int argc, char** argv) {
       return wormdrive::diagnose(sheet, recordings, {.threads = 1});
     };
     std::string text = all ? fmt::format(head, plan.seed, scale) : "";
-    for (const Plan& one : all ? benchmark(plan.seed, scale) : std::vector<Plan>{plan}) {
-      text += recovery::tables(one, recovery::run(recovery::draw(one), diagnose, threads, [](const auto& outcome) {
-                                 std::cout << line(outcome) << std::endl;
-                               }));
+    const auto add = [&](const std::string& more) {
+      text += more;
       // a long campaign leaves what it has
       if (!output.empty() && !(std::ofstream(output) << text).flush())
         throw std::runtime_error("cannot write " + output);
+    };
+    if (!special)
+      for (const Plan& one : all ? benchmark(plan.seed, scale) : std::vector<Plan>{plan})
+        add(recovery::tables(one, recovery::run(recovery::draw(one), diagnose, threads,
+                                                [](const auto& outcome) { std::cout << line(outcome) << std::endl; })));
+    if (all || kind == "thresholds") add("### Thresholds\n\n" + table(recovery::thresholds(plan, diagnose)));
+    if (all || kind == "unseen")
+      add("\n### Motions that cannot show it\n\n" + table(recovery::unseen(plan.seed, diagnose)));
+    if (all || kind == "experiments") {
+      plan.effects = {"mesh_friction",      "worm_coulomb",  "gear_coulomb", "load_magnitude", "torque_gain",
+                      "friction_asymmetry", "torque_offset", "worm_viscous", "gear_viscous",   "stribeck"};
+      plan.cases = std::max(1L, std::lround(scale * 40));
+      plan.sizes = {Size::medium, Size::large};
+      plan.duration = 12.0;
+      add("\n### Experiments\n\n" + table(recovery::experiments(plan, diagnose)));
     }
     std::cout << "\n" << text;
   } catch (const std::exception& fault) {

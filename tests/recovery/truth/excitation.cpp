@@ -142,11 +142,27 @@ Course rich_course(std::uint64_t seed, double duration) {
     for (const Sine& wave : waves) angle += share * wave.amplitude * std::sin(turn * wave.frequency * t + wave.phase);
     course.angle.push_back(angle);
   }
-  course.speed.resize(course.angle.size());
-  course.acceleration.resize(course.angle.size());
-  for (std::size_t k = 1; k + 1 < course.angle.size(); ++k) {
-    course.speed[k] = (course.angle[k + 1] - course.angle[k - 1]) / (2.0 * T);
-    course.acceleration[k] = (course.angle[k + 1] - 2.0 * course.angle[k] + course.angle[k - 1]) / (T * T);
+  return course_through(std::move(course.angle));
+}
+
+Course slow_course(double amplitude, double frequency, double duration) {
+  std::vector<double> angle;
+  const long samples = std::lround(duration / Course{}.period);
+  for (long k = 0; k < samples; ++k)
+    angle.push_back(amplitude * std::sin(turn * frequency * static_cast<double>(k) * Course{}.period));
+  return course_through(std::move(angle));
+}
+
+Course course_through(std::vector<double> angle) {
+  Course course;
+  course.angle = std::move(angle);
+  const std::vector<double>& x = course.angle;
+  const double T = course.period;
+  course.speed.resize(x.size());
+  course.acceleration.resize(x.size());
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+    course.speed[k] = (x[k + 1] - x[k - 1]) / (2.0 * T);
+    course.acceleration[k] = (x[k + 1] - 2.0 * x[k] + x[k - 1]) / (T * T);
   }
   return course;
 }

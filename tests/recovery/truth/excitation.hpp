@@ -17,6 +17,12 @@ struct Course {
 /// sign. The seed draws phases and steps. A shorter duration compresses the plan, not the motions.
 Course rich_course(std::uint64_t seed, double duration = 24.0);
 
+/// One sine, a motion that shows little.
+Course slow_course(double amplitude, double frequency, double duration);
+
+/// A course through angles that somebody else asks for, one per period; speeds and accelerations are their differences.
+Course course_through(std::vector<double> angle);
+
 /// Proportional-derivative control of the course, fed forward with what the data sheet says of inertia, load and
 /// friction; the gains keep every hidden effect stable.
 Law follow(Course course, const Geometry& sheet, double friction);

@@ -1,0 +1,61 @@
+#include "diagnosis/diagnosis_folder.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/diagnosis_file.hpp"
+#include "output/text_file.hpp"
+#include "scenarios/overwriting.hpp"
+#include "scenarios/write_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// The ids of effects, "none" without one.
+std::string ids(const std::vector<EstimatedEffect>& effects) {
+  std::vector<std::string> names;
+  for (const EstimatedEffect& effect : effects) names.push_back(effect.effect);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The extended scenario as a file that says of itself what was added and why.
+std::string with_reasons(const Diagnosis& d, const std::string& extended) {
+  std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
+  if (!d.equivalents.empty())
+    text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
+  if (!d.calibration.empty())
+    text += fmt::format("# Stated values that moved within [tolerance]: {}.\n", ids(d.calibration));
+  return text + extended;
+}
+
+}  // namespace
+
+DiagnosisFolder::DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs)
+    : path_((std::filesystem::path(path) / "").parent_path().string()) {
+  for (const std::string& input : inputs)
+    for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
+      refuse_to_overwrite(inside(name), input);
+}
+
+std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nlohmann::json& json,
+                                                const std::string& title, const std::string& command_line,
+                                                const std::function<std::vector<std::string>()>& pictures) const {
+  make_folder(path_);
+  std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
+  const std::string extended = to_toml(found.extended);
+  write_text_file(written[0], with_reasons(found, extended));
+  if (found.experiment) {
+    written.push_back(inside("experiment.toml"));
+    write_text_file(written.back(), to_toml(*found.experiment));
+  }
+  write_diagnosis(written[1], found, {"diagnosis", title, extended, command_line});
+  for (const std::string& picture : pictures()) written.push_back(picture);
+  written.push_back(inside("diagnosis.json"));
+  write_text_file(written.back(), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return written;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,31 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace wormdrive {
+
+/// The folder in which a diagnosis is kept, docs/diagnosis_json.md, whoever asks for it.
+class DiagnosisFolder {
+ public:
+  /// Throws InputFault if what is written would destroy one of the files that are read.
+  DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs);
+
+  const std::string& path() const { return path_; }
+  std::string inside(const std::string& name) const { return path_ + "/" + name; }
+
+  /// Writes all files but the pictures, which pictures() draws from diagnosis.h5 and names; returns what was written,
+  /// diagnosis.json the last: where it is, the rest is too. Throws OutputFault.
+  std::vector<std::string> write(const Diagnosis& found, const nlohmann::json& json, const std::string& title,
+                                 const std::string& command_line,
+                                 const std::function<std::vector<std::string>()>& pictures) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace wormdrive

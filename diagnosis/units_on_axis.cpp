@@ -1,0 +1,20 @@
+#include "diagnosis/units_on_axis.hpp"
+
+#include "scenarios/keys.hpp"
+
+namespace wormdrive {
+
+void put_units_on_axis(Diagnosis& d, Axis axis) {
+  if (axis == Axis::rotary) return;
+  const auto convert = [&](std::string_view field, Unit& unit) { unit = spellings(field, unit, axis).front().unit; };
+  const auto convert_all = [&](EstimatedEffect& effect) {
+    for (Estimate& e : effect.parameters) convert(e.field, e.unit);
+  };
+  for (EstimatedEffect& cause : d.causes) convert_all(cause);
+  for (EstimatedEffect& moved : d.calibration) convert_all(moved);
+  for (Candidate& candidate : d.ranking) convert_all(candidate.effect);
+  for (Visibility& v : d.certificate) convert(v.field, v.unit);
+  for (PredictionError& e : d.prediction) convert("angle", e.unit);
+}
+
+}  // namespace wormdrive

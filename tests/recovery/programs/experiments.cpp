@@ -1,0 +1,64 @@
+#include "recovery/programs/experiments.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "recovery/tables.hpp"
+
+namespace recovery {
+namespace {
+
+truth::Course course_of(const wormdrive::Scenario& experiment) {
+  std::vector<double> angle;
+  const double period = truth::Course{}.period;
+  for (double t = 0.0; t < experiment.run.duration; t += period)
+    angle.push_back(experiment.control->reference.at(t).angle);
+  return truth::course_through(std::move(angle));
+}
+
+}  // namespace
+
+std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
+  std::vector<Split> splits;
+  for (const Case& hidden : draw(plan)) {
+    truth::Generator generator(hidden.seed);
+    truth::Drive drive = disturbed_drive(hidden, generator);
+    const wormdrive::Scenario sheet = data_sheet(hidden.conditions);
+    const auto slow = follow(drive, truth::slow_course(0.6, 0.1, hidden.duration), sheet, generator());
+    const wormdrive::Diagnosis first = diagnose(sheet, {slow});
+    if (first.verdict != wormdrive::Verdict::ambiguous) continue;
+    if (judge(hidden, drive, first).score != Score::in_class) continue;
+    Split split{hidden, first.equivalents, first.experiment.has_value()};
+    if (split.proposed) {
+      wormdrive::Scenario heavier = sheet;
+      heavier.load = first.experiment->load;
+      const double mass = *std::get<wormdrive::GravityArm>(heavier.load).mass;
+      drive.geometry.mass *= mass / *std::get<wormdrive::GravityArm>(sheet.load).mass;
+      auto second = follow(drive, course_of(*first.experiment), heavier, generator());
+      second.load = heavier.load;
+      const Outcome outcome = judge(hidden, drive, diagnose(sheet, {slow, second}));
+      split.score = outcome.score;
+      split.answer = answer(outcome);
+    }
+    splits.push_back(std::move(split));
+  }
+  return splits;
+}
+
+std::string table(const std::vector<Split>& splits) {
+  std::string text = "| hidden | class | after the experiment |\n|---|---|---|\n";
+  long split = 0, proposed = 0;
+  for (const Split& s : splits) {
+    proposed += s.proposed;
+    split += s.proposed && s.score == Score::exact;
+    text += fmt::format("| {} {:+.3g} | {} | {} |\n", s.hidden.hidden.front().secret->effect,
+                        s.hidden.hidden.front().amount, fmt::join(s.members, ", "),
+                        s.proposed ? fmt::format("{} ({})", s.answer, name(s.score)) : "none was proposed");
+  }
+  return text + fmt::format("\nClasses with an experiment: {} of {}; split to the right name: {} of {}.\n", proposed,
+                            splits.size(), split, proposed);
+}
+
+}  // namespace recovery

@@ -1,0 +1,125 @@
+#include "recovery/programs/thresholds.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "recovery/tables.hpp"
+
+namespace recovery {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& d, std::string_view effect) {
+  for (const wormdrive::Visibility& v : d.certificate)
+    if (v.effect == effect) return &v;
+  return nullptr;
+}
+
+/// Effects whose hidden amount is the size that a certificate tells, one of each pair of twins.
+std::vector<const truth::Secret*> gradual() {
+  std::vector<const truth::Secret*> all;
+  for (const truth::Secret& secret : truth::catalogue()) {
+    const bool second_twin = secret.effect == "encoder_delay" || secret.effect == "encoder_offset";
+    if (!secret.needs_worm_encoder && !second_twin && secret.effect != "torque_saturation") all.push_back(&secret);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
+  truth::Generator generator(plan.seed);
+  std::vector<const truth::Secret*> secrets;
+  for (const std::string& effect : plan.effects) secrets.push_back(&truth::secret(effect));
+  if (secrets.empty()) secrets = gradual();
+  Case nothing{Kind::nothing, conditions("ideal"), generator(), {}, plan.duration};
+  const wormdrive::Scenario sheet = data_sheet(nothing.conditions);
+  const wormdrive::Diagnosis bare = diagnose(sheet, {record(nothing).recording});
+  std::vector<Threshold> measured;
+  for (const truth::Secret* secret : secrets) {
+    const wormdrive::Visibility* seen = visibility(bare, secret->effect);
+    // exact twins are named as a class: seeing one is naming it
+    const bool twins = !secret->twins.empty();
+    Threshold t{secret, seen ? seen->detectable : never, seen ? (twins ? seen->detectable : seen->nameable) : never};
+    if (std::isfinite(t.nameable))
+      for (const double multiple : multiples) {
+        Case hiding = nothing;
+        hiding.kind = Kind::single;
+        hiding.seed = generator();
+        hiding.hidden = {{secret, truth::Size::medium, multiple * t.nameable}};
+        const Bench bench = record(hiding);
+        const Outcome outcome = judge(hiding, bench.drive, diagnose(sheet, {bench.recording}));
+        if (outcome.score != Score::exact && outcome.score != Score::in_class) {
+          t.missed = multiple;
+          t.answer = answer(outcome);
+          break;
+        }
+        t.named = multiple;
+      }
+    measured.push_back(t);
+  }
+  return measured;
+}
+
+std::vector<Unseen> unseen(std::uint64_t seed, const Diagnose& diagnose) {
+  struct Motion {
+    std::string_view name;
+    double amplitude, frequency;
+    std::vector<std::string_view> effects;
+  };
+  const std::vector<Motion> motions{
+      // the load never changes its side, nothing accelerates, the torque is a third of any limit
+      {"0.9 rad at 0.1 Hz", 0.9, 0.1, {"backlash", "gear_inertia", "worm_inertia", "torque_saturation"}},
+      {"0.1 rad at 0.1 Hz",
+       0.1,
+       0.1,
+       {"backlash", "gear_inertia", "worm_inertia", "torque_saturation", "gear_viscous"}}};
+  truth::Generator generator(seed);
+  std::vector<Unseen> cases;
+  for (const Motion& motion : motions)
+    for (const std::string_view effect : motion.effects) {
+      const truth::Secret& secret = truth::secret(effect);
+      Case hiding{Kind::single, conditions("ideal"), generator(), {{&secret, truth::Size::small, secret.small}}, 12.0};
+      const auto course = truth::slow_course(motion.amplitude, motion.frequency, hiding.duration);
+      const truth::Drive drive = disturbed_drive(hiding, generator);
+      const wormdrive::Scenario sheet = data_sheet(hiding.conditions);
+      const wormdrive::Diagnosis found = diagnose(sheet, {follow(drive, course, sheet, generator())});
+      const Outcome outcome = judge(hiding, drive, found);
+      const wormdrive::Visibility* seen = visibility(found, effect);
+      const bool limit = effect == "torque_saturation";  // shows from a smaller one on
+      const bool hides =
+          seen && (!seen->observable || (limit ? seen->detectable < secret.small : seen->detectable > secret.small));
+      cases.push_back({&secret, std::string(motion.name), hides, outcome.named.empty(), answer(outcome)});
+    }
+  return cases;
+}
+
+std::string table(const std::vector<Threshold>& measured) {
+  std::string text =
+      "| effect | certificate: seen from | named from | measured: named down to | missed at | answer there |\n"
+      "|---|---|---|---|---|---|\n";
+  long within = 0, known = 0;
+  for (const Threshold& t : measured) {
+    const auto size = [&](double multiple) { return multiple > 0.0 ? fmt::format("{:g} x", multiple) : "-"; };
+    text += fmt::format("| {} | {:.2g} | {:.2g} | {} | {} | {} |\n", t.secret->effect, t.detectable, t.nameable,
+                        size(t.named), size(t.missed), t.answer);
+    if (!std::isfinite(t.nameable)) continue;
+    ++known;
+    // between the last named and the first missed lies the threshold
+    within += t.named > 0.0 && t.named <= 2.0 && t.missed >= 0.25;
+  }
+  return text + fmt::format("\nWithin a factor of 2 of the certificate: {} of {}.\n", within, known);
+}
+
+std::string table(const std::vector<Unseen>& cases) {
+  std::string text = "| hidden | motion | certificate | answer |\n|---|---|---|---|\n";
+  for (const Unseen& u : cases)
+    text += fmt::format("| {} {:g} | {} | {} | {} |\n", u.secret->effect, u.secret->small, u.motion,
+                        u.certified ? "cannot show it" : "says that it shows", u.answer);
+  return text;
+}
+
+}  // namespace recovery

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include "recovery/campaign.hpp"
+
+// What a diagnosis deserves for what it says of what was hidden.
+
+namespace recovery {
+namespace {
+
+/// Whether a certificate says that an effect of this size can be named; of exact twins, that it can be seen.
+bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding) {
+  const truth::Secret& secret = *hiding.secret;
+  for (const wormdrive::Visibility& v : found.certificate) {
+    if (v.effect != secret.effect) continue;
+    if (!v.observable) return false;
+    if (secret.effect == "torque_saturation") return hiding.amount <= v.detectable;
+    return std::abs(hiding.amount) >= (secret.twins.empty() ? v.nameable : v.detectable);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view name(Score score) {
+  switch (score) {
+    case Score::exact: return "exact";
+    case Score::in_class: return "in class";
+    case Score::partial: return "partial";
+    case Score::extra: return "extra";
+    case Score::silent: return "silent";
+    case Score::wrong: return "wrong";
+    case Score::crash: return "crash";
+  }
+  return {};
+}
+
+bool same_or_twin(std::string_view named, const truth::Secret& secret) {
+  if (secret.effect == "dwell" && named == "static_friction") return true;
+  return named == secret.effect || std::find(secret.twins.begin(), secret.twins.end(), named) != secret.twins.end();
+}
+
+Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found) {
+  using wormdrive::Verdict;
+  Outcome outcome;
+  outcome.drawn = drawn;
+  outcome.told = found.sentence;
+  outcome.flagged = found.verdict == Verdict::unexplained || !found.remainders.empty();
+  outcome.observable =
+      std::all_of(drawn.hidden.begin(), drawn.hidden.end(), [&](const Hiding& h) { return can_be_named(found, h); });
+  const bool claims = found.verdict == Verdict::named || found.verdict == Verdict::ambiguous;
+  if (claims)
+    for (const auto& cause : found.causes) outcome.named.push_back(cause.effect);
+  outcome.class_size = std::max<std::size_t>(1, found.equivalents.size());
+  const auto is_hidden = [&](const std::string& named) {
+    return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
+                       [&](const Hiding& h) { return same_or_twin(named, *h.secret); });
+  };
+  const auto is_named = [&](const Hiding& h, const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_or_twin(n, *h.secret); });
+  };
+  const auto named = [&](const Hiding& h) { return is_named(h, outcome.named); };
+  const auto in_class = [&](const Hiding& h) { return named(h) || is_named(h, found.equivalents); };
+  const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
+  const bool only_hidden =
+      std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
+  const bool class_of_twins = std::all_of(found.equivalents.begin(), found.equivalents.end(), is_hidden);
+  if (!claims || outcome.named.empty())
+    outcome.score = drawn.hidden.empty() ? Score::exact : Score::silent;
+  else if (drawn.hidden.empty())
+    outcome.score = Score::wrong;
+  else if (all_named && only_hidden && (found.verdict == Verdict::named || class_of_twins))
+    outcome.score = Score::exact;
+  else if (found.verdict == Verdict::ambiguous && std::all_of(drawn.hidden.begin(), drawn.hidden.end(), in_class) &&
+           outcome.named.size() <= drawn.hidden.size())
+    outcome.score = Score::in_class;
+  else
+    outcome.score = all_named ? Score::extra : only_hidden ? Score::partial : Score::wrong;
+  for (const Hiding& hiding : drawn.hidden)
+    for (const auto& cause : found.causes) {
+      if (cause.effect != hiding.secret->effect) continue;
+      for (const truth::TrueParameter& parameter : hiding.secret->parameters)
+        for (const wormdrive::Estimate& estimate : cause.parameters) {
+          if (estimate.field != parameter.field) continue;
+          const double is = parameter.of(drive);
+          outcome.errors.push_back(std::abs(estimate.value - is) / std::abs(is));
+          if (estimate.standard_error > 0.0)
+            outcome.deviations.push_back((estimate.value - is) / estimate.standard_error);
+        }
+    }
+  for (const auto& error : found.prediction)
+    if (std::abs(error.horizon - 0.25) < 1e-9 && error.floor > 0.0) outcome.held_out = error.after / error.floor;
+  return outcome;
+}
+
+}  // namespace recovery
