@@ -98,7 +98,7 @@ std::vector<std::string> draw_pictures(const DiagnosisFolder& folder) {
 }
 
 /// Loads of recordings that are not the scenario's, by file.
-std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options) {
+std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, DataKind kind) {
   std::map<std::string, std::vector<std::string>> overrides;
   for (const std::string& load : options.loads) {
     const auto file = std::find_if(options.data.begin(), options.data.end(),
@@ -106,6 +106,8 @@ std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options) 
     if (file == options.data.end())
       refuse({"--load " + load}, fmt::format("must be FILE:KEY=VALUE of one of the recordings {}, as in {}:mass_kg=0.9",
                                              fmt::join(options.data, ", "), options.data.front()));
+    if (kind != DataKind::recording)
+      refuse({*file}, fmt::format("holds {}; a load of its own is for a recording over time", name(kind)));
     overrides[*file].push_back("load." + load.substr(file->size() + 1));
   }
   std::map<std::string, LoadParameters> loads;
@@ -125,7 +127,7 @@ int diagnose_command(const DiagnoseOptions& options) {
   inputs.push_back(options.scenario.file);
   const DiagnosisFolder folder(options.output, inputs);
   const DataKind kind = kind_of_data(options.data, scenario);
-  const std::map<std::string, LoadParameters> loads = own_loads(options);
+  const std::map<std::string, LoadParameters> loads = own_loads(options, kind);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   const Diagnosis diagnosis = [&] {
     const Phases phases(!talk);

@@ -15,8 +15,8 @@ class HelpArguments {
     schema_app_ = app.add_subcommand("schema", "print the JSON schema of scenarios, for editors");
 
     new_.kind = new_kinds().front();
-    new_app_ = app.add_subcommand("new", "write a commented scenario to start from");
-    new_app_->add_option("file", new_.file, "scenario to write (.toml)")->required();
+    new_app_ = app.add_subcommand("new", "write a commented scenario, or a study for a sweep, to start from");
+    new_app_->add_option("file", new_.file, "scenario or study to write (.toml)")->required();
     new_app_->add_option("--kind", new_.kind, "what it is about")
         ->check(CLI::IsMember(new_kinds()))
         ->capture_default_str();

@@ -114,9 +114,44 @@ damping_s_per_m = 300                 # law of Hunt and Crossley
 gap_deg = 0.02                        # play of the gear with the worm held
 )";
 
+constexpr std::string_view study_lines =
+    R"(scenario = "my_drive.toml"            # beside this file: wormdrive new my_drive.toml
+set = ["run.solver=taylor"]           # as --set, for every trial; of the solvers the fast one
+
+[sweep]
+design = "monte_carlo"                # or latin_hypercube, sobol, saltelli, grid, one_at_a_time
+trials = 10000
+seed = 1
+
+[[parameter]]
+path = "mesh.friction"                # as --set takes it, with its unit
+distribution = "truncated_normal"
+mean = 0.1
+deviation = 0.02
+low = 0.05
+
+[[parameter]]
+path = "load.mass_kg"
+distribution = "triangular"
+low = 0.8
+mode = 1.0
+high = 1.3
+
+[[parameter]]
+path = "effect.worm_coulomb.torque_Nm"
+distribution = "lognormal"
+median = 0.005
+log_deviation = 0.3                   # of the natural logarithm
+
+[[threshold]]                         # the share of trials beyond it; wormdrive summary lists all metrics
+metric = "final_gear_angle"
+above_rad = 0
+)";
+
 struct Kind {
   std::string_view name, title;
   std::vector<std::string_view> parts;
+  std::string_view command = "run", page = "scenario.md";  ///< that runs it, and where its keys are told
 };
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
@@ -127,7 +162,12 @@ const std::vector<Kind>& kinds() {
        "A worm drive under a sampled controller",
        {mesh_lines, control, arm, effects_lines, initial, run}},
       {"elastic_teeth", "A worm drive with backlash", {mesh_lines, motor, arm, teeth, initial, run}},
-      {"linear_axis", "A linear axis with dry friction", {axis_lines, run}}};
+      {"linear_axis", "A linear axis with dry friction", {axis_lines, run}},
+      {"study",
+       "A worm drive whose friction, load and bearings are uncertain",
+       {study_lines},
+       "sweep",
+       "howto/sweep.md"}};
   return all;
 }
 
@@ -141,9 +181,9 @@ std::vector<std::string> new_kinds() {
 
 int new_command(const NewOptions& options) {
   const auto kind = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == options.kind; });
-  std::string text = fmt::format("# Run it: wormdrive run {}. Every key: wormdrive schema, docs/scenario.md.\n",
-                                 std::filesystem::path(options.file).filename().string());
-  text += fmt::format("title = \"{}\"\n\n", kind->title);
+  std::string text = fmt::format("# Run it: wormdrive {} {}. Every key: docs/{}.\ntitle = \"{}\"\n", kind->command,
+                                 std::filesystem::path(options.file).filename().string(), kind->page, kind->title);
+  if (kind->command == "run") text += '\n';
   for (const std::string_view part : kind->parts) text += part;
   errno = 0;
   std::FILE* const file = std::fopen(options.file.c_str(), "wx");  // never over something that is there
@@ -151,7 +191,7 @@ int new_command(const NewOptions& options) {
   const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = file && std::fclose(file) == 0;
   if (!written || !closed) throw OutputFault(fmt::format("cannot write {}: {}", options.file, std::strerror(errno)));
-  print_item("wrote", fmt::format("{}    run it: wormdrive run {}", options.file, options.file));
+  print_item("wrote", fmt::format("{}    run it: wormdrive {} {}", options.file, kind->command, options.file));
   return 0;
 }
 

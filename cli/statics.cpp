@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -12,6 +11,7 @@
 #include "scenarios/build.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
+#include "scenarios/steady_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
 namespace wormdrive {
@@ -65,14 +65,13 @@ void write(const std::string& output, const Scenario& scenario, const StaticsMap
   file.finish();
 }
 
-/// The effects that hold or push the drive at rest beside its teeth, of which the map knows nothing.
-std::string beside_the_teeth(const Scenario& scenario) {
-  std::vector<std::string_view> ids;
-  scenario.effects.for_each([&]<class Effect>(const std::optional<Effect>& effect) {
-    for (const std::string_view id : {"worm_coulomb", "gear_coulomb", "bearing_asymmetry", "torque_offset", "cogging"})
-      if (effect && Effect::id == id) ids.push_back(id);
-  });
-  return fmt::format("{}", fmt::join(ids, ", "));
+/// The table is of the teeth alone; this is the drive as it stands.
+void print_start(const Scenario& scenario) {
+  const RestAtStart rest = rest_at_start(scenario);
+  fmt::print("\n");
+  print_item("start", fmt::format("at the initial angle, load {:.6g} N m, all effects included: at rest from {:.6g} to "
+                                  "{:.6g} N m",
+                                  rest.load, rest.low, rest.high));
 }
 
 void print_table(const StaticsMap& map, bool outside) {
@@ -114,9 +113,8 @@ int statics_command(const StaticsOptions& options) {
              outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
                      : "motor torque at which the gear starts to turn, over the load torque:");
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
-  if (const std::string ids = beside_the_teeth(scenario); !ids.empty())
-    print_item("without", ids + "; the table is of the teeth alone");
   print_table(map, outside);
+  if (!outside) print_start(scenario);
   if (!options.output.empty())
     print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
   return 0;

@@ -167,6 +167,8 @@ int steady_command(const SteadyOptions& options) {
   if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
   for (const std::string& warning : warnings(scenario))
     if (!warning.starts_with("no [motor.torque]")) print_item("warning", warning);
+  if (scenario.axis == Axis::rotary)
+    print_item("load", fmt::format("{:g} N m, that of the initial angle at time 0", rest_at_start(scenario).load));
   if (comparison)
     print_comparison(*comparison, options.data);
   else

@@ -100,8 +100,6 @@ DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& sce
 
 Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
                          const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads) {
-  if (kind != DataKind::recording && !loads.empty())
-    refuse({loads.begin()->first}, fmt::format("holds {}; a load of its own is for a recording over time", name(kind)));
   switch (kind) {
     case DataKind::speed_torque_records: return of_records(scenario, files, settings);
     case DataKind::break_in_table: return of_break_ins(scenario, files, settings);

@@ -21,8 +21,8 @@ std::string name(DataKind kind);
 /// The kind of all files, by their columns. Throws InputFault for a file of no kind, and for files of different kinds.
 DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& scenario);
 
-/// Reads the files and diagnoses them together. loads: of recordings, by file, that had another load than the
-/// scenario's. Throws InputFault.
+/// Reads the files and diagnoses them together. loads: of recordings over time, by file, that had another load
+/// than the scenario's. Throws InputFault.
 Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
                          const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads = {});
 

@@ -21,17 +21,16 @@ std::string ids(const std::vector<EstimatedEffect>& effects) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The extended scenario as a file that says of itself what was added and why.
-std::string with_reasons(const Diagnosis& d, const std::string& extended) {
+}  // namespace
+
+std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
   if (!d.equivalents.empty())
     text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
   if (!d.calibration.empty())
     text += fmt::format("# Stated values that moved within [tolerance]: {}.\n", ids(d.calibration));
-  return text + extended;
+  return text + to_toml(d.extended);
 }
-
-}  // namespace
 
 DiagnosisFolder::DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs)
     : path_((std::filesystem::path(path) / "").parent_path().string()) {
@@ -45,13 +44,12 @@ std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nl
                                                 const std::function<std::vector<std::string>()>& pictures) const {
   make_folder(path_);
   std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
-  const std::string extended = to_toml(found.extended);
-  write_text_file(written[0], with_reasons(found, extended));
+  write_text_file(written[0], extended_file(found));
   if (found.experiment) {
     written.push_back(inside("experiment.toml"));
     write_text_file(written.back(), to_toml(*found.experiment));
   }
-  write_diagnosis(written[1], found, {"diagnosis", title, extended, command_line});
+  write_diagnosis(written[1], found, {"diagnosis", title, to_toml(found.extended), command_line});
   for (const std::string& picture : pictures()) written.push_back(picture);
   written.push_back(inside("diagnosis.json"));
   write_text_file(written.back(), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");

@@ -9,6 +9,9 @@
 
 namespace wormdrive {
 
+/// The extended scenario as a TOML file that says of itself what was added and why.
+std::string extended_file(const Diagnosis& found);
+
 /// The folder in which a diagnosis is kept, docs/diagnosis_json.md, whoever asks for it.
 class DiagnosisFolder {
  public:

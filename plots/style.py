@@ -59,9 +59,9 @@ def number(value):
     return f"{value if abs(value) > 1e-12 else 0.0:.4g}".replace("-", "−")
 
 
-def few_ticks(axis):
-    """Asks for about five ticks, never fewer than three."""
-    axis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
+def few_ticks(axis, most=5):
+    """Asks for about so many ticks, never fewer than three."""
+    axis.set_major_locator(MaxNLocator(nbins=most, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
 
 
 def limits(values, margin=0.07):

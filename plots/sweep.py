@@ -171,7 +171,7 @@ def draw_matrix(figure, place, parameters, metric):
             y_factor, y_scaled = scaled(y_unit, y)
             x_factor, x_scaled = scaled(x_unit, x)
             axes.scatter(x_factor * x[chosen], y_factor * y[chosen], s=4, c=colours, linewidths=0, rasterized=True)
-            style.few_ticks(axes.xaxis)
+            style.few_ticks(axes.xaxis, 3)  # of narrow panels: their labels stand side by side
             if y is metric.values and is_wide(y):
                 axes.set_yscale("log")
             else:

@@ -47,7 +47,7 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
   ResidualTorque& r = found.residual;
   py::dict result;
   result["findings"] = findings.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  result["extended"] = to_toml(found.extended);
+  result["extended"] = extended_file(found);
   result["experiment"] = found.experiment ? py::object(py::str(to_toml(*found.experiment))) : py::none();
   py::list residual;
   const auto column = [&](const char* name, const char* units, const char* what, std::vector<double>& values) {

@@ -105,18 +105,21 @@
       // what is filled is what matters: a line beside it may leave the picture
       const kept = panel.filled ? panel.series.slice(0, 2).flatMap((s) => s.values).filter((y) => y !== null) : [];
       const low = Math.min(...kept), high = Math.max(...kept), room = 0.15 * (high - low);
+      const values = high > low ? [low - room, high + room] : null;  // null: as far as the lines in sight reach
       const cloud = panel.style === "points" ? { [panel.series[0].name]: { strokeWidth: 0, drawPoints: true, pointSize: panel.over.length > 500 ? 1.5 : 2.5, highlightCircleSize: 4 } } : {};
       const chart = new Dygraph(chart_box, panel.over.map((x, k) => [x, ...panel.series.map((s) => s.values[k])]), {
         labels: [group.over, ...panel.series.map((s) => s.name)], series: cloud, colors: panel.series.map((_, k) => css(colors[k])),
         gridLineColor: css("--grid"), axisLineColor: css("--rule"), dateWindow: [begin, end], legend: "never", strokeWidth: 1.4,
-        yRangePad: 8, valueRange: high > low ? [low - room, high + room] : undefined, labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
+        yRangePad: 8, valueRange: values, labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
         xlabel: panel === panels[panels.length - 1] ? with_unit(group.over, group.units) : undefined, xLabelHeight: 16,
         axes: { x: { axisLabelFormatter: (x) => show(x) },
                 y: { axisLabelWidth: 72, pixelsPerLabel: 22, axisLabelFormatter: (y) => show(y) } },
         highlightCallback: (event, x, points) => tell(x, points, chart_box), unhighlightCallback: () => tell(null),
         drawCallback: (drawn, initial) => { if (!initial) follow(drawn.xAxisRange(), drawn); }
       });
+      chart.first_values = values;
       chart_box.addEventListener("keydown", key);
+      chart_box.addEventListener("dblclick", () => self.all());
       chart_box.addEventListener("focus", () => { current = self; });
       chart_box.addEventListener("pointerdown", () => { current = self; });
       self.charts.push(chart);
@@ -135,7 +138,10 @@
       self.charts[0].updateOptions({ dateWindow: [left, left + width] });
       follow([left, left + width], self.charts[0]);
     };
-    self.all = () => self.zoom_to(begin, end);
+    self.all = () => {
+      self.charts.forEach((chart) => chart.updateOptions({ valueRange: chart.first_values }));
+      self.zoom_to(begin, end);
+    };
 
     // ---- what is under the pointer ----------------------------------------------------------------------------
     function describe(e) {

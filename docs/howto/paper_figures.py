@@ -34,7 +34,7 @@ for law in ("sliding_014rad_bare", "pid_014rad_bare"):
     assert loop  # None in a run without a controller
     fig10.plot(loop.time, 1e3 * (loop.gear_angle - loop.reference_angle), label=law.split("_")[0])
 fig10.set(title="Fig. 10: tracking", xlabel="time [s]", ylabel="error [mrad]")
-figure.get_layout_engine().set(hspace=0.06, wspace=0.04)
+figure.get_layout_engine().set(hspace=0.06, wspace=0.04, w_pad=0.1, h_pad=0.1)
 for panel in (fig7, fig8, fig10):
     panel.legend(fontsize="small")
 figure.savefig("paper_figures.png", dpi=150)

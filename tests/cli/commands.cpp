@@ -106,16 +106,28 @@ TEST_CASE("check --json states parameters with units, and a scenario that can be
   CHECK(said.at("regime").get<std::string>().starts_with("gear self-locking; "));
   folder.write("again.toml", said.at("scenario"));
   CHECK(json::parse(printed(folder, {"check", "again.toml", "--json"})) == said);
+  // where the worm is slowest, at k = 1 - 0.2 rad, eq. 17 has the least room
+  const std::string eccentric = "effect.transmission_error={amplitude_deg=11.459155902616466, phase_deg=0}";
+  const json slower = json::parse(printed(folder, {"check", fig9, "--json", "--set", eccentric})).at("derived");
+  const auto value = [&](const json& derived, const std::string& name) {
+    return derived.at(name).at("value").get<double>();
+  };
+  const double surface = value(said.at("derived"), "Jw i/Jg"), C1 = value(slower, "C1");
+  CHECK(std::abs(value(slower, "C1 + Jw i k^2/Jg") - (C1 + 0.64 * surface)) <= 1e-12);
+  CHECK(std::abs(value(said.at("derived"), "C1 + Jw i/Jg") - (C1 + surface)) <= 1e-12);
   folder.write("mass.toml", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n");
   CHECK(json::parse(printed(folder, {"check", "mass.toml", "--json"})).at("derived") == json::object());
 }
 
-TEST_CASE("the break-in table says what it leaves out") {
+TEST_CASE("statics tells at which torques the drive rests, bearings included") {
   const Folder folder;
-  CHECK(printed(folder, {"statics", fig9}).find("without") == std::string::npos);
-  CHECK(printed(folder, {"statics", fig9, "--set", "effect.worm_coulomb.torque_Nm=0.01", "--set",
-                         "effect.gear_coulomb.torque_Nm=0.1"})
-            .find("  without  worm_coulomb, gear_coulomb; the table is of the teeth alone\n") != std::string::npos);
+  folder.write("s.toml", good_scenario);  // C1 -0.0470643, C2 0.0836831, load 0.02 N m
+  for (const auto& [coulomb, told] : {std::pair{"0", "at rest from -0.00167366 to 0.000941286 N m\n"},
+                                      {"0.01", "at rest from -0.0116737 to 0.0109413 N m\n"}})
+    CHECK(printed(folder, {"statics", "s.toml", "--set", std::string("effect.worm_coulomb.torque_Nm=") + coulomb})
+              .ends_with(std::string("  start    at the initial angle, load 0.02 N m, all effects included: ") + told));
+  CHECK(printed(folder, {"steady", "s.toml"}).find("  load     0.02 N m, that of the initial angle at time 0\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("JSON is valid whatever bytes a file name has") {

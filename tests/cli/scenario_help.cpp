@@ -109,6 +109,18 @@ TEST_CASE("every kind of new scenario runs as it is written") {
   }
 }
 
+TEST_CASE("a new study sweeps the new scenario that it names") {
+  const Folder folder;
+  CHECK(folder.run({"new", "study.toml", "--kind", "study"}).out ==
+        "  wrote    study.toml    run it: wormdrive sweep study.toml\n");
+  REQUIRE(folder.run({"new", "my_drive.toml"}).exit == 0);
+  folder.write("study.toml", edited(folder.read("study.toml"), "trials = 10000", "trials = 100"));
+  const Outcome sweep = folder.run({"sweep", "study.toml"});
+  INFO(sweep.out << sweep.err);
+  CHECK(sweep.exit == 0);
+  CHECK(folder.run({"summary", "study.h5"}).out.find("  trials   100 of 100\n") != std::string::npos);
+}
+
 TEST_CASE("the controller of a new scenario keeps what Lemma 1 promises") {
   const Folder folder;
   REQUIRE(folder.run({"new", "mine.toml", "--kind", "controlled"}).exit == 0);

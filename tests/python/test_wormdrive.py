@@ -194,6 +194,15 @@ class Studies(unittest.TestCase):
             self.assertLess(np.nanstd(ours.residual.after), np.nanstd(ours.residual.before))
 
 
+    def test_a_diagnosis_of_data_in_a_dict_is_kept_in_its_folder_too(self):
+        loads = [0.2 + 0.15 * k for k in range(10) for _ in range(2)]
+        data = {"load_torque_Nm": loads,
+                "motor_torque_Nm": [load * (0.0470713, -0.0837434)[k % 2] for k, load in enumerate(loads)]}
+        with tempfile.TemporaryDirectory() as folder:
+            found = wormdrive.diagnose(SCENARIOS / "fig07_break_in_07cm_forward.toml", data, output=Path(folder, "out"))
+            self.assertEqual(json.loads(Path(folder, "out/diagnosis.json").read_text()), found.findings)
+
+
 class Faults(unittest.TestCase):
     def test_errors_are_the_usual_exceptions_too(self):
         with self.assertRaises(ValueError):

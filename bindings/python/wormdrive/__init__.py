@@ -266,14 +266,14 @@ def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0,
     `wormdrive report` makes a page of it."""
     core = Scenario(scenario, _look=True, **overrides)._scenario
     folder = None if output is None else os.fspath(output)
-    scenario_file = "" if isinstance(scenario, Scenario) or _text_of(scenario) is not None else os.fspath(scenario)
+    scenario_file = "" if isinstance(scenario, Scenario) or _text_of(scenario) is not None else os.fspath(scenario)  # type: ignore[arg-type]
 
     def found(files: list[str]) -> Diagnosis:
         return Diagnosis(_core.diagnose(core, files, seed, threads, folder, scenario_file, _command_line()))
 
     if isinstance(data, Mapping):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "data.csv")
+        with tempfile.TemporaryDirectory() as scratch:
+            path = os.path.join(scratch, "data.csv")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(",".join(data) + "\n")
                 file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
