@@ -4,7 +4,7 @@
 
 // What the program says about words on its command line, and about files that it is given instead of scenarios.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_arguments {
 
 namespace {
 
@@ -140,3 +140,5 @@ TEST_CASE("a picture of what is no result is refused") {
   CHECK(outcome.err.find("other.h5 is not a wormdrive result") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"folder", "other.h5", "s.toml"});
 }
+
+}  // namespace wormdrive::test::cli_bad_arguments

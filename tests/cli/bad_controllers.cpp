@@ -4,7 +4,7 @@
 
 // What the program says about controllers that it cannot run.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_controllers {
 
 namespace {
 
@@ -110,3 +110,5 @@ TEST_CASE("faults of references, sensors, disturbances and windows are told") {
       {"a window the wrong way round", but("[sensor]", "[metrics]\nfrom_s = 0.005\nto_s = 0.002\n[sensor]"),
        "s.toml:22:10: error: metrics.from_s = 0.005 s must be less than to_s = 0.002 s"}});
 }
+
+}  // namespace wormdrive::test::cli_bad_controllers

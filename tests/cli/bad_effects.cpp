@@ -4,7 +4,7 @@
 
 // What the program says about effects that cannot be, alone or with the drive they act on.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_effects {
 
 namespace {
 
@@ -63,3 +63,5 @@ TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 
       {"eq. 17 by friction", edited(with("[effect.friction_asymmetry]\nchange = -0.1\n"), "7.39e-4", "0.03"),
        "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 0.35 with its effects, violates eq. 17, C1 > -Jw i/Jg: C1 = *"}});
 }
+
+}  // namespace wormdrive::test::cli_bad_effects

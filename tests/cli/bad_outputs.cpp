@@ -7,7 +7,7 @@
 
 // Results that cannot be written: exit code 4, one line, and no trace of the attempt.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_outputs {
 
 namespace {
 
@@ -114,3 +114,5 @@ TEST_CASE("a full disk at any moment is told in one line, and nothing is left be
     }
   }
 }
+
+}  // namespace wormdrive::test::cli_bad_outputs

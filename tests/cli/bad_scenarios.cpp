@@ -4,7 +4,7 @@
 
 // What the program says about scenarios that it cannot run.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_scenarios {
 
 namespace {
 
@@ -183,3 +183,5 @@ TEST_CASE("all faults of a file are told at once and in the order of its lines")
                          "s.toml:18:14: error: run.duration_s = -1 s must be greater than 0 s",
                          {"--set", "mesh.lead_angle_deg=50"}}});
 }
+
+}  // namespace wormdrive::test::cli_bad_scenarios

@@ -4,7 +4,7 @@
 
 // What the program says about tables of numbers, stated in a scenario or read from a CSV file.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_tables {
 
 namespace {
 
@@ -111,3 +111,5 @@ TEST_CASE("a load reads the column of its own name, and any column that the scen
   REQUIRE(stored("kind = \"samples\"\nfile = \"t.csv\"\nx_column = \"t\"\ny_column = \"tau\"")
               .find("times_s = [0.0, 2.0]\ntorques_Nm = [3.0, 3.0]\n") != std::string::npos);
 }
+
+}  // namespace wormdrive::test::cli_bad_tables

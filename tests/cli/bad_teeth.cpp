@@ -4,7 +4,7 @@
 
 // What the program says about elastic teeth and backlash that cannot be.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_bad_teeth {
 
 namespace {
 
@@ -53,3 +53,5 @@ TEST_CASE("effects of the teeth that exclude each other, or lack one, are told b
       {"a friction that drives", with(teeth + "[effect.mesh_friction]\nchange = -0.3\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 may fall to -0.05 with its effects; friction must be at least 0"}});
 }
+
+}  // namespace wormdrive::test::cli_bad_teeth

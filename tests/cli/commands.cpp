@@ -7,8 +7,8 @@
 
 // What the commands print and write: JSON beside files, overrides, names, silence.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_commands {
+
 using nlohmann::json;
 
 namespace {
@@ -294,3 +294,5 @@ TEST_CASE("several results share one picture: break-aways in the map of statics,
         "neither.h5: error: cannot be read: No such file or directory\n"
         "no.h5: error: cannot be read: No such file or directory\n");
 }
+
+}  // namespace wormdrive::test::cli_commands

@@ -6,7 +6,8 @@
 
 // `wormdrive diagnose` from file to folder: what it writes, what the report holds, and what it refuses.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_diagnose {
+
 using nlohmann::json;
 
 namespace {
@@ -165,3 +166,5 @@ TEST_CASE("a recording with another payload is diagnosed with the load that it s
   REQUIRE(folder.run(words).exit == 0);
   CHECK(report(folder)["verdict"] == "adequate");
 }
+
+}  // namespace wormdrive::test::cli_diagnose

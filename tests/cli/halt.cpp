@@ -9,7 +9,7 @@
 
 // Runs that cannot go on, and runs that are killed: what they leave behind is readable.
 
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_halt {
 
 namespace {
 
@@ -102,3 +102,5 @@ TEST_CASE("a run killed at any moment leaves no result, and its part is readable
   CHECK(outcome.out.find("False") == std::string::npos);
   CHECK(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')) == flushed.size());
 }
+
+}  // namespace wormdrive::test::cli_halt

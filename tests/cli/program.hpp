@@ -40,13 +40,13 @@ class Process {
     if (pid_ == 0) {
       dup2(out_[1], STDOUT_FILENO);
       dup2(err_[1], STDERR_FILENO);
-      for (const int end : {out_[0], out_[1], err_[0], err_[1]}) close(end);
+      for (const int end : {out_[0], out_[1], err_[0], err_[1]}) ::close(end);
       const rlimit limit{largest_file.value_or(RLIM_INFINITY), largest_file.value_or(RLIM_INFINITY)};
       if (chdir(folder.c_str()) == 0 && setrlimit(RLIMIT_FSIZE, &limit) == 0) execv(argv[0], argv.data());
       _exit(127);
     }
-    close(out_[1]);
-    close(err_[1]);
+    ::close(out_[1]);
+    ::close(err_[1]);
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -69,7 +69,7 @@ class Process {
         if (count > 0) {
           (k == 0 ? outcome.out : outcome.err).append(buffer.data(), static_cast<std::size_t>(count));
         } else {
-          close(ends[k].fd);
+          ::close(ends[k].fd);
           ends[k].fd = -1;
         }
       }

@@ -8,8 +8,7 @@
 #include "diagnosis/break_in_data.hpp"
 #include "output/hdf5.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_report {
 
 namespace {
 
@@ -208,3 +207,5 @@ TEST_CASE("what is no result, or no longer whole, gets no report") {
                {"report", "."},
                true}});
 }
+
+}  // namespace wormdrive::test::cli_report

@@ -4,8 +4,7 @@
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_scenario_help {
 
 namespace {
 
@@ -174,3 +173,5 @@ TEST_CASE("diff tells by its exit code whether two runs agree, and by its words 
   CHECK(diff({"other.h5", "--quiet"}).out.empty());
   CHECK(nlohmann::json::parse(diff({"same.h5", "--json"}).out).at("agree") == true);
 }
+
+}  // namespace wormdrive::test::cli_scenario_help

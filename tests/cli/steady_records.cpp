@@ -14,8 +14,7 @@
 
 // Records at constant speed: which samples are left out of their means, and how well the model meets the rest.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_steady_records {
 
 namespace {
 
@@ -203,3 +202,5 @@ TEST_CASE("data that are no records are told with file and line") {
     CHECK(folder.names() == std::set<std::string>{"d.csv"});
   }
 }
+
+}  // namespace wormdrive::test::cli_steady_records

@@ -9,8 +9,8 @@
 
 // Elastic teeth as the program shows them: on the terminal, in its JSON, and in the result file.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::cli_teeth {
+
 using nlohmann::json;
 
 namespace {
@@ -117,3 +117,5 @@ TEST_CASE("effects list elastic teeth and backlash") {
            {"\n  tooth_compliance   mesh: ", "\n      stiffness_N_per_m ", "\n      damping_s_per_m ",
             "\n      damping_Ns_per_m ", "\n  backlash           mesh: ", "\n      gap_deg "});
 }
+
+}  // namespace wormdrive::test::cli_teeth

@@ -7,8 +7,7 @@
 
 // An encoder that hands its angle on late: every sample sees the angle of the delay before it.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_encoder_delay {
 
 namespace {
 
@@ -41,3 +40,5 @@ TEST_CASE("encoder_delay: a sample sees the angle of the delay before it, and th
       }
     }
 }
+
+}  // namespace wormdrive::test::control_encoder_delay

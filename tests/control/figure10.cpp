@@ -8,8 +8,7 @@
 
 // Figure 10 of the paper in its readings: docs/figure10.md has the table.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_figure10 {
 
 namespace {
 
@@ -47,3 +46,5 @@ TEST_CASE("fig. 10: the sliding error is 26 percent of the PID's at p = 100 rad/
   const double pid = metrics("fig10_pid_014rad_bare.toml").error_peak_to_peak;
   REQUIRE(close(sliding / pid, 0.26, 0.05));
 }
+
+}  // namespace wormdrive::test::control_figure10

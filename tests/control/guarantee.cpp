@@ -12,8 +12,7 @@
 
 // What Lemma 1 promises, in runs: kept by every drive within the stated variations, and seen to be broken outside.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_guarantee {
 
 namespace {
 
@@ -184,3 +183,5 @@ TEST_CASE("outside the conditions, with few encoder counts and slow samples, the
   for (const Violation& v : monitor.violations())
     if (v.count > 0) REQUIRE((v.first >= 0.0 && v.first <= 0.5));
 }
+
+}  // namespace wormdrive::test::control_guarantee

@@ -7,8 +7,7 @@
 
 // The three laws at single samples, and the gains of the PID.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_laws {
 
 namespace {
 
@@ -159,3 +158,5 @@ TEST_CASE("open loop holds the torque over time at the sample") {
   REQUIRE(law({0.05, 9.0, 9.0, 1e-3, {}}).torque == 0.5);
   REQUIRE(close(law({0.35, 9.0, 9.0, 1e-3, {}}).torque, 1.0, 1e-14));
 }
+
+}  // namespace wormdrive::test::control_laws

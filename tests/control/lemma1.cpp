@@ -8,8 +8,7 @@
 
 // The numbers of Lemma 1 [YehWu2009, eq. 20-21] against formulas written out by hand, from Table 1 alone.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_lemma1 {
 
 namespace {
 
@@ -156,3 +155,5 @@ TEST_CASE("the guaranteed precision is 2 Phi/lambda_c, not the printed 2 lambda_
   REQUIRE(close(guaranteed_precision(sliding()), 0.00637, 1e-3));
   REQUIRE(close(sharp_precision(sliding()), 0.00234, 1e-3));
 }
+
+}  // namespace wormdrive::test::control_lemma1

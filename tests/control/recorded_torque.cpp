@@ -4,8 +4,7 @@
 
 // A closed loop amplifies the last digit of a solver; the torques that it once gave, replayed, do not.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_recorded_torque {
 
 namespace {
 
@@ -49,3 +48,5 @@ TEST_CASE("ten seconds of recorded torque at 1 kHz end within 1e-11 of extended 
   std::cout << "recorded torque: " << replayed.events.size() << " changes of the mode, " << exact.events.size()
             << " of them between samples; states at all samples within " << states << "\n";
 }
+
+}  // namespace wormdrive::test::control_recorded_torque

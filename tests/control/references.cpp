@@ -7,8 +7,7 @@
 
 // Reference trajectories: speed and acceleration are the derivatives of the angle, and the angle is what was asked for.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_references {
 
 namespace {
 
@@ -106,3 +105,5 @@ TEST_CASE("equal sines with Schroeder's phases peak far below their sum, and ter
   REQUIRE(std::abs(sum.at(0.25).angle - 0.4) <= 1e-15);
   REQUIRE(std::abs(sum.at(0.25).acceleration + 0.1 * 4.0 * pi * pi) <= 1e-12);
 }
+
+}  // namespace wormdrive::test::control_references

@@ -10,8 +10,7 @@
 
 // Controllers and sensors that misbehave: a clear error or a correct run, never a hang.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_robustness {
 
 namespace {
 
@@ -89,3 +88,5 @@ TEST_CASE("a delay of one sample, noise and a coloured disturbance make a run th
   REQUIRE(first.control->metrics.error_rms == again.control->metrics.error_rms);
   REQUIRE(first.control->metrics.error_peak_to_peak < 5e-3);
 }
+
+}  // namespace wormdrive::test::control_robustness

@@ -6,8 +6,7 @@
 
 // Where samples and events meet: what is held between samples, and what happens on one, with every solver.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_sampling {
 
 namespace {
 
@@ -193,3 +192,5 @@ TEST_CASE("at 10 kHz with a change of the flank at every sample, every sample is
     REQUIRE(std::abs(r.end.x[1] - 30.0 - gained) <= 1e-10);
   }
 }
+
+}  // namespace wormdrive::test::control_sampling

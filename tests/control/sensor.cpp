@@ -8,8 +8,7 @@
 
 // What reaches the controller and what leaves it: encoder, speed estimate, noise, disturbance, delay.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::control_sensor {
 
 namespace {
 
@@ -123,3 +122,5 @@ TEST_CASE("encoder noise and torque disturbance have their deviation, their colo
     REQUIRE(other[k].applied != white[k].applied);
   }
 }
+
+}  // namespace wormdrive::test::control_sensor

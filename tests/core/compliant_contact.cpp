@@ -8,8 +8,7 @@
 
 // Contact and free flight of the compliant drive against closed forms.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_compliant_contact {
 
 namespace {
 
@@ -173,3 +172,5 @@ TEST_CASE("frequency, mass and restitution of a contact are those of the impacts
     REQUIRE(std::abs(restitution({law, 0.0}, mass, approach) - parting) <= 1e-3);
   }
 }
+
+}  // namespace wormdrive::test::core_compliant_contact

@@ -8,8 +8,7 @@
 
 // Friction, stick and events of the compliant drive.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_compliant_drive {
 
 namespace {
 
@@ -159,3 +158,5 @@ TEST_CASE("where eq. 17 is violated the teeth jam: they press exponentially and 
     REQUIRE(stopped == (I1 < 0.0));
   }
 }
+
+}  // namespace wormdrive::test::core_compliant_drive

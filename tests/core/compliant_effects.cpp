@@ -5,8 +5,7 @@
 
 // Effects act on the compliant drive as on the rigid one.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_compliant_effects {
 
 namespace {
 
@@ -131,3 +130,5 @@ TEST_CASE("the sensor shows the gear's angle with the encoder's errors") {
   REQUIRE(shown != 0.3);
   REQUIRE(d.measured_angle({0.0, {7.0, 0.0, 0.3, 0.0}, {}}) == shown);
 }
+
+}  // namespace wormdrive::test::core_compliant_effects

@@ -7,8 +7,7 @@
 
 // What goes into a drive with elastic teeth is stored or lost. Only a geometry that closes accounts for it.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_compliant_energy {
 
 namespace {
 
@@ -122,3 +121,5 @@ TEST_CASE("power and stored energy of elastic teeth are those of the observed fo
       REQUIRE(close(stored_energy(d, now), stored(d.observe(now), closed(), d.rigid().Jg(), k, backlash), 1e-12));
     }
 }
+
+}  // namespace wormdrive::test::core_compliant_energy

@@ -9,8 +9,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects {
 
 namespace {
 
@@ -110,3 +109,5 @@ TEST_CASE("no two effects of the catalogue share an id, and each is named after 
     if (E::id.starts_with("encoder_")) REQUIRE(E::place == Place::sensor);
   });
 }
+
+}  // namespace wormdrive::test::core_effects

@@ -6,8 +6,7 @@
 // What happens to a command on its way to the motor: delay and lag, each alone against a closed form, and together with
 // a limit against an integration of the lag's own equation.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects_command {
 
 namespace {
 
@@ -126,3 +125,5 @@ TEST_CASE("actuator_lag: a drive at rest is watched closely only until the torqu
   for (const By by : every_solver)
     REQUIRE(run(d, Timetable(0, 1e4, 5e3), {}, tight(by)).end.mode.motion == Motion::stuck);
 }
+
+}  // namespace wormdrive::test::core_effects_command

@@ -8,8 +8,7 @@
 
 // Effects on the friction between the teeth, each alone against a closed form that fixes its sign, unit and size.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects_friction {
 
 namespace {
 
@@ -207,3 +206,5 @@ TEST_CASE("stribeck: fitted to the standard's curve from 0.1 to 10 m/s it stays 
       for (double speed = 0.4; speed < 1.6; speed += 0.05) best = std::min(best, worst(level, level - low, speed));
   REQUIRE(best <= 0.006);
 }
+
+}  // namespace wormdrive::test::core_effects_friction

@@ -7,8 +7,7 @@
 
 // An uneven pitch, theta_w = i (theta_g + A sin(theta_g + p)), against energy and against the two balances it joins.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects_kinematics {
 
 namespace {
 
@@ -108,3 +107,5 @@ TEST_CASE("transmission_error: at constant gear speed the steady torque is the o
     REQUIRE(std::abs(d.acceleration(d.moment(0.0, theta_g, omega_w / i), Mode{motion, Flank::left})) <= 1e-10);
   }
 }
+
+}  // namespace wormdrive::test::core_effects_kinematics

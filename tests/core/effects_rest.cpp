@@ -5,8 +5,7 @@
 
 // Friction at rest above that of sliding: when the gear breaks away, and with what acceleration.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects_rest {
 
 namespace {
 
@@ -92,3 +91,5 @@ TEST_CASE("static_friction: time at rest counts from the latest stop") {
     REQUIRE(close(there.guards(there.moment(held), held.mode)[1], branch.acceleration(0.0, tau_l), 1e-12));
   }
 }
+
+}  // namespace wormdrive::test::core_effects_rest

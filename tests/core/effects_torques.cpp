@@ -8,8 +8,7 @@
 
 // Effects of actuator, shafts, load and sensor, each alone against a closed form that fixes its sign, unit and size.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_effects_torques {
 
 namespace {
 
@@ -205,3 +204,5 @@ TEST_CASE("with every effect on, motor and load still pay for friction and kinet
                 1e-12 * (std::abs(flow.motor) + std::abs(flow.load)));
       }
 }
+
+}  // namespace wormdrive::test::core_effects_torques

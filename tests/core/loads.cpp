@@ -8,7 +8,7 @@
 #include "core/series.hpp"
 #include "core/unit.hpp"
 
-using namespace wormdrive;
+namespace wormdrive::test::core_loads {
 
 namespace {
 
@@ -101,3 +101,5 @@ TEST_CASE("an angle table is monotone between its points: a flat pair stays flat
   REQUIRE(highest <= 0.6 + 1e-15);
   REQUIRE(off_the_flat <= 1e-15);
 }
+
+}  // namespace wormdrive::test::core_loads

@@ -7,8 +7,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_mesh {
 
 TEST_CASE("Table 1 gives the coefficients that the paper prints, to its four decimals") {
   const GearMesh<double> mesh(table1());
@@ -92,3 +91,5 @@ TEST_CASE("every parameter of the mesh is described once and its bounds refuse w
   REQUIRE(refused == std::set<std::string>{"ratio", "lead_angle", "worm_pitch_radius", "gear_pitch_radius",
                                            "worm_inertia", "gear_inertia"});
 }
+
+}  // namespace wormdrive::test::core_mesh

@@ -5,8 +5,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_series {
 
 namespace {
 
@@ -99,3 +98,5 @@ TEST_CASE("a series that is zero to its last term has no sign, one with nothing 
   last[order] = -1e-30;
   REQUIRE(sign_just_after(last, 1e-11) == -1);
 }
+
+}  // namespace wormdrive::test::core_series

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "core/signal.hpp"
 
-using namespace wormdrive;
+namespace wormdrive::test::core_signals {
 
 namespace {
 
@@ -144,3 +144,5 @@ TEST_CASE("a sum has the values of its terms and the knots of all of them, share
   REQUIRE(std::abs(value(signal, 0.6) - (0.5 + 0.8 - 1.0 + waves(0.6))) <= 1e-15);
   REQUIRE(signal.piece(0.0).fastest() == 2.0 * std::numbers::pi * 7.0);
 }
+
+}  // namespace wormdrive::test::core_signals

@@ -8,8 +8,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_statics {
 
 namespace {
 
@@ -150,3 +149,5 @@ TEST_CASE("efficiencies of a geometry that closes are those of a screw with a tr
   }
   REQUIRE(forward_efficiency(GearMesh<double>(table1(14.0))) == 0.0);
 }
+
+}  // namespace wormdrive::test::core_statics

@@ -10,8 +10,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::core_worm_drive {
 
 namespace {
 
@@ -193,3 +192,5 @@ TEST_CASE("a single inertia has no flank and no normal force; only its bearings 
   REQUIRE(pushed.acceleration(pushed.moment(0.0, 0.0, 1.0), {Motion::forward, Flank::none}) == (0.4 - 0.5) / 2.0);
   REQUIRE(pushed.observe({0.0, {0.0, 1.0}, {Motion::forward, Flank::none}}).normal_force == 0.0);
 }
+
+}  // namespace wormdrive::test::core_worm_drive

@@ -12,8 +12,7 @@
 
 // Teeth with play as the predictor follows them: flights by hand, bounces against the drive with elastic teeth.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_backlash {
 
 TEST_CASE("teeth that fly apart meet when a parabola says so") {
   // the gear falls away from the worm's left flank through 3 mrad to its right one
@@ -83,3 +82,5 @@ TEST_CASE("a scenario that gets backlash gets teeth that bounce as found") {
   CHECK(std::abs(restitution(contact, mass, 0.2) - 0.6) < 1e-3);
   CHECK(std::abs(std::numbers::pi / contact_frequency(contact, mass) - 1e-3) < 1e-9);
 }
+
+}  // namespace wormdrive::test::diagnosis_backlash

@@ -10,8 +10,7 @@
 
 // Break-in tables as in fig. 7 of the paper: friction at rest, C1 and C2 from points with 3 % noise.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_break_in {
 
 namespace {
 
@@ -83,3 +82,5 @@ TEST_CASE("a wrong pressure angle is not claimed: friction takes it up as mu/cos
   const Estimate mu = constant(points, "mu_s");
   CHECK((mu.low <= same && same <= mu.high));
 }
+
+}  // namespace wormdrive::test::diagnosis_break_in

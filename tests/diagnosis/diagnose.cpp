@@ -13,8 +13,7 @@
 
 // Whole diagnoses of recordings of the program's own drive; what a foreign drive hides is the recovery tests' business.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_diagnose {
 
 namespace {
 
@@ -142,3 +141,5 @@ TEST_CASE("recordings that cannot be diagnosed are refused") {
   still.gear_angle.resize(300);
   REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "a diagnosis needs recordings of at least 2 s and 400 samples");
 }
+
+}  // namespace wormdrive::test::diagnosis_diagnose

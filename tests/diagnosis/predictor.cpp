@@ -9,8 +9,7 @@
 
 // The predictor and the solver beneath it, each against something that it does not know.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_predictor {
 
 namespace {
 
@@ -129,3 +128,5 @@ TEST_CASE("a model that meets the innovations it had runs through the recording 
     for (std::size_t k = 0; k < 250; ++k) worst.add(rows[q][k] - recording.gear_angle[begins[q] + 1 + k]);
   REQUIRE(worst <= 1e-12);
 }
+
+}  // namespace wormdrive::test::diagnosis_predictor

@@ -13,8 +13,7 @@
 // A measured axis without a gear, 25 s at 1 kHz: Janot, Gautier, Brunot, EMPS, 2019. A diagnosis that knows its mass
 // finds the friction that its authors found with an inverse model and least squares.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_servo_axis {
 
 namespace {
 
@@ -153,3 +152,5 @@ TEST_CASE("the measured axis: from its mass, friction is named and then that it 
   CHECK(ours <= theirs);
   CHECK(ours <= by_direction);
 }
+
+}  // namespace wormdrive::test::diagnosis_servo_axis

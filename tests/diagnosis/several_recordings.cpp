@@ -9,8 +9,7 @@
 // A slow motion over a small angle leaves a class; a second payload, or the experiment that the diagnosis proposes,
 // splits it.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_several_recordings {
 
 namespace {
 
@@ -89,3 +88,5 @@ TEST_CASE("the proposed experiment, made and diagnosed with the first recording,
   CHECK(after.verdict == Verdict::named);
   CHECK(ids(after) == std::vector<std::string>{"worm_coulomb"});
 }
+
+}  // namespace wormdrive::test::diagnosis_several_recordings

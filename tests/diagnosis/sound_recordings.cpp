@@ -12,8 +12,7 @@
 
 // What is taken for a recording, and what is left out of it.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_sound_recordings {
 
 namespace {
 constexpr std::size_t u = 1, y = 2;  ///< columns
@@ -127,3 +126,5 @@ TEST_CASE("the measured servo axis is taken for a recording", "[reference]") {
   CHECK(std::abs(r.period - 1e-3) < 1e-9);
   CHECK(r.remarks.empty());
 }
+
+}  // namespace wormdrive::test::diagnosis_sound_recordings

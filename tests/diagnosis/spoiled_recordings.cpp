@@ -8,8 +8,7 @@
 
 // Recordings that something happened to on their way: each is refused with one sentence, none passes for physics.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_spoiled_recordings {
 
 namespace {
 
@@ -167,3 +166,5 @@ TEST_CASE("a spoiled recording is refused with one sentence and never taken for 
     CHECK(verdict(folder, sheet) == bad.says);
   }
 }
+
+}  // namespace wormdrive::test::diagnosis_spoiled_recordings

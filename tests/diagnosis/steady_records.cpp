@@ -18,8 +18,7 @@
 
 // Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_steady_records {
 
 namespace {
 
@@ -156,3 +155,5 @@ TEST_CASE("what records at constant speed cannot show is told") {
   for (const char* const effect : {"worm_viscous", "stribeck", "mesh_friction", "gear_coulomb"})
     CHECK(unseen.count(effect) == 0);
 }
+
+}  // namespace wormdrive::test::diagnosis_steady_records

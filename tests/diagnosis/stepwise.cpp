@@ -11,8 +11,7 @@
 
 // Friction at rest shows at break-aways alone: a fit has to search it, for there is no slope to follow.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::diagnosis_stepwise {
 
 TEST_CASE("friction at rest is found from starts on either side, within its interval") {
   constexpr double rise = 0.08;
@@ -38,3 +37,5 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
     CHECK(error < 0.3 * rise);
   }
 }
+
+}  // namespace wormdrive::test::diagnosis_stepwise

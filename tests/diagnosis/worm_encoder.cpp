@@ -10,7 +10,7 @@
 
 // What a second encoder, on the worm, adds to a diagnosis. The data are the recovery tests' own.
 
-using namespace wormdrive;
+namespace wormdrive::test::diagnosis_worm_encoder {
 
 namespace {
 
@@ -131,3 +131,5 @@ TEST_CASE("a cause that does most of the work keeps its name beside structure th
   CHECK(judged(470.0, 2e-3) == Verdict::unexplained);  // where the error falls to a fifth as well
   CHECK(judged(490.0, 2e-3) == Verdict::named);
 }
+
+}  // namespace wormdrive::test::diagnosis_worm_encoder

@@ -8,8 +8,7 @@
 
 // The audit against runs that are right, and against records of runs in which an event was taken out or put in.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_audit {
 
 namespace {
 
@@ -94,3 +93,5 @@ TEST_CASE("the closest graze of the speed is its smallest minimum above zero") {
   REQUIRE(std::abs(speed.t - 0.75) <= 1e-5);
   REQUIRE(std::abs(speed.distance - left) <= 1e-9);
 }
+
+}  // namespace wormdrive::test::events_audit

@@ -8,8 +8,7 @@
 
 // The audit of drives with elastic teeth.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_audit_compliant {
 
 namespace {
 
@@ -72,3 +71,5 @@ TEST_CASE("an impact that a run passed over, and an opening, are found with thei
     REQUIRE(std::abs(missed->t - time) <= 1e-6);
   }
 }
+
+}  // namespace wormdrive::test::events_audit_compliant

@@ -6,8 +6,7 @@
 
 // Motions whose solution is a formula: every event time and state is compared with it, for every solver.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_closed_forms {
 
 namespace {
 
@@ -158,3 +157,5 @@ TEST_CASE("under gravity the energy integral of one mode is constant from its fi
     REQUIRE(drift <= 1e-10);
   }
 }
+
+}  // namespace wormdrive::test::events_closed_forms

@@ -6,8 +6,7 @@
 
 // Fig. 9 with elastic teeth: against an integration of its own, and on its way to the rigid drive.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_compliant_fig09 {
 
 namespace {
 
@@ -193,3 +192,5 @@ TEST_CASE("power series refuse elastic teeth by name") {
   REQUIRE_THROWS_WITH((Fig9{1e6, 1000.0, 0.0}.run_to(1.0, 1.0, tight(taylor))),
                       "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
 }
+
+}  // namespace wormdrive::test::events_compliant_fig09

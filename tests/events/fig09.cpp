@@ -6,8 +6,7 @@
 
 // Fig. 9 of the paper against the same equations integrated in 128-bit arithmetic.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_fig09 {
 
 namespace {
 
@@ -76,3 +75,5 @@ TEST_CASE("fig. 9 jumps in acceleration at its reversals, not at the break-away 
       REQUIRE(std::abs(jump) >= 0.01);
   }
 }
+
+}  // namespace wormdrive::test::events_fig09

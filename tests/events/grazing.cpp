@@ -7,8 +7,7 @@
 
 // A guard that only just reaches zero, or dips below it and comes back within one step: no sign changes at step ends.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_grazing {
 
 namespace {
 
@@ -126,3 +125,5 @@ TEST_CASE(
   for (const auto& event : r.events) REQUIRE(event.after.t == 0.5);
   REQUIRE(std::abs(r.end.x[1] - (50.0 - 2.0 * 0.03125 * 0.25 / in.M)) <= 1e-9);
 }
+
+}  // namespace wormdrive::test::events_grazing

@@ -12,8 +12,7 @@
 
 // Runs that cannot go on, and the words in which they say so.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_halt {
 
 namespace {
 
@@ -193,3 +192,5 @@ TEST_CASE("a mode is described by its motion and, where there are teeth, its fla
   REQUIRE(describe({Motion::backward, Flank::right}) == "backward, right flank");
   REQUIRE(describe({Motion::backward, Flank::none}) == "backward");
 }
+
+}  // namespace wormdrive::test::events_halt

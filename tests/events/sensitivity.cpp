@@ -9,8 +9,7 @@
 
 // The derivatives of a run by its parameters, through reversals, stick, break-away and changes of the flank.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_sensitivity {
 
 namespace {
 
@@ -152,3 +151,5 @@ TEST_CASE("a measured angle that comes late is an earlier one: its derivative by
     }
   }
 }
+
+}  // namespace wormdrive::test::events_sensitivity

@@ -7,8 +7,7 @@
 
 // Derivatives of motions whose formulas are known: a single inertia with a dry bearing.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_sensitivity_closed_forms {
 
 namespace {
 
@@ -166,3 +165,5 @@ TEST_CASE("a parameter that the drive has not is refused by name") {
   REQUIRE_THROWS_WITH(parameter(drive, "gear_viscous", "coefficient"),
                       "the drive has no continuous parameter 'coefficient' in 'gear_viscous'; an effect has to be on");
 }
+
+}  // namespace wormdrive::test::events_sensitivity_closed_forms

@@ -9,8 +9,7 @@
 
 // The solver of power series against 128-bit arithmetic, and where its series must not be believed.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_taylor {
 
 namespace {
 
@@ -241,3 +240,5 @@ TEST_CASE("the first root of a polynomial is found where others follow, and none
   const double below[] = {-1.0, 0.1};
   REQUIRE((!search.first_fall(below, 1.0, false).armed && !search.first_fall(below, 1.0, false).at));
 }
+
+}  // namespace wormdrive::test::events_taylor

@@ -11,8 +11,7 @@
 
 // Random drives, loads, bearings and inputs: power series and CVODE tell the same story.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_taylor_random {
 
 namespace {
 
@@ -244,3 +243,5 @@ TEST_CASE("in 100 random runs with a Stribeck curve and bearings, power series a
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);
 }
+
+}  // namespace wormdrive::test::events_taylor_random

@@ -7,8 +7,7 @@
 
 // Power series of a drive with a Stribeck curve by formulas of their own, against those of the equations of core/.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_taylor_stribeck {
 
 namespace {
 
@@ -93,3 +92,5 @@ TEST_CASE("under a Stribeck curve, one step without a search ends where short st
   REQUIRE(speeds <= 1.0);
   REQUIRE(angles <= 1.0);
 }
+
+}  // namespace wormdrive::test::events_taylor_stribeck

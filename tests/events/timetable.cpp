@@ -7,8 +7,7 @@
 #include "catch.hpp"
 #include "support.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_timetable {
 
 namespace {
 
@@ -150,3 +149,5 @@ TEST_CASE("a timetable that skips to a sample goes on as the one that went there
       REQUIRE((calls[k].t == rest[k].t && calls[k].reason == rest[k].reason));
   }
 }
+
+}  // namespace wormdrive::test::events_timetable

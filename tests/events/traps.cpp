@@ -9,8 +9,7 @@
 // One test for every numerical trap of a drive that sticks, reverses and changes flank. Each fails when the line that
 // cures its trap is taken out.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::events_traps {
 
 namespace {
 
@@ -210,3 +209,5 @@ TEST_CASE("what the solver reports to have done is what the drive was asked for,
     REQUIRE((total.steps > 100 && total.steps < total.evaluations && total.steps < total.guard_evaluations));
   }
 }
+
+}  // namespace wormdrive::test::events_traps

@@ -10,8 +10,7 @@
 
 // The layout of run files, as a stranger to the program reads it.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::output_run_file {
 
 namespace {
 
@@ -199,3 +198,5 @@ TEST_CASE("a part disappears unless it is finished or kept") {
   }
   CHECK(folder.names() == std::set<std::string>{"r.h5"});
 }
+
+}  // namespace wormdrive::test::output_run_file

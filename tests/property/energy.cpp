@@ -9,8 +9,7 @@
 
 // Energy is only accounted for by a geometry that closes, i = lg/(lw tan lambda): there the normal force does no work.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::property_energy {
 
 namespace {
 
@@ -177,3 +176,5 @@ TEST_CASE("friction never creates energy, not in any row of 100 random drives") 
   REQUIRE(most_created <= 1e-12);
   REQUIRE(explained <= 1e-12);
 }
+
+}  // namespace wormdrive::test::property_energy

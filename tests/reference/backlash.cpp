@@ -6,8 +6,7 @@
 // ElastoBacklash of the Modelica Standard Library 4.1.0, computed by Dymola: 5 kg m^2 thrown to and fro between two
 // elastic stops, 45 degrees apart. It is the gear of a worm that does not turn, with a lever arm of 1 m.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::reference_backlash {
 
 namespace {
 
@@ -81,3 +80,5 @@ TEST_CASE("ElastoBacklash: the hybrid run is a fixed-step integration of the law
   REQUIRE(contacts.size() > 20);
   REQUIRE(times <= 1e-11);
 }
+
+}  // namespace wormdrive::test::reference_backlash

@@ -12,8 +12,7 @@
 // bearing friction are two Coulomb torques, tau_a = (tau_bf1 - tau_bf2)/(eta_mf1 - 1/eta_mf2) on the worm and
 // tau_b = i (tau_bf1 - eta_mf1 tau_a) on the gear.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::reference_lossy_gear {
 
 namespace {
 
@@ -136,3 +135,5 @@ TEST_CASE("LossyGearDemo3 is braked to a stop and held by its bearings as in Dym
   compare(drive(gear.mesh(), Signal{{Step{.torque = 1.0, .time = 0.5}}}, constant(0.0), gear.bearings()),
           {0.0, {0.0, 10.0}, {}}, *dymola, 1.0);
 }
+
+}  // namespace wormdrive::test::reference_lossy_gear

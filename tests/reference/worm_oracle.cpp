@@ -7,8 +7,7 @@
 // Accelerations of three worm drives, computed by the functions that Mablekos-Alexiou, da Cruz and Bergeles published
 // with "Friction-Inclusive Modeling of Sliding Contact Transmission Systems in Robotics", IEEE T-RO 37(4), 2021.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::reference_worm_oracle {
 
 namespace {
 
@@ -64,3 +63,5 @@ TEST_CASE("all 945 published accelerations of three worm drives agree, moving an
   REQUIRE(differ == 0);
   REQUIRE(of_allowed <= 1.0);
 }
+
+}  // namespace wormdrive::test::reference_worm_oracle

@@ -11,8 +11,7 @@
 
 // Scenarios whose effects make the teeth elastic.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_compliant_runs {
 
 namespace {
 
@@ -116,3 +115,5 @@ TEST_CASE("a controller moves stiff teeth as it moves rigid ones") {
   REQUIRE(moved >= 0.01);
   REQUIRE(apart <= 1e-3 * moved);
 }
+
+}  // namespace wormdrive::test::scenarios_compliant_runs

@@ -11,8 +11,7 @@
 
 // Controlled scenarios on their way through the program: written, stored, run again, checked, shown.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_controlled_runs {
 
 namespace {
 
@@ -189,3 +188,5 @@ TEST_CASE("a run reports what it broke of Lemma 1 with its time and is no failur
   for (const char* what : {"controllers", "references"})
     REQUIRE(folder.run({"list", what}).out.find("required") != std::string::npos);
 }
+
+}  // namespace wormdrive::test::scenarios_controlled_runs

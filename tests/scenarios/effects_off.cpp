@@ -12,8 +12,7 @@
 
 // Off is absent: an effect that is not on leaves every bit of a run alone, and one of size zero changes nothing.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_effects_off {
 
 namespace {
 
@@ -88,3 +87,5 @@ TEST_CASE("an effect of size zero is on and changes no bit of a run by cvode, an
     REQUIRE((fast.end.x - slow.end.x).cwiseAbs().maxCoeff() <= 1e-12);
   });
 }
+
+}  // namespace wormdrive::test::scenarios_effects_off

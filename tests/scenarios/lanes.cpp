@@ -10,8 +10,7 @@
 
 // Several closed-loop runs in the lanes of one register: each gets the bits that it gets alone.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_lanes {
 
 namespace {
 
@@ -160,3 +159,5 @@ TEST_CASE("lanes: a run that cannot go on fails alone, for the reason that it ha
 }
 
 TEST_CASE("lanes: nothing comes of nothing") { REQUIRE(run_batch({}).empty()); }
+
+}  // namespace wormdrive::test::scenarios_lanes

@@ -5,8 +5,7 @@
 
 // A drive without teeth on a linear axis: masses, forces and positions in m, N, kg, in the scenario and in the result.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_linear_axis {
 
 namespace {
 
@@ -130,3 +129,5 @@ TEST_CASE("the statement of a linear axis survives check, and statics says that 
     CHECK(check.out.find(words) != std::string::npos);
   CHECK(folder.run({"statics", "s.toml"}).exit == 2);
 }
+
+}  // namespace wormdrive::test::scenarios_linear_axis

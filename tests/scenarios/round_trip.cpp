@@ -11,8 +11,7 @@
 
 // The resolved scenario that every result carries: text and struct are the same after reading and writing.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::scenarios_round_trip {
 
 namespace {
 
@@ -236,3 +235,5 @@ TEST_CASE("every shipped scenario is simulated again to the last bit from its re
     for (const std::string group : {"trajectory", "events"}) REQUIRE(bytes(one, group) == bytes(two, group));
   }
 }
+
+}  // namespace wormdrive::test::scenarios_round_trip

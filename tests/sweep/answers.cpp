@@ -7,8 +7,7 @@
 #include "sweep/distribution.hpp"
 #include "sweep/studies.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_answers {
 
 namespace {
 
@@ -188,3 +187,5 @@ TEST_CASE("a sweep has its picture, and runs of its trials are drawn one over th
   CHECK(over.exit == 0);
   for (const char* picture : {"o.png", "over.png"}) CHECK(std::filesystem::file_size(folder / picture) > 10'000);
 }
+
+}  // namespace wormdrive::test::sweep_answers

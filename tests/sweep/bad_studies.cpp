@@ -8,8 +8,7 @@
 #include "output/part_file.hpp"
 #include "sweep/studies.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_bad_studies {
 
 namespace {
 
@@ -241,3 +240,5 @@ TEST_CASE("shards that do not make one sweep are not merged", "[sweep]") {
        "other.h5: error: is not a shard of the same sweep as 1.h5: the study differs in sweep.seed: 4, then 3");
   CHECK(folder.sweep({"--shard", "4/3"}).err == "--shard 4/3: error: must be i/n with 1 <= i <= n, as in 3/7\n");
 }
+
+}  // namespace wormdrive::test::sweep_bad_studies

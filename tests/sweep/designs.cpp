@@ -8,7 +8,7 @@
 #include "sweep/keyed_permutation.hpp"
 #include "sweep/load_study.hpp"
 
-using namespace wormdrive;
+namespace wormdrive::test::sweep_designs {
 
 namespace {
 
@@ -127,3 +127,5 @@ TEST_CASE("every shipped study can be read", "[sweep]") {
   }
   CHECK(files >= 1);
 }
+
+}  // namespace wormdrive::test::sweep_designs

@@ -8,9 +8,7 @@
 #include "sweep/normal.hpp"
 #include "sweep/random.hpp"
 
-using namespace wormdrive;
-using test::close;
-using test::Deviation;
+namespace wormdrive::test::sweep_distributions {
 
 namespace {
 
@@ -132,3 +130,5 @@ TEST_CASE("a copula gives the stated correlation and keeps every distribution", 
   matrix(1, 2) = matrix(2, 1) = -0.8;
   CHECK_FALSE(Copula::exists(matrix));
 }
+
+}  // namespace wormdrive::test::sweep_distributions

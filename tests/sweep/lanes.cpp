@@ -8,8 +8,7 @@
 #include "sweep/studies.hpp"
 #include "sweep/trial.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_lanes {
 
 TEST_CASE("rows are the same in lanes of any width and for each trial alone", "[sweep]") {
   const StudyFolder folder(lanes_study);
@@ -44,3 +43,5 @@ TEST_CASE("rows are the same in lanes of any width and for each trial alone", "[
   for (const Trial& row : alone({0, 200}))
     if (row.status == TrialStatus::done) REQUIRE(row.metrics[k] == rms[row.index]);
 }
+
+}  // namespace wormdrive::test::sweep_lanes

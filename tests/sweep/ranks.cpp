@@ -7,8 +7,7 @@
 #include "catch.hpp"
 #include "sweep/studies.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_ranks {
 
 namespace {
 
@@ -143,3 +142,5 @@ TEST_CASE("bad input on ranks is told once", "[sweep]") {
   CHECK(outcome.err.find(message) != std::string::npos);
   CHECK(outcome.err.find(message) == outcome.err.rfind(message));
 }
+
+}  // namespace wormdrive::test::sweep_ranks

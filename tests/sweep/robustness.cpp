@@ -4,8 +4,7 @@
 #include "catch.hpp"
 #include "sweep/studies.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_robustness {
 
 namespace {
 
@@ -43,3 +42,5 @@ TEST_CASE("far beyond the paper's variations not every sliding controller keeps 
     if (name == "sliding_beyond") CHECK(kept < 64);
   }
 }
+
+}  // namespace wormdrive::test::sweep_robustness

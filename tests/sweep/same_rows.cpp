@@ -9,8 +9,7 @@
 #include "catch.hpp"
 #include "sweep/studies.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::sweep_same_rows {
 
 namespace {
 
@@ -175,3 +174,5 @@ TEST_CASE("a trial runs again with its trajectory and the same metrics, with eit
           folder.column("sweep.h5", "final_gear_speed")[123]);
   }
 }
+
+}  // namespace wormdrive::test::sweep_same_rows

@@ -14,8 +14,7 @@
 #include "sweep/random.hpp"
 #include "sweep/rank_correlation.hpp"
 
-using namespace wormdrive;
-using test::close;
+namespace wormdrive::test::sweep_statistics {
 
 namespace {
 
@@ -174,3 +173,5 @@ TEST_CASE("rank correlation of more values than it keeps differs by nothing that
   // columns, have a deviation of 6e-8.
   CHECK(std::abs(spearman(x, y) - exact) < 3e-7);
 }
+
+}  // namespace wormdrive::test::sweep_statistics
