@@ -97,7 +97,7 @@ struct Diagnosis {
   std::vector<std::string>
       equivalents;  ///< ids of the class, if ambiguous, those in `causes` first; which of them are at work is not known
   std::vector<Candidate> ranking;            ///< best first
-  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved within their tolerance
+  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved, within their tolerance or as part of a cause
   std::vector<PredictionError> prediction;
   std::vector<Visibility> certificate;
   std::vector<Remainder> remainders;   ///< what is left, strongest first; empty: nothing above the noise

@@ -28,7 +28,7 @@ std::string extended_file(const Diagnosis& d) {
   if (!d.equivalents.empty())
     text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
   if (!d.calibration.empty())
-    text += fmt::format("# Stated values that moved within [tolerance]: {}.\n", ids(d.calibration));
+    text += fmt::format("# Stated values that moved with them: {}.\n", ids(d.calibration));
   return text + to_toml(d.extended);
 }
 

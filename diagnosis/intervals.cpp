@@ -69,7 +69,9 @@ namespace {
 double structural_error(std::string_view effect, double value) {
   constexpr double held_torque = 2e-5;   // [s], of a lag or delay that acts on a torque held over a sample
   constexpr double impact_share = 0.03;  // of a gap, by how an impact goes on
+  constexpr double shape_share = 0.1;    // of a fall over the speed, by laws of other shapes
   if (effect == "backlash") return impact_share * value;
+  if (effect == "stribeck") return shape_share * value;
   return effect == "actuator_lag" || effect == "actuator_delay" ? held_torque : 0.0;
 }
 

@@ -26,6 +26,11 @@ Selection CauseSearch::operator()(Hypothesis base) {
   simplify();
   tell("trying pairs");
   try_pairs();
+  // a stated number that a cause frees is a part of its law, no cause beside it
+  std::erase_if(s_.causes, [&, causes = s_.causes](const Found& found) {
+    return std::any_of(causes.begin(), causes.end(),
+                       [&](const Found& other) { return all_[other.suspect].frees == all_[found.suspect].effect; });
+  });
   return std::move(s_);
 }
 
