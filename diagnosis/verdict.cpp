@@ -104,15 +104,15 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     return;
   }
 
-  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of all that
-  // the data show, or somewhat less of that and of the error ahead.
-  constexpr double most_of_the_evidence = 30.0, much_of_the_evidence = 6.0, most_of_the_error = 3.0;
+  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of the error
+  // ahead, of which little but noise is left, or of all that the data show.
+  constexpr double most_of_the_error = 3.0, little_but_noise = 2.0, most_of_the_evidence = 30.0;
   const PredictionError* e = told(d);
   double left = 0.0;
   for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
   const double explained = 0.5 * (selection.base.bic - selection.model.bic);
-  const bool predicts = e && e->before >= most_of_the_error * e->after;
-  const bool most_done = explained >= (predicts ? much_of_the_evidence : most_of_the_evidence) * left;
+  const bool predicts = e && e->before >= most_of_the_error * e->after && e->after <= little_but_noise * e->floor;
+  const bool most_done = predicts || explained >= most_of_the_evidence * left;
   if (drowned(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
     const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;

@@ -122,14 +122,15 @@ TEST_CASE("a cause that does most of the work keeps its name beside structure th
     Diagnosis d;
     d.causes = {{"worm_viscous", {}}};
     d.remainders = {{"speed", 9.0, 1e-3, 40.0}};
-    d.prediction = {{.horizon = 0.25, .before = 1e-2, .after = error_after}};
+    d.prediction = {{.horizon = 0.25, .before = 1e-2, .after = error_after, .floor = 1e-3}};
     judge(d, selection, all, Magnitudes{.torque = 0.05});
     return d.verdict;
   };
   CHECK(judged(2300.0, 9e-3) == Verdict::unexplained);  // 1150 nats to 40 that are left
   CHECK(judged(2500.0, 9e-3) == Verdict::named);
-  CHECK(judged(470.0, 2e-3) == Verdict::unexplained);  // where the error falls to a fifth as well
-  CHECK(judged(490.0, 2e-3) == Verdict::named);
+  CHECK(judged(100.0, 4e-3) == Verdict::unexplained);
+  CHECK(judged(100.0, 3e-3) == Verdict::unexplained);  // to a third, but three times the noise
+  CHECK(judged(100.0, 1.9e-3) == Verdict::named);
 }
 
 }  // namespace wormdrive::test::diagnosis_worm_encoder
