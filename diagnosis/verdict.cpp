@@ -42,8 +42,9 @@ std::string gain_sentence(const Diagnosis& d) {
   if (!e) return "";
   constexpr double milli = 1e3;
   return fmt::format(
-      " On data not used for the fit the {} s prediction error falls from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
-      e->horizon, milli * e->before, milli * e->after, e->unit.symbol, milli * e->floor);
+      " On data not used for the fit the {} s prediction error {} from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
+      e->horizon, e->after <= e->before ? "falls" : "rises", milli * e->before, milli * e->after, e->unit.symbol,
+      milli * e->floor);
 }
 
 /// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
