@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -166,6 +168,15 @@ nlohmann::json as_json(const FileComparison& result) {
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
+  Faults faults;  // of both files, if they are two
+  for (const std::string& path : std::set{options.first, options.second}) {
+    try {
+      const ResultFile readable(path);
+    } catch (const InputFault& fault) {
+      for (const Fault& f : fault.faults) faults.add(f.where, f.what);
+    }
+  }
+  faults.raise();
   const ResultFile a(options.first), b(options.second);
   const FileComparison result = compare(a, b, options);
   if (options.json) print_json(as_json(result));

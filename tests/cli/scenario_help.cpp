@@ -143,6 +143,12 @@ TEST_CASE("what new and diff cannot do is told") {
                        "",
                        "s.toml: error: is no result file (HDF5); wormdrive run writes one",
                        {"diff", "s.toml", "s.toml"},
+                       true},
+                      {"no two results",
+                       "",
+                       "a.h5: error: cannot be read: No such file or directory\n"
+                       "b.h5: error: cannot be read: No such file or directory",
+                       {"diff", "a.h5", "b.h5"},
                        true}});
 }
 
