@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -168,16 +168,19 @@ nlohmann::json as_json(const FileComparison& result) {
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
-  Faults faults;  // of both files, if they are two
-  for (const std::string& path : std::set{options.first, options.second}) {
+  std::vector<std::string> paths{options.first};
+  if (options.second != options.first) paths.push_back(options.second);
+  std::vector<ResultFile> files;
+  Faults faults;
+  for (const std::string& path : paths) {
     try {
-      const ResultFile readable(path);
+      files.emplace_back(path);
     } catch (const InputFault& fault) {
       for (const Fault& f : fault.faults) faults.add(f.where, f.what);
     }
   }
   faults.raise();
-  const ResultFile a(options.first), b(options.second);
+  const ResultFile &a = files.front(), &b = files.back();
   const FileComparison result = compare(a, b, options);
   if (options.json) print_json(as_json(result));
   if (!options.json && !options.quiet) print(result);

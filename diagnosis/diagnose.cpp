@@ -129,11 +129,10 @@ void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, cons
 /// What no test of the residuals saw, for it took it for outliers, may show in the error ahead.
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
   constexpr double most = 3.0;
-  for (const PredictionError& e : d.prediction)
-    if (e.horizon == told_horizon && e.after > most * e.floor)
-      return Remainder{
-          fmt::format("an error {} s ahead that is {:.2g} times that of noise", e.horizon, e.after / e.floor),
-          e.after / e.floor, 0.0, std::numeric_limits<double>::infinity()};
+  if (const PredictionError* e = told(d); e && e->after > most * e->floor)
+    return Remainder{
+        fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, e->after / e->floor),
+        e->after / e->floor, 0.0, std::numeric_limits<double>::infinity()};
   return std::nullopt;
 }
 
@@ -236,7 +235,6 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     describe(d, by, before, found.base);
-    put_units_on_axis(d, scenario.axis);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))

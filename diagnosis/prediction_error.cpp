@@ -5,6 +5,7 @@
 #include <random>
 
 #include "scenarios/build.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 
@@ -162,6 +163,7 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
   const Forecast forecast_before(by, before), forecast_after(by, after);
   for (const double horizon : horizons) {
     PredictionError e;
+    e.unit = spellings("angle", e.unit, by.scenario().axis).front().unit;
     e.horizon = horizon;
     const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
     if (now.empty()) continue;

@@ -14,7 +14,6 @@ void put_units_on_axis(Diagnosis& d, Axis axis) {
   for (EstimatedEffect& moved : d.calibration) convert_all(moved);
   for (Candidate& candidate : d.ranking) convert_all(candidate.effect);
   for (Visibility& v : d.certificate) convert(v.field, v.unit);
-  for (PredictionError& e : d.prediction) convert("angle", e.unit);
 }
 
 }  // namespace wormdrive

@@ -31,12 +31,6 @@ bool is_kinematic(std::string_view effect) {
   return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
 }
 
-const PredictionError* told(const Diagnosis& d) {
-  for (const PredictionError& e : d.prediction)
-    if (e.horizon == told_horizon) return &e;
-  return nullptr;
-}
-
 std::string gain_sentence(const Diagnosis& d) {
   const PredictionError* e = told(d);
   if (!e) return "";
@@ -71,6 +65,12 @@ std::string remainder_sentence(const Diagnosis& d, double torque) {
 }
 
 }  // namespace
+
+const PredictionError* told(const Diagnosis& d) {
+  for (const PredictionError& e : d.prediction)
+    if (e.horizon == told_horizon) return &e;
+  return nullptr;
+}
 
 std::string phrase(const EstimatedEffect& effect) {
   std::string text = in_words(effect.effect) + ":";

@@ -9,6 +9,9 @@ namespace wormdrive {
 /// equivalents and sentence, and withdraws names that the data do not bear out.
 void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Suspect>& all, const Magnitudes& sizes);
 
+/// The error ahead that the sentence tells of, null if there is none.
+const PredictionError* told(const Diagnosis& diagnosis);
+
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect);
 

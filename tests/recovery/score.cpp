@@ -11,13 +11,11 @@ namespace {
 /// Whether a certificate says that an effect of this size can be named; of exact twins, that it can be seen.
 bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding) {
   const truth::Secret& secret = *hiding.secret;
-  for (const wormdrive::Visibility& v : found.certificate) {
-    if (v.effect != secret.effect) continue;
-    if (!v.observable) return false;
-    if (secret.effect == "torque_saturation") return hiding.amount <= v.detectable;
-    return std::abs(hiding.amount) >= (secret.twins.empty() ? v.nameable : v.detectable);
-  }
-  return true;
+  const wormdrive::Visibility* v = visibility(found, secret.effect);
+  if (!v) return true;
+  if (!v->observable) return false;
+  if (secret.effect == "torque_saturation") return hiding.amount <= v->detectable;
+  return std::abs(hiding.amount) >= (secret.twins.empty() ? v->nameable : v->detectable);
 }
 
 }  // namespace
@@ -38,6 +36,12 @@ std::string_view name(Score score) {
 bool same_or_twin(std::string_view named, const truth::Secret& secret) {
   if (secret.effect == "dwell" && named == "static_friction") return true;
   return named == secret.effect || std::find(secret.twins.begin(), secret.twins.end(), named) != secret.twins.end();
+}
+
+const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::string_view effect) {
+  for (const wormdrive::Visibility& v : found.certificate)
+    if (v.effect == effect) return &v;
+  return nullptr;
 }
 
 Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found) {

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& d, std::string_view effect) {
-  for (const wormdrive::Visibility& v : d.certificate)
-    if (v.effect == effect) return &v;
-  return nullptr;
-}
-
 /// Effects whose hidden amount is the size that a certificate tells, one of each pair of twins.
 std::vector<const truth::Secret*> gradual() {
   std::vector<const truth::Secret*> all;
