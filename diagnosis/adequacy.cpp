@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
-#include <unsupported/Eigen/FFT>
-
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/spectral_line.hpp"
 #include "scenarios/build.hpp"
 
 namespace wormdrive {
@@ -61,6 +58,7 @@ struct Axis1D {
   const std::vector<double>* over;
   int nodes;
   std::vector<std::function<double(std::size_t)>> factors;
+  bool one_place = false;  ///< the torque acts at one place of the axis, the one where it explains most
 };
 
 /// Tents over the quantiles of an axis.
@@ -116,17 +114,20 @@ class Scores {
       V.col(free_ + static_cast<Eigen::Index>(q)) =
           e ? weighted(difference(by_, h_, *e), 10.0) : Eigen::VectorXd::Zero(J_.rows());
     });
+    if (axis.one_place) keep_strongest(V, torques);
     ScoreTest test;
     test.what.axis = axis.name;
-    const auto degrees = static_cast<double>(m);
+    const auto degrees = static_cast<double>(torques.size());
     const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
     test.what.gain = 0.5 * (all.score - less.score);
-    test.what.evidence = (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
+    test.what.evidence = axis.one_place ? test.what.gain - std::log(static_cast<double>(m))
+                                        : (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
     test.held_out = held_out_gain(V);
     std::vector<double> sum(by_.layout().samples, 0.0);
     double squares = 0.0, count = 0.0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
-      for (std::size_t q = 0; q < m; ++q) sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
+      for (std::size_t q = 0; q < torques.size(); ++q)
+        sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
       squares += sum[k] * sum[k];
       count += moving[k];
     }
@@ -172,6 +173,23 @@ class Scores {
     return {x, columns > 0 ? x.dot(b) : 0.0};
   }
 
+  /// Of all torques the one that explains most.
+  void keep_strongest(Eigen::MatrixXd& V, std::vector<std::vector<double>>& torques) const {
+    Eigen::MatrixXd one = V.leftCols(free_ + 1);
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t q = 0; q < torques.size(); ++q) {
+      one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(q));
+      const double score = solve(one, one.cols(), false).score;
+      if (score <= most) continue;
+      most = score;
+      best = q;
+    }
+    one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(best));
+    V = std::move(one);
+    torques = {std::move(torques[best])};
+  }
+
   /// Gain of every third block by a torque that was fitted to the others.
   double held_out_gain(const Eigen::MatrixXd& V) const {
     const Eigen::VectorXd with = residual_ + V * solve(V, V.cols(), true).x;
@@ -192,51 +210,6 @@ class Scores {
   Eigen::VectorXd residual_;
 };
 
-/// The strongest line in the spectrum of the residuals against its neighbours; factor: what they are demodulated by.
-ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t recording,
-                        const std::vector<double>* factor, std::string name) {
-  const InnovationLayout& layout = by.layout();
-  const PreparedRecording& r = layout.recordings[recording];
-  const std::size_t begin = layout.leading(recording).begin;
-  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.005 / r.data.period)));
-  const std::size_t n = r.samples() / bin;
-  std::vector<double> w(n, 0.0);
-  for (std::size_t k = 0; k < n * bin; ++k) {
-    if (!r.used[k] || !r.moving[k]) continue;
-    const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
-    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
-  }
-  Eigen::FFT<double> transform;
-  std::vector<std::complex<double>> spectrum;
-  transform.fwd(spectrum, w);
-  constexpr double lowest = 1.0, highest = 50.0;  // [Hz]; what is slower is a matter of angle and time
-  const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
-  std::vector<double> power(lines);
-  std::transform(spectrum.begin(), spectrum.begin() + static_cast<std::ptrdiff_t>(lines), power.begin(),
-                 [](std::complex<double> x) { return std::norm(x); });
-  ScoreTest test;
-  constexpr std::size_t around = 25;
-  // the median of m exponential variates is known as well as the mean of 0.48 m of them
-  constexpr double variates = 0.48 * (2 * around + 1);
-  double strongest = 0.0, frequency = 0.0;
-  for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(lowest * r.duration())); f < lines; ++f) {
-    std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
-                             power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
-    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-    std::nth_element(near.begin(), middle, near.end());
-    const double ratio = power[f] / (*middle / std::numbers::ln2 + 1e-300);
-    if (ratio > strongest) {
-      strongest = ratio;
-      frequency = static_cast<double>(f) / (static_cast<double>(n * bin) * r.data.period);
-    }
-  }
-  test.what.gain = strongest;
-  test.what.axis = name + " at " + std::to_string(frequency).substr(0, 5) + " Hz";
-  test.what.evidence =
-      variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
-  return test;
-}
-
 }  // namespace
 
 std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, const Magnitudes& sizes,
@@ -247,11 +220,14 @@ std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, co
   const auto loaded_side = [&a](std::size_t k) { return std::abs(a.load[k]) * a.direction[k]; };
   std::vector<Axis1D> axes{{"angle and direction", &a.angle, 8, {one, factor(a.direction)}},
                            {"speed", &a.speed, 10, {one}}};
+  constexpr int spots = 24;  // friction of one place is a matter of a tenth of a turn or less
   if (sizes.load_torque > 0.0) {
     axes.push_back({"time", &a.time, 6, {one, factor(a.load), loaded_side}});
     axes.push_back({"speed and load", &a.speed, 6, {factor(a.load), loaded_side}});
+    axes.push_back({"one angle", &a.angle, spots, {loaded_side}, true});
   } else {
     axes.push_back({"time", &a.time, 6, {one, factor(a.direction)}});
+    axes.push_back({"one angle", &a.angle, spots, {factor(a.direction)}, true});
   }
   const Scores scores(by, h, 0.005 * sizes.torque);
   std::vector<ScoreTest> all;
@@ -260,7 +236,8 @@ std::vector<ScoreTest> score_tests(const Evaluation& by, const Hypothesis& h, co
   for (const Axis1D& axis : axes) {
     all.push_back(scores(axis, a.moving));
     ScoreTest& test = all.back();
-    test.found = test.what.evidence > rules.most_deviations && test.held_out > rules.most_gain &&
+    test.found = test.what.evidence > (axis.one_place ? rules.most_place : rules.most_deviations) &&
+                 test.held_out > (axis.one_place ? rules.most_gain_of_a_place : rules.most_gain) &&
                  test.what.torque > least_torque;
   }
   for (std::size_t r = 0; r < by.layout().recordings.size(); ++r)

@@ -11,13 +11,13 @@
 
 namespace wormdrive {
 
-void fit_bounces(const Evaluation& by, Hypothesis& h) {
+void fit_bounces(const Evaluation& by, Hypothesis& h, double widest) {
   const auto found =
       std::find_if(h.free.begin(), h.free.end(), [](const Coordinate& c) { return c.effect == "backlash"; });
   if (found == h.free.end()) return;
   const Coordinate gap = *found;
   const auto index = static_cast<std::size_t>(found - h.free.begin());
-  for (const double width : {1.0, 0.5, 0.25}) {
+  for (double width = widest; width >= 0.25; width *= 0.5) {
     std::vector<Hypothesis> trials;
     for (const double by_gap : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0})
       for (const double by_restitution : {-1.0, 0.0, 1.0})

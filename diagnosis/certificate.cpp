@@ -165,12 +165,10 @@ std::vector<Visibility> certificate(const Evaluation& by, const Hypothesis& base
       v.effect = twin;
       v.nearest = all[c].effect;
       v.likeness = 1.0;
-      v.nameable = never;
       v.field = twin == "encoder_delay" ? "delay" : "angle";
       v.unit = field_of({}, twin, v.field).unit;
       list.back().nearest = twin;
       list.back().likeness = 1.0;
-      list.back().nameable = never;
       list.push_back(v);
     }
   }

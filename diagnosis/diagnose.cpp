@@ -201,7 +201,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
-  fit_bounces(by_all, last);
+  fit_bounces(by_all, last, 0.5);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last);
   for (const Found& f : found.causes)

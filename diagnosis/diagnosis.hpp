@@ -55,7 +55,8 @@ struct Visibility {
   std::string field;  ///< whose size is told
   Unit unit;
   double detectable{};  ///< smallest size that can be seen, in SI; infinity: none
-  double nameable{};    ///< smallest size that can be told apart from the nearest other effect; infinity: none
+  double nameable{};    ///< smallest size that can be told apart from other effects, of exact twins as their class;
+                        ///< infinity: none
   std::string nearest;  ///< that effect
   double likeness{};    ///< share of its signature that the nearest effect can imitate, 0 to 1
   bool observable = true;
@@ -97,7 +98,7 @@ struct Diagnosis {
   std::vector<std::string>
       equivalents;  ///< ids of the class, if ambiguous, those in `causes` first; which of them are at work is not known
   std::vector<Candidate> ranking;            ///< best first
-  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved, within their tolerance or as part of a cause
+  std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved, within tolerance or as part of a cause
   std::vector<PredictionError> prediction;
   std::vector<Visibility> certificate;
   std::vector<Remainder> remainders;   ///< what is left, strongest first; empty: nothing above the noise

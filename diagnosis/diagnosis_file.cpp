@@ -116,11 +116,12 @@ void write_certificate(hid_t file, const std::vector<Visibility>& certificate) {
     units.emplace_back(v.unit.symbol);
     nearest.push_back(v.nearest);
   }
-  GrowingTable table(file, "certificate",
-                     {{"detectable", "see unit", "smallest size that these data show"},
-                      {"nameable", "see unit", "smallest size that can be told from the nearest other effect"},
-                      {"likeness", "1", "share of the signature that the nearest other effect can imitate"},
-                      flag("observable", "the data can show it")});
+  GrowingTable table(
+      file, "certificate",
+      {{"detectable", "see unit", "smallest size that these data show"},
+       {"nameable", "see unit", "smallest size that can be told from other effects, of exact twins as their class"},
+       {"likeness", "1", "share of the signature that the nearest other effect can imitate"},
+       flag("observable", "the data can show it")});
   table.append(columns);
   write_texts(table.group(), "effect", "id of the effect", effects);
   write_texts(table.group(), "parameter", "whose size is told", parameters);

@@ -19,13 +19,13 @@ namespace {
 
 struct Variant {
   std::string_view what;
-  double angle;    ///< of the slow sweep, shares of the excursion, or rad where the load turns with the gear
   double highest;  ///< frequency [Hz]
   double payload;  ///< times the stated one
 };
-constexpr Variant variants[] = {{"a motion over a larger angle", 1.0, 9.0, 1.0},
-                                {"a faster motion over a larger angle", 1.0, 25.0, 1.0},
-                                {"a second payload, twice the first", 1.0, 9.0, 2.0}};
+/// The gentler ones first: fast motions show how teeth yield, of which a predictor with rigid teeth knows nothing.
+constexpr Variant variants[] = {{"a motion over a larger angle", 4.0, 1.0},
+                                {"a faster motion over a larger angle", 10.0, 1.0},
+                                {"a second payload, twice the first", 4.0, 2.0}};
 
 /// A closed loop that follows a slow sweep and several sines with all its poles at one distance from the origin. Steps
 /// would let the teeth bounce, which tells more of the teeth than of anything else.
@@ -47,6 +47,9 @@ ControlScenario rich_motion(const Scenario& scenario, double angle, double highe
   control.sensor.filter_cutoff = 0.1 / period;
   return control;
 }
+
+/// Angle of the slow sweep where the load turns with the gear: it pulls either way, and not at all [rad].
+constexpr double quarter_turn_and_more = 2.2;
 
 bool multiply_payload(Scenario& scenario, double by) {
   if (by == 1.0) return true;
@@ -82,10 +85,12 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
                                 double excursion, int threads) {
   Experiment best;
   double best_margin = 1.0;  // sizes that could be named
+  constexpr double ample_margin = 5.0;
   for (const Variant& v : variants) {
+    if (best_margin >= ample_margin) break;
     Scenario run = extended, told = stated;
     if (!multiply_payload(run, v.payload) || !multiply_payload(told, v.payload)) continue;
-    const double angle = sizes.load_turns ? 2.2 * v.angle : excursion * v.angle;
+    const double angle = sizes.load_turns ? quarter_turn_and_more : excursion;
     run.control = rich_motion(stated, angle, v.highest, sizes.period);
     run.control->sensor.counts = 65536.0;
     run.control->disturbance.deviation = 0.01 * sizes.torque;

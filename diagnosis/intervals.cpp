@@ -65,14 +65,20 @@ Eigen::MatrixXd covariance(const Evaluation& by, const Hypothesis& h) {
 
 namespace {
 
-/// What the predictor itself gets wrong, beyond the noise: standard error in SI.
-double structural_error(std::string_view effect, double value) {
+/// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
+/// coordinate in SI.
+double structural_error(const Coordinate& c, double value) {
+  constexpr double rigid_share = 0.01;   // of a size that shows: less than a thousandth of all that acts
+  constexpr double moving_share = 0.03;  // of an inertia, which seems the smaller the faster the motion
   constexpr double held_torque = 2e-5;   // [s], of a lag or delay that acts on a torque held over a sample
   constexpr double impact_share = 0.03;  // of a gap, by how an impact goes on
+  constexpr double limit_share = 1e-3;   // of a limit that is met in the fastest motions
   constexpr double shape_share = 0.1;    // of a fall over the speed, by laws of other shapes
-  if (effect == "backlash") return impact_share * value;
-  if (effect == "stribeck") return shape_share * value;
-  return effect == "actuator_lag" || effect == "actuator_delay" ? held_torque : 0.0;
+  if (c.effect == "backlash") return impact_share * value;
+  if (c.effect == "stribeck") return shape_share * value;
+  if (c.effect == "torque_saturation") return limit_share * value;
+  if (c.effect == "worm_inertia" || c.effect == "gear_inertia") return moving_share * c.scale;
+  return c.effect == "actuator_lag" || c.effect == "actuator_delay" ? held_torque : rigid_share * c.scale;
 }
 
 }  // namespace
@@ -84,7 +90,7 @@ EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance
   const auto n = static_cast<Eigen::Index>(h.free.size());
   const auto add = [&](std::string_view field) {
     const FieldOfEffect at = field_of(now, effect, field);
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(n);
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(n), structural = Eigen::VectorXd::Zero(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const auto q = static_cast<std::size_t>(k);
       if (h.free[q].effect != effect) continue;
@@ -94,9 +100,9 @@ EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance
       const double change = field_of(extended(moved), effect, field).value - at.value;
       slope[k] =
           (field == "phase" ? std::remainder(change, 2.0 * std::numbers::pi) : change) / (step * h.free[q].scale);
+      structural[k] = slope[k] * structural_error(h.free[q], h.values[q]);
     }
-    const double floor = structural_error(effect, at.value);
-    const double error = std::sqrt(std::max(0.0, slope.dot(covariance * slope)) + floor * floor);
+    const double error = std::sqrt(std::max(0.0, slope.dot(covariance * slope)) + structural.squaredNorm());
     constexpr double normal_95 = 1.96;
     e.parameters.push_back(
         {std::string(field), at.unit, at.value, error, at.value - normal_95 * error, at.value + normal_95 * error});

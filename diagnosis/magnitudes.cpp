@@ -7,6 +7,24 @@
 
 namespace wormdrive {
 
+namespace {
+
+std::array<double, 3> rare_torques(const std::vector<PreparedRecording>& recordings) {
+  std::vector<double> sizes;
+  for (const PreparedRecording& r : recordings)
+    for (const double u : r.data.motor_torque) sizes.push_back(std::abs(u));
+  std::array<double, 3> rare{};
+  constexpr std::array<double, 3> shares{0.004, 0.015, 0.05};
+  for (std::size_t k = 0; k < shares.size() && !sizes.empty(); ++k) {
+    const auto at = static_cast<std::size_t>((1.0 - shares[k]) * static_cast<double>(sizes.size() - 1));
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(at), sizes.end());
+    rare[k] = sizes[at];
+  }
+  return rare;
+}
+
+}  // namespace
+
 Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecording>& recordings) {
   Magnitudes m;
   for (const PreparedRecording& r : recordings) {
@@ -17,6 +35,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     m.period = std::max(m.period, r.data.period);
     m.has_worm_encoder = m.has_worm_encoder || r.data.has_worm_encoder();
   }
+  m.rare_torques = rare_torques(recordings);
   const GearMesh<double> mesh = stated_mesh(scenario);
   m.has_teeth = mesh.has_teeth;
   m.worm_speed = mesh.i * m.gear_speed;

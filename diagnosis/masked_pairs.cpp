@@ -40,24 +40,35 @@ class LinearFit {
 
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Gain of the BIC by two of them together.
-  double gain(const Entry& a, const Entry& b) const {
+  /// Gain of the BIC by some of them together.
+  double gain(const std::vector<const Entry*>& together) const {
     std::vector<Eigen::Index> in;
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(base_.free.size()); ++k) in.push_back(k);
-    in.insert(in.end(), a.columns.begin(), a.columns.end());
-    in.insert(in.end(), b.columns.begin(), b.columns.end());
+    for (const Entry* e : together) in.insert(in.end(), e->columns.begin(), e->columns.end());
     Eigen::MatrixXd A = A_(in, in);
     Eigen::VectorXd g = b_(in);
     Hypothesis tolerances{.effects = {}, .free = base_.free, .values = base_.values};
-    for (const Entry* e : {&a, &b})
+    for (const Entry* e : together)
       for (Coordinate& c : tolerances.free)
         for (const Coordinate& own : all_[e->suspect].coordinates)
           if (own.is(c) || all_[e->suspect].frees == c.effect) c.tolerance = 0.0;
     add_tolerances(tolerances, A, g);
     double unknown = 0.0;
-    for (const Entry* e : {&a, &b}) unknown += static_cast<double>(all_[e->suspect].coordinates.size());
+    for (const Entry* e : together) unknown += static_cast<double>(all_[e->suspect].coordinates.size());
     constexpr double per_unknown = 10.0;  // about ln N
     return g.dot(solve_normal(A, g, 1e-6)) - per_unknown * unknown;
+  }
+
+  /// Of suspects together, each from the start that does best alone.
+  double gain_of(const std::vector<std::size_t>& suspects) const {
+    std::vector<const Entry*> together;
+    for (const std::size_t suspect : suspects) {
+      const Entry* best = nullptr;
+      for (const Entry& e : entries_)
+        if (e.suspect == suspect && (!best || gain({&e}) > gain({best}))) best = &e;
+      if (best) together.push_back(best);
+    }
+    return gain(together);
   }
 
  private:
@@ -71,15 +82,18 @@ class LinearFit {
 }  // namespace
 
 std::vector<MaskedPair> masked_pairs(const Evaluation& by, const Hypothesis& base, const Screening& screening,
-                                     const std::vector<Suspect>& all, double more_than, std::size_t most) {
+                                     const std::vector<Suspect>& all, const std::vector<std::size_t>& causes,
+                                     std::size_t most) {
   const LinearFit linear(by, base, screening, all);
+  constexpr double least_gain = 20.0, least_share = 0.05;
+  const double have = linear.gain_of(causes), more_than = have + std::max(least_gain, least_share * have);
   const std::vector<Entry>& e = linear.entries();
   std::vector<MaskedPair> pairs;
   for (std::size_t i = 0; i < e.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Suspect &a = all[e[i].suspect], &b = all[e[j].suspect];
       if (e[i].suspect == e[j].suspect || a.frees == b.effect || b.frees == a.effect) continue;
-      const double gain = linear.gain(e[i], e[j]);
+      const double gain = linear.gain({&e[i], &e[j]});
       if (gain > more_than) pairs.push_back({e[i].suspect, e[j].suspect, e[i].start, e[j].start, gain});
     }
   std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });

@@ -1,11 +1,9 @@
 #include "diagnosis/selection.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
-#include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/prediction_error.hpp"
 
@@ -26,6 +24,7 @@ Selection CauseSearch::operator()(Hypothesis base) {
   simplify();
   tell("trying pairs");
   try_pairs();
+  confirm_classes();
   // a stated number that a cause frees is a part of its law, no cause beside it
   std::erase_if(s_.causes, [&, causes = s_.causes](const Found& found) {
     return std::any_of(causes.begin(), causes.end(),
@@ -107,7 +106,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   parallel_for(std::min(polished, tried.size()), by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
-    fit_bounces(by_, h);
+    if (all_[tried[k].suspect].bounces) fit_bounces(by_, h, 1.0);
     restart_noise(by_, h);
     adjust_noise(by_, h, 3);
     fit(by_, h, 4);
@@ -195,99 +194,6 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     return true;
   }
   return false;
-}
-
-/// The base with some causes, from the values of a warm hypothesis where it has them.
-Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const {
-  Hypothesis h = s_.base;
-  for (const std::size_t c : causes) add_suspect(h, all_, c, all_[c].starts.size() > 1 ? 1 : 0);
-  if (warm) {
-    for (std::size_t k = 0; k < h.free.size(); ++k) {
-      const int there = index_of(*warm, h.free[k]);
-      if (there >= 0) h.values[k] = warm->values[static_cast<std::size_t>(there)];
-    }
-    h.noise = warm->noise;
-    for (const std::size_t c : causes)
-      for (const FieldValue& f : all_[c].starts.front().chosen)
-        if (field_of(warm->effects, f.effect, f.field).on)
-          set_field(h.effects, {f.effect, f.field, field_of(warm->effects, f.effect, f.field).value});
-  }
-  fit(by_, h, rounds);
-  return h;
-}
-
-void CauseSearch::eliminate() {
-  for (bool again = s_.causes.size() >= 2; again;) {
-    again = false;
-    for (std::size_t k = 0; k + 1 < s_.causes.size(); ++k) {
-      std::vector<std::size_t> rest;
-      for (std::size_t j = 0; j < s_.causes.size(); ++j)
-        if (j != k) rest.push_back(s_.causes[j].suspect);
-      Hypothesis without = fit_causes(rest, &s_.model, 6);
-      adjust_noise(by_, without, 3);
-      const Suspect& suspect = all_[s_.causes[k].suspect];
-      if (accepted(compare(without, s_.model, suspect, by_.layout()), suspect)) continue;
-      s_.model = std::move(without);
-      s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(k));
-      again = true;
-      break;
-    }
-  }
-}
-
-/// A suspect that frees a stated number gives way to that number alone where this does nearly as well.
-void CauseSearch::simplify() {
-  for (Found& found : s_.causes) {
-    const Suspect& suspect = all_[found.suspect];
-    const auto simple = std::find_if(all_.begin(), all_.end(), [&](const Suspect& x) {
-      return !suspect.frees.empty() && x.effect == suspect.frees;
-    });
-    if (simple == all_.end()) continue;
-    const auto index = static_cast<std::size_t>(simple - all_.begin());
-    std::vector<std::size_t> causes;
-    for (const Found& f : s_.causes) causes.push_back(f.suspect == found.suspect ? index : f.suspect);
-    if (std::count(causes.begin(), causes.end(), index) > 1) continue;
-    Hypothesis simpler = fit_causes(causes, &s_.model, 6);
-    constexpr double nearly = 6.0;
-    if (simpler.bic >= s_.model.bic + nearly) continue;
-    s_.model = std::move(simpler);
-    found = {index, {}};
-  }
-}
-
-void CauseSearch::try_pairs() {
-  const double have = s_.base.bic - s_.model.bic;
-  const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
-  constexpr std::size_t most = 6;
-  const std::vector<MaskedPair> pairs = masked_pairs(by_, s_.base, s_.screening, all_, have + margin, most);
-  std::vector<Hypothesis> fitted(pairs.size());
-  parallel_for(pairs.size(), by_.threads(), [&](std::size_t k) {
-    Hypothesis& h = fitted[k];
-    h = s_.base;
-    add_suspect(h, all_, pairs[k].first, pairs[k].first_start);
-    add_suspect(h, all_, pairs[k].second, pairs[k].second_start);
-    fit(by_, h, 10);
-    adjust_noise(by_, h, 3);
-    fit(by_, h, 3);
-  });
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Hypothesis& h = fitted[k];
-    if (h.bic >= s_.model.bic - margin) continue;
-    const Suspect &a = all_[pairs[k].first], &b = all_[pairs[k].second];
-    std::vector<std::size_t> now;
-    for (const Found& f : s_.causes) now.push_back(f.suspect);
-    std::sort(now.begin(), now.end());
-    if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
-      continue;
-    Suspect unstated;  // the pair as a whole is judged by the data that were held out
-    if (!accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
-    const Hypothesis only_b = fit_causes({pairs[k].second}, &h, 6), only_a = fit_causes({pairs[k].first}, &h, 6);
-    if (!accepted(compare(only_b, h, a, by_.layout()), a) || !accepted(compare(only_a, h, b, by_.layout()), b))
-      continue;
-    s_.model = h;
-    s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};
-  }
-  simplify();
 }
 
 }  // namespace wormdrive

@@ -52,6 +52,7 @@ class CauseSearch {
   void simplify();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
   void try_pairs();
+  void confirm_classes();
   void tell(const std::string& what) const {
     if (progress_) progress_(what);
   }

@@ -46,8 +46,9 @@ Suspect finite(std::string_view effect, std::string_view field, double scale, do
 
 Suspect stribeck(const Magnitudes& m) {
   Suspect s = linear("stribeck", "drop", 0.08 * m.friction, -2.0 * m.friction, 2.0 * m.friction);
+  // a fall within a smaller speed is passed within a few samples: that is friction of rest
   s.coordinates.push_back(
-      plain_coordinate("stribeck", "speed", 0.06 * m.sliding_speed, 0.004 * m.sliding_speed, 3.0 * m.sliding_speed));
+      plain_coordinate("stribeck", "speed", 0.06 * m.sliding_speed, 0.02 * m.sliding_speed, 3.0 * m.sliding_speed));
   s.finite = s.either_sign = true;
   s.starts.clear();
   for (const double exponent : {1.0, 2.0})
@@ -111,9 +112,10 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
                        {0.5 * m.period, 3.0 * m.period}));
   all.push_back(finite("actuator_delay", "delay", m.period, 0.0, 30.0 * m.period, {0.5 * m.period, 3.0 * m.period}));
   all.back().twins = {"encoder_delay"};
+  // a limit far above the true one cuts little, and what it leaves passes for outliers
   all.push_back(finite("torque_saturation", "limit", 0.02 * m.largest_torque, 0.1 * m.largest_torque,
                        1.2 * m.largest_torque,
-                       {0.97 * m.largest_torque, 0.85 * m.largest_torque, 0.7 * m.largest_torque}));
+                       {0.97 * m.largest_torque, m.rare_torques[0], m.rare_torques[1], m.rare_torques[2]}));
   all.back().resizable = false;
   all.push_back(linear("encoder_scale", "share", 0.01, -0.3, 0.3));
   if (m.has_teeth) {

@@ -45,11 +45,11 @@ std::string gain_sentence(const Diagnosis& d) {
 /// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
 constexpr double most_noise = 1.0 / 3.0;
 
-bool drowned(const Diagnosis& d, double torque) {
-  const bool bounces =
-      std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
-  return !bounces && d.noise_torque > most_noise * torque;
+bool bounces(const Diagnosis& d) {
+  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
 }
+
+bool drowned(const Diagnosis& d, double torque) { return !bounces(d) && d.noise_torque > most_noise * torque; }
 
 std::string remainder_sentence(const Diagnosis& d, double torque) {
   const bool linear = d.extended.axis == Axis::linear;
@@ -107,7 +107,9 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
 
   // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of the error
   // ahead, of which little but noise is left, or of all that the data show.
-  constexpr double most_of_the_error = 3.0, little_but_noise = 2.0, most_of_the_evidence = 30.0;
+  // A shock is followed no better than its law, which leaves more behind.
+  constexpr double most_of_the_error = 3.0, little_but_noise = 2.0;
+  const double most_of_the_evidence = bounces(d) ? 10.0 : 30.0;
   const PredictionError* e = told(d);
   double left = 0.0;
   for (const Remainder& r : d.remainders) left = std::max(left, r.gain);

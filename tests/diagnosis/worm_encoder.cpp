@@ -47,7 +47,7 @@ Hypothesis fitted(const Bench& b, std::string_view effect, std::size_t start = 0
   REQUIRE(h.free.size() > 0);
   fit(b.by, h, 10);
   adjust_noise(b.by, h, 6);
-  fit_bounces(b.by, h);
+  fit_bounces(b.by, h, 1.0);
   fit(b.by, h, 10);
   return h;
 }

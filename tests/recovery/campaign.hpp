@@ -89,14 +89,15 @@ using Diagnose =
 enum class Score {
   exact,     ///< the effects, no more and no less; of effects with the same data one of them, or the class of them
   in_class,  ///< ambiguous, and the truth is of the class
+  off,       ///< beside them, or where nothing was hidden, stated numbers that are off by far more than they may be
   partial,   ///< some of the effects, and nothing else
   extra,     ///< the truth and something beside
   silent,    ///< no name, though something was hidden
   wrong,     ///< a name that is not the truth
   crash      ///< an exception
 };
-inline constexpr Score scores[] = {Score::exact,  Score::in_class, Score::partial, Score::extra,
-                                   Score::silent, Score::wrong,    Score::crash};
+inline constexpr Score scores[] = {Score::exact, Score::in_class, Score::off,   Score::partial,
+                                   Score::extra, Score::silent,   Score::wrong, Score::crash};
 std::string_view name(Score score);
 
 struct Outcome {

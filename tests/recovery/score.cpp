@@ -8,14 +8,30 @@
 namespace recovery {
 namespace {
 
-/// Whether a certificate says that an effect of this size can be named; of exact twins, that it can be seen.
+/// Whether a certificate says that an effect of this size can be named; of exact twins, as their class.
 bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding) {
   const truth::Secret& secret = *hiding.secret;
   const wormdrive::Visibility* v = visibility(found, secret.effect);
   if (!v) return true;
   if (!v->observable) return false;
   if (secret.effect == "torque_saturation") return hiding.amount <= v->detectable;
-  return std::abs(hiding.amount) >= (secret.twins.empty() ? v->nameable : v->detectable);
+  return std::abs(hiding.amount) >= v->nameable;
+}
+
+/// Whether a stated number is off by so many of its tolerances that naming it is no fault.
+bool is_off(std::string_view named, const truth::Drive& drive, const wormdrive::Tolerances& stated) {
+  constexpr double far = 2.5;
+  const truth::Geometry sheet;
+  const double gear_inertia = sheet.gear_inertia + sheet.mass * sheet.arm * sheet.arm;
+  const auto beyond = [&](std::string_view effect, double tolerance) {
+    return same_or_twin(named, truth::secret(effect)) &&
+           std::abs(truth::secret(effect).parameters.front().of(drive)) >= far * tolerance && tolerance > 0.0;
+  };
+  return beyond("mesh_friction", stated.friction * truth::MeshFriction{}.level) ||
+         beyond("load_magnitude", stated.load) || beyond("load_angle", stated.load_angle) ||
+         beyond("torque_gain", stated.torque_gain) || beyond("torque_offset", stated.torque_offset.value_or(0.0)) ||
+         beyond("worm_inertia", stated.worm_inertia * sheet.worm_inertia) ||
+         beyond("gear_inertia", stated.gear_inertia * gear_inertia);
 }
 
 }  // namespace
@@ -24,6 +40,7 @@ std::string_view name(Score score) {
   switch (score) {
     case Score::exact: return "exact";
     case Score::in_class: return "in class";
+    case Score::off: return "off";
     case Score::partial: return "partial";
     case Score::extra: return "extra";
     case Score::silent: return "silent";
@@ -56,9 +73,9 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   if (claims)
     for (const auto& cause : found.causes) outcome.named.push_back(cause.effect);
   outcome.class_size = std::max<std::size_t>(1, found.equivalents.size());
-  const auto is_hidden = [&](const std::string& named) {
+  const auto is_hidden = [&](const std::string& cause) {
     return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
-                       [&](const Hiding& h) { return same_or_twin(named, *h.secret); });
+                       [&](const Hiding& h) { return same_or_twin(cause, *h.secret); });
   };
   const auto is_named = [&](const Hiding& h, const std::vector<std::string>& names) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_or_twin(n, *h.secret); });
@@ -68,18 +85,29 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
   const bool only_hidden =
       std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
+  const auto stated = data_sheet(drawn.conditions).tolerance.value_or(wormdrive::Tolerances{});
+  const auto off = [&](const std::string& cause) { return is_off(cause, drive, stated); };
+  const bool only_true = std::all_of(outcome.named.begin(), outcome.named.end(), [&](const std::string& cause) {
+    return is_hidden(cause) || off(cause) ||
+           (found.verdict == Verdict::ambiguous &&
+            std::any_of(found.equivalents.begin(), found.equivalents.end(), off));
+  });
+  const bool some_off = !std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden);
   const bool class_of_twins = std::all_of(found.equivalents.begin(), found.equivalents.end(), is_hidden);
   if (!claims || outcome.named.empty())
     outcome.score = drawn.hidden.empty() ? Score::exact : Score::silent;
   else if (drawn.hidden.empty())
-    outcome.score = Score::wrong;
+    outcome.score = only_true ? Score::off : Score::wrong;
   else if (all_named && only_hidden && (found.verdict == Verdict::named || class_of_twins))
     outcome.score = Score::exact;
   else if (found.verdict == Verdict::ambiguous && std::all_of(drawn.hidden.begin(), drawn.hidden.end(), in_class) &&
            outcome.named.size() <= drawn.hidden.size())
     outcome.score = Score::in_class;
   else
-    outcome.score = all_named ? Score::extra : only_hidden ? Score::partial : Score::wrong;
+    outcome.score = all_named     ? (only_true && some_off ? Score::off : Score::extra)
+                    : only_hidden ? Score::partial
+                    : only_true   ? Score::silent
+                                  : Score::wrong;
   for (const Hiding& hiding : drawn.hidden)
     for (const auto& cause : found.causes) {
       if (cause.effect != hiding.secret->effect) continue;

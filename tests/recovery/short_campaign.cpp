@@ -84,6 +84,26 @@ TEST_CASE("the score of a diagnosis is what it deserves") {
   CHECK(scored({"dwell"}, named, {"static_friction"}) == Score::exact);
 }
 
+TEST_CASE("to name a stated number that is off by far more than it may be is no fault") {
+  truth::Drive drive;
+  const auto score_of = [&](const std::vector<std::string>& hidden, const std::vector<std::string>& named) {
+    Case drawn = hiding(hidden);
+    drawn.conditions = conditions("double");
+    wormdrive::Diagnosis found;
+    found.verdict = named.empty() ? wormdrive::Verdict::adequate : wormdrive::Verdict::named;
+    for (const std::string& effect : named) found.causes.push_back({effect, {}});
+    return judge(drawn, drive, found).score;
+  };
+  drive.geometry.worm_inertia *= 1.02;  // of 1 % stated
+  CHECK(score_of({}, {"worm_inertia"}) == Score::wrong);
+  drive.geometry.worm_inertia *= 1.02;
+  CHECK(score_of({}, {"worm_inertia"}) == Score::off);
+  CHECK(score_of({}, {"worm_inertia", "stribeck"}) == Score::wrong);
+  CHECK(score_of({"stribeck"}, {"stribeck", "worm_inertia"}) == Score::off);
+  CHECK(score_of({"stribeck"}, {"worm_inertia"}) == Score::silent);
+  CHECK(score_of({"encoder_offset"}, {"load_angle", "encoder_offset"}) == Score::extra);
+}
+
 TEST_CASE("an estimate is compared with what the drive truly has, its nominal error included") {
   truth::Drive drive;
   drive.friction.level = 0.25 * 1.01 + 0.015;

@@ -58,7 +58,8 @@ std::string score_row(const std::string& title, const std::vector<Outcome>& outc
   };
   const double covered = intervals > 0 ? static_cast<double>(within) / static_cast<double>(intervals) : std::nan("");
   row += fmt::format(" {} | {:.2f} | {} | {} | {} |\n", flagged, mean_class, shown(median(errors), 100.0, " %"),
-                     shown(covered, 100.0, " %"), shown(median(held_out), 1.0, ""));
+                     std::isnan(covered) ? "-" : fmt::format("{:.0f} %", 100.0 * covered),
+                     shown(median(held_out), 1.0, ""));
   return row;
 }
 
@@ -101,14 +102,14 @@ std::string tables(const Plan& plan, const std::vector<Outcome>& outcomes) {
   for (const truth::Size size : truth::sizes)
     if (const auto some = of_size(outcomes, size); !some.empty()) text += score_row(std::string(name(size)), some);
   text += score_row("all", outcomes);
-  if (plan.kind == Kind::single) {
+  if (plan.kind != Kind::nothing && plan.kind != Kind::outside) {
     std::vector<Outcome> observable;
     std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(observable),
                  [](const Outcome& o) { return o.observable; });
     text += score_row("observable", observable);
   }
   if (plan.kind == Kind::nothing) {
-    const long named = count(outcomes, Score::wrong);
+    const long named = count(outcomes, Score::wrong);  // a number that is off was named rightly
     text += fmt::format("\nFalse names: {} of {}; the rate is at most {:.1f} % (95 %).\n", named, outcomes.size(),
                         100.0 * rate_at_most(named, static_cast<long>(outcomes.size())));
   }

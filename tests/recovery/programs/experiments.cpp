@@ -1,6 +1,7 @@
 #include "recovery/programs/experiments.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +19,15 @@ truth::Course course_of(const wormdrive::Scenario& experiment) {
   return truth::course_through(std::move(angle));
 }
 
+/// A slow motion that leaves classes; the smaller and slower the larger ones.
+truth::Course poor_course(truth::Generator& generator, double duration) {
+  const auto by_ratio = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
+  };
+  const double amplitude = by_ratio(0.1, 0.8);
+  return truth::slow_course(amplitude, by_ratio(0.06, 0.3), duration);
+}
+
 }  // namespace
 
 std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
@@ -26,7 +36,7 @@ std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
     truth::Generator generator(hidden.seed);
     truth::Drive drive = disturbed_drive(hidden, generator);
     const wormdrive::Scenario sheet = data_sheet(hidden.conditions);
-    const auto slow = follow(drive, truth::slow_course(0.6, 0.1, hidden.duration), sheet, generator());
+    const auto slow = follow(drive, poor_course(generator, hidden.duration), sheet, generator());
     const wormdrive::Diagnosis first = diagnose(sheet, {slow});
     if (first.verdict != wormdrive::Verdict::ambiguous) continue;
     if (judge(hidden, drive, first).score != Score::in_class) continue;

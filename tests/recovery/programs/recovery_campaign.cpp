@@ -66,6 +66,7 @@ Where nominal values are exact the data sheet says so (`[tolerance]` 0), else it
 |---|---|
 | exact | the hidden effects, no more and no less; nothing where nothing was hidden |
 | in class | a class of effects that the data cannot split, the hidden one among them |
+| off | beside them, or where nothing was hidden, only stated numbers that are in truth off by 2.5 tolerances or more |
 | partial | some of several hidden effects, nothing else |
 | extra | the hidden effects and another one |
 | silent | no name |

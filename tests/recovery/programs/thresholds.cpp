@@ -35,9 +35,7 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
   std::vector<Threshold> measured;
   for (const truth::Secret* secret : secrets) {
     const wormdrive::Visibility* seen = visibility(bare, secret->effect);
-    // exact twins are named as a class: seeing one is naming it
-    const bool twins = !secret->twins.empty();
-    Threshold t{secret, seen ? seen->detectable : never, seen ? (twins ? seen->detectable : seen->nameable) : never};
+    Threshold t{secret, seen ? seen->detectable : never, seen ? seen->nameable : never};
     if (std::isfinite(t.nameable))
       for (const double multiple : multiples) {
         Case hiding = nothing;

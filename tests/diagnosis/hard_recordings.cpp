@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/magnitudes.hpp"
+#include "recovery/campaign.hpp"
+
+// Recordings of the recovery tests' own drive that once led a diagnosis astray, each for its own reason.
+
+namespace wormdrive::test::diagnosis_hard_recordings {
+
+namespace {
+
+struct Amount {
+  const char* effect;
+  double amount;
+};
+
+recovery::Case hard(std::uint64_t seed, const std::vector<Amount>& hidden) {
+  recovery::Case drawn{recovery::Kind::single, recovery::conditions("ideal"), seed, {}};
+  for (const Amount& h : hidden) drawn.hidden.push_back({&truth::secret(h.effect), truth::Size::medium, h.amount});
+  return drawn;
+}
+
+struct Answer {
+  recovery::Score score;
+  Diagnosis diagnosis;
+};
+
+Answer answer(const recovery::Case& drawn) {
+  const recovery::Bench bench = recovery::record(drawn);
+  Diagnosis d = diagnose(recovery::data_sheet(drawn.conditions), {bench.recording}, {.threads = 2});
+  return {recovery::judge(drawn, bench.drive, d).score, std::move(d)};
+}
+
+}  // namespace
+
+TEST_CASE("a limit far below the largest command is found, though all that it cuts passes for outliers") {
+  const auto [score, d] = answer(hard(10510089960399327083U, {{"torque_saturation", 0.12}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("commands that are seldom exceeded are known") {
+  Recording r;
+  r.period = 1e-3;
+  for (int k = 0; k < 1000; ++k) {
+    r.motor_torque.push_back((k % 2 == 0 ? 1e-3 : -1e-3) * k);
+    r.gear_angle.push_back(1e-3 * k);
+  }
+  r.valid.assign(r.samples(), 1);
+  const Magnitudes m = magnitudes(recovery::data_sheet(recovery::conditions("ideal")), {prepared(r, {}, 0, 60.0)});
+  CHECK(m.largest_torque == 0.999);
+  CHECK(std::abs(m.rare_torques[0] - 0.995) < 1e-12);
+  CHECK(std::abs(m.rare_torques[1] - 0.984) < 1e-12);
+  CHECK(std::abs(m.rare_torques[2] - 0.949) < 1e-12);
+}
+
+TEST_CASE("two effects that nearly cancel are found though other ones were found first") {
+  const auto [score, d] = answer(hard(7809331778440145391U, {{"mesh_friction", 0.015}, {"load_magnitude", -0.06}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("what did as well as a cause when that was found is no class with it if it does not so in the end") {
+  const auto [score, d] = answer(hard(18133264718257835443U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+  CHECK(d.equivalents.empty());
+}
+
+TEST_CASE("less friction at one place of the gear is seen, and no name is claimed for it") {
+  const auto [score, d] = answer(hard(76605843690817575U, {{"friction_spot", -0.2}}));
+  CAPTURE(d.sentence);
+  CHECK(d.verdict == Verdict::unexplained);
+  CHECK(std::any_of(d.remainders.begin(), d.remainders.end(), [](const auto& r) { return r.axis == "one angle"; }));
+}
+
+}  // namespace wormdrive::test::diagnosis_hard_recordings
