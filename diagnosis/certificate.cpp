@@ -17,11 +17,13 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Squared length of a signature in standard deviations that a search can find: least BIC and ln N together.
 constexpr double least_length = 30.0;
 
-/// A suspect's signatures from one start, weighted by the noise.
+using Columns = std::vector<Eigen::Index>;
+
+/// A suspect's signatures from one start.
 struct Signature {
   std::size_t suspect, start;
-  Eigen::MatrixXd columns;
-  double size;  ///< that leaves it, of the first field [SI]
+  Columns columns;  ///< of the Gram matrix
+  double size;      ///< that leaves it, of the first field [SI]
 };
 
 class Signatures {
@@ -29,20 +31,25 @@ class Signatures {
   Signatures(const Evaluation& by, const Hypothesis& base, const Screening& screening, const std::vector<Suspect>& all)
       : base_(base), all_(all) {
     const WeightedColumns weigh(fit_weights(by.layout(), base.residuals, base.noise_model));
-    for (const auto& c : screening.free_columns) free_.push_back(weigh(c));
+    std::vector<Eigen::VectorXd> all_columns;
+    for (const auto& c : screening.free_columns) all_columns.push_back(weigh(c));
     for (const Screened& s : screening.found) {
       const Suspect& suspect = all[s.suspect];
       Signature made{s.suspect, s.start, {}, suspect.coordinates[0].scale};
       if (suspect.finite) made.size = std::abs(suspect.starts[s.start].values[0]);
-      std::vector<Eigen::VectorXd> columns;
-      for (const auto& c : s.signatures) columns.push_back(weigh(c));
-      if (suspect.toleranced)
-        columns.push_back(free_[static_cast<std::size_t>(index_of(base, suspect.coordinates[0]))]);
-      if (!is_periodic(suspect) && columns.size() > 1) columns.resize(1);
-      made.columns.resize(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
-      for (std::size_t k = 0; k < columns.size(); ++k) made.columns.col(static_cast<Eigen::Index>(k)) = columns[k];
+      for (const auto& c : s.signatures) {
+        made.columns.push_back(static_cast<Eigen::Index>(all_columns.size()));
+        all_columns.push_back(weigh(c));
+      }
+      if (suspect.toleranced) made.columns.push_back(index_of(base, suspect.coordinates[0]));
+      if (!is_periodic(suspect) && made.columns.size() > 1)
+        made.columns.erase(made.columns.begin() + 1, made.columns.end());
       list_.push_back(std::move(made));
     }
+    if (all_columns.empty()) return;
+    Eigen::MatrixXd V(all_columns.front().size(), static_cast<Eigen::Index>(all_columns.size()));
+    for (std::size_t k = 0; k < all_columns.size(); ++k) V.col(static_cast<Eigen::Index>(k)) = all_columns[k];
+    gram_ = V.transpose() * V;
   }
 
   const std::vector<Signature>& list() const { return list_; }
@@ -50,29 +57,26 @@ class Signatures {
 
   /// Squared length of the worst direction of a signature beside the tolerances and, if given, another suspect.
   double length(const Signature& of, const Signature* beside) const {
-    const Eigen::MatrixXd& V = of.columns;
-    Eigen::MatrixXd gram = V.transpose() * V;
-    std::vector<Eigen::VectorXd> others;
+    Eigen::MatrixXd gram = gram_(of.columns, of.columns);
+    Columns others;
     std::vector<double> precision;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
+    for (std::size_t k = 0; k < base_.free.size(); ++k) {
       const Coordinate& c = base_.free[k];
       if (belongs(all_[of.suspect], c)) continue;
-      others.push_back(free_[k]);
+      others.push_back(static_cast<Eigen::Index>(k));
       const bool freed = beside && belongs(all_[beside->suspect], c);
       precision.push_back(freed ? 0.0 : std::pow(c.scale / c.tolerance, 2));
     }
     if (beside && !all_[beside->suspect].toleranced)
-      for (Eigen::Index k = 0; k < beside->columns.cols(); ++k) {
-        others.push_back(beside->columns.col(k));
+      for (const Eigen::Index k : beside->columns) {
+        others.push_back(k);
         precision.push_back(0.0);
       }
     if (!others.empty()) {
-      Eigen::MatrixXd W(V.rows(), static_cast<Eigen::Index>(others.size()));
-      for (std::size_t k = 0; k < others.size(); ++k) W.col(static_cast<Eigen::Index>(k)) = others[k];
-      Eigen::MatrixXd A = W.transpose() * W;
+      Eigen::MatrixXd A = gram_(others, others);
       for (std::size_t k = 0; k < others.size(); ++k)
         A(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += precision[k];
-      const Eigen::MatrixXd cross = W.transpose() * V;
+      const Eigen::MatrixXd cross = gram_(others, of.columns);
       for (Eigen::Index k = 0; k < cross.cols(); ++k) gram.col(k) -= cross.transpose() * solve_normal(A, cross.col(k));
     }
     return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvalues()[0]);
@@ -87,7 +91,7 @@ class Signatures {
 
   const Hypothesis& base_;
   const std::vector<Suspect>& all_;
-  std::vector<Eigen::VectorXd> free_;
+  Eigen::MatrixXd gram_;  ///< of the free coordinates' columns, then of all signatures, weighted by the noise
   std::vector<Signature> list_;
 };
 
