@@ -86,7 +86,8 @@ std::vector<MaskedPair> masked_pairs(const Evaluation& by, const Hypothesis& bas
                                      std::size_t most) {
   const LinearFit linear(by, base, screening, all);
   constexpr double least_gain = 20.0, least_share = 0.05;
-  const double have = linear.gain_of(causes), more_than = have + std::max(least_gain, least_share * have);
+  const double have = linear.gain_of(causes), clearly = std::max(least_gain, least_share * have);
+  const double more_than = causes.size() > 2 ? have - clearly : have + clearly;
   const std::vector<Entry>& e = linear.entries();
   std::vector<MaskedPair> pairs;
   for (std::size_t i = 0; i < e.size(); ++i)

@@ -12,8 +12,8 @@ struct MaskedPair {
   double gain;  ///< of the BIC, in the linear fit
 };
 
-/// The pairs that promise clearly more than these causes, by one linear fit of all signatures for both, which knows
-/// nothing of how the noise changes with a better model; the best first.
+/// The pairs that promise clearly more than these causes, or about as much as three or more, by one linear fit of all
+/// signatures for both, which knows nothing of how the noise changes with a better model; the best first.
 std::vector<MaskedPair> masked_pairs(const Evaluation& by, const Hypothesis& base, const Screening& screening,
                                      const std::vector<Suspect>& all, const std::vector<std::size_t>& causes,
                                      std::size_t most);

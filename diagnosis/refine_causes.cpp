@@ -69,10 +69,10 @@ void CauseSearch::simplify() {
 
 void CauseSearch::try_pairs() {
   const double have = s_.base.bic - s_.model.bic;
-  const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
   constexpr std::size_t most = 6;
   std::vector<std::size_t> now;
   for (const Found& f : s_.causes) now.push_back(f.suspect);
+  const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
   const std::vector<MaskedPair> pairs = masked_pairs(by_, s_.base, s_.screening, all_, now, most);
   std::vector<Hypothesis> fitted(pairs.size());
   parallel_for(pairs.size(), by_.threads(), [&](std::size_t k) {
@@ -86,7 +86,8 @@ void CauseSearch::try_pairs() {
   });
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Hypothesis& h = fitted[k];
-    if (h.bic >= s_.model.bic - margin) continue;
+    const bool fewer = s_.causes.size() > 2;  // that do as well are the better explanation
+    if (h.bic >= s_.model.bic - (fewer ? 0.0 : margin)) continue;
     const Suspect &a = all_[pairs[k].first], &b = all_[pairs[k].second];
     now.clear();
     for (const Found& f : s_.causes) now.push_back(f.suspect);
@@ -94,7 +95,7 @@ void CauseSearch::try_pairs() {
     if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
       continue;
     Suspect unstated;  // the pair as a whole is judged by the data that were held out
-    if (!accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
+    if (!fewer && !accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
     const Hypothesis only_b = fit_causes({pairs[k].second}, &h, 6), only_a = fit_causes({pairs[k].first}, &h, 6);
     if (!accepted(compare(only_b, h, a, by_.layout()), a) || !accepted(compare(only_a, h, b, by_.layout()), b))
       continue;

@@ -70,6 +70,13 @@ TEST_CASE("what did as well as a cause when that was found is no class with it i
   CHECK(d.equivalents.empty());
 }
 
+TEST_CASE("two causes that do as well as three are the better explanation") {
+  // less inertia of worm and gear and some of the load is the same motion
+  const auto [score, d] = answer(hard(12987163819398539930U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
 TEST_CASE("less friction at one place of the gear is seen, and no name is claimed for it") {
   const auto [score, d] = answer(hard(76605843690817575U, {{"friction_spot", -0.2}}));
   CAPTURE(d.sentence);
