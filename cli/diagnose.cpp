@@ -14,6 +14,7 @@
 #include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
+#include "diagnosis/parallel.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 
@@ -88,13 +89,19 @@ void print(const Diagnosis& d, const std::vector<std::string>& written, const st
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
-std::vector<std::string> draw_pictures(const DiagnosisFolder& folder) {
-  std::vector<std::string> pictures;
-  for (const std::string name : {"prediction", "residual", "ranking", "certificate"}) {
-    const std::string picture = folder.inside(name + ".png");
-    if (draw({{folder.inside("diagnosis.h5")}, picture, "", name}) == 0) pictures.push_back(picture);
-  }
+std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_time) {
+  const std::vector<std::string> parts{"prediction", "residual", "ranking", "certificate"};
+  std::vector<std::string> pictures(parts.size());
+  parallel_for(parts.size(), at_a_time, [&](std::size_t k) {
+    const std::string picture = folder.inside(parts[k] + ".png");
+    if (draw({{folder.inside("diagnosis.h5")}, picture, "", parts[k]}) == 0) pictures[k] = picture;
+  });
+  std::erase(pictures, "");
   return pictures;
+}
+
+int threads(const DiagnoseOptions& options) {
+  return options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 /// Loads of recordings that are not the scenario's, by file.
@@ -133,16 +140,15 @@ int diagnose_command(const DiagnoseOptions& options) {
     const Phases phases(!talk);
     DiagnosisSettings settings;
     settings.seed = static_cast<std::uint64_t>(options.seed);
-    settings.threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.threads = threads(options);
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
     return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
 
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
-  const std::vector<std::string> written =
-      folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
-                   [&] { return options.pictures ? draw_pictures(folder) : std::vector<std::string>{}; });
+  const std::vector<std::string> written = folder.write(
+      diagnosis, json, scenario.title, options.scenario.command_line,
+      [&] { return options.pictures ? draw_pictures(folder, threads(options)) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk) print(diagnosis, written, folder.path());
   return 0;
