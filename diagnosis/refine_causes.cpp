@@ -9,6 +9,23 @@
 
 namespace wormdrive {
 
+namespace {
+
+std::vector<std::size_t> suspects_of(const std::vector<Found>& causes) {
+  std::vector<std::size_t> all;
+  for (const Found& f : causes) all.push_back(f.suspect);
+  return all;
+}
+
+/// The same with another suspect in the place of one; none where that one is among them already.
+std::vector<std::size_t> exchanged(const std::vector<Found>& causes, std::size_t one, std::size_t other) {
+  std::vector<std::size_t> all = suspects_of(causes);
+  std::replace(all.begin(), all.end(), one, other);
+  return std::count(all.begin(), all.end(), other) > 1 ? std::vector<std::size_t>{} : all;
+}
+
+}  // namespace
+
 /// The base with some causes, from the values of a warm hypothesis where it has them.
 Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const {
   Hypothesis h = s_.base;
@@ -56,9 +73,8 @@ void CauseSearch::simplify() {
     });
     if (simple == all_.end()) continue;
     const auto index = static_cast<std::size_t>(simple - all_.begin());
-    std::vector<std::size_t> causes;
-    for (const Found& f : s_.causes) causes.push_back(f.suspect == found.suspect ? index : f.suspect);
-    if (std::count(causes.begin(), causes.end(), index) > 1) continue;
+    const std::vector<std::size_t> causes = exchanged(s_.causes, found.suspect, index);
+    if (causes.empty()) continue;
     Hypothesis simpler = fit_causes(causes, &s_.model, 6);
     constexpr double nearly = 6.0;
     if (simpler.bic >= s_.model.bic + nearly) continue;
@@ -70,10 +86,8 @@ void CauseSearch::simplify() {
 void CauseSearch::try_pairs() {
   const double have = s_.base.bic - s_.model.bic;
   constexpr std::size_t most = 6;
-  std::vector<std::size_t> now;
-  for (const Found& f : s_.causes) now.push_back(f.suspect);
   const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
-  const std::vector<MaskedPair> pairs = masked_pairs(by_, s_.base, s_.screening, all_, now, most);
+  const std::vector<MaskedPair> pairs = masked_pairs(by_, s_.base, s_.screening, all_, suspects_of(s_.causes), most);
   std::vector<Hypothesis> fitted(pairs.size());
   parallel_for(pairs.size(), by_.threads(), [&](std::size_t k) {
     Hypothesis& h = fitted[k];
@@ -89,8 +103,7 @@ void CauseSearch::try_pairs() {
     const bool fewer = s_.causes.size() > 2;  // that do as well are the better explanation
     if (h.bic >= s_.model.bic - (fewer ? 0.0 : margin)) continue;
     const Suspect &a = all_[pairs[k].first], &b = all_[pairs[k].second];
-    now.clear();
-    for (const Found& f : s_.causes) now.push_back(f.suspect);
+    std::vector<std::size_t> now = suspects_of(s_.causes);
     std::sort(now.begin(), now.end());
     if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
       continue;
@@ -111,13 +124,12 @@ void CauseSearch::confirm_classes() {
   const double enough = s_.model.bic + reach(s_.base.bic - s_.model.bic);
   for (Found& found : s_.causes)
     std::erase_if(found.equals, [&](std::size_t other) {
-      std::vector<std::size_t> causes;
-      for (const Found& f : s_.causes) causes.push_back(&f == &found ? other : f.suspect);
-      if (std::count(causes.begin(), causes.end(), other) > 1) return true;
-      Hypothesis exchanged = fit_causes(causes, &s_.model, 8);
-      adjust_noise(by_, exchanged, 3);
-      fit(by_, exchanged, 4);
-      return exchanged.bic > enough;
+      const std::vector<std::size_t> causes = exchanged(s_.causes, found.suspect, other);
+      if (causes.empty()) return true;
+      Hypothesis rival = fit_causes(causes, &s_.model, 8);
+      adjust_noise(by_, rival, 3);
+      fit(by_, rival, 4);
+      return rival.bic > enough;
     });
 }
 
