@@ -47,7 +47,7 @@ struct DiagnoseOptions {
   std::vector<std::string> loads;  ///< "file:key=value"
   std::string output;              ///< folder
   double seed = 1;                 ///< of bootstraps
-  int threads = 0;                 ///< 0: as many as there are
+  unsigned threads = 0;            ///< 0: as many as the machine has
   bool pictures = true;
 };
 int diagnose_command(const DiagnoseOptions& options);

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <thread>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "diagnosis/parallel.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
+#include "sweep/threads.hpp"
 
 namespace wormdrive {
 namespace {
@@ -100,10 +100,6 @@ std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_t
   return pictures;
 }
 
-int threads(const DiagnoseOptions& options) {
-  return options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
 /// Loads of recordings that are not the scenario's, by file.
 std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, DataKind kind) {
   std::map<std::string, std::vector<std::string>> overrides;
@@ -136,11 +132,12 @@ int diagnose_command(const DiagnoseOptions& options) {
   const DataKind kind = kind_of_data(options.data, scenario);
   const std::map<std::string, LoadParameters> loads = own_loads(options, kind);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
+  const int threads = static_cast<int>(threads_for(options.threads));
   const Diagnosis diagnosis = [&] {
     const Phases phases(!talk);
     DiagnosisSettings settings;
     settings.seed = static_cast<std::uint64_t>(options.seed);
-    settings.threads = threads(options);
+    settings.threads = threads;
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
     return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
@@ -148,7 +145,7 @@ int diagnose_command(const DiagnoseOptions& options) {
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
   const std::vector<std::string> written = folder.write(
       diagnosis, json, scenario.title, options.scenario.command_line,
-      [&] { return options.pictures ? draw_pictures(folder, threads(options)) : std::vector<std::string>{}; });
+      [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk) print(diagnosis, written, folder.path());
   return 0;

@@ -15,6 +15,7 @@
 #include "sweep/load_study.hpp"
 #include "sweep/rank_files.hpp"
 #include "sweep/resume.hpp"
+#include "sweep/threads.hpp"
 
 namespace wormdrive {
 
@@ -38,7 +39,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   }
   SweepFile& file = *open.file;
 
-  const unsigned threads = threads_of(options);
+  const unsigned threads = threads_for(options.threads);
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0;
   const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };

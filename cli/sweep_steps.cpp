@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <ctime>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "scenarios/faults.hpp"
 #include "sweep/referee.hpp"
+#include "sweep/threads.hpp"
 
 namespace wormdrive {
 namespace {
@@ -43,10 +43,6 @@ TrialRange range_of(const std::string& shard, std::uint64_t trials) {
   return {begin(part - 1), begin(part)};
 }
 
-unsigned threads_of(const SweepOptions& options) {
-  return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
 std::string how_to_resume(const SweepOptions& options) {
   const bool has = options.command_line.find(" --resume") != std::string::npos;
   return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
@@ -74,7 +70,7 @@ std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const Swe
     if (options.referee) return count >= *options.referee;
     return count >= at_least && cpu_time() - begin >= share * trials_took;
   };
-  std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_of(options), enough);
+  std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_for(options.threads), enough);
   file.write(verdicts);
   return verdicts;
 }

@@ -26,9 +26,6 @@ class Interruptible {
 /// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.
 TrialRange range_of(const std::string& shard, std::uint64_t trials);
 
-/// How many threads make trials.
-unsigned threads_of(const SweepOptions& options);
-
 /// "go on with: wormdrive sweep ... --resume"
 std::string how_to_resume(const SweepOptions& options);
 

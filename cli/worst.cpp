@@ -6,6 +6,7 @@
 #include "cli/sweep_steps.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/second_opinion.hpp"
+#include "sweep/threads.hpp"
 #include "sweep/worst_case.hpp"
 
 namespace wormdrive {
@@ -31,9 +32,7 @@ int worst_command(const WorstOptions& options) {
   refuse_to_overwrite(options.output, options.sweep);
   const SweepReader sweep(options.sweep);
   const Study& study = sweep.study();
-  SweepOptions threads;
-  threads.threads = options.threads;
-  const WorstCase worst = find_worst(sweep, {options.metric, options.evaluations, options.tail, threads_of(threads)});
+  const WorstCase worst = find_worst(sweep, {options.metric, options.evaluations, options.tail, threads_for(options.threads)});
   Trials trials(study);
   trials.at(worst.point);
   Scenario scenario = trials.scenario();

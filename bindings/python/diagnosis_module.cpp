@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <optional>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
@@ -12,6 +10,7 @@
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
 #include "scenarios/write_scenario.hpp"
+#include "sweep/threads.hpp"
 
 namespace py = pybind11;
 
@@ -31,11 +30,11 @@ Kept kept(const std::optional<std::string>& output, std::vector<std::string> inp
 }
 
 /// What was found: the JSON of a report, the scenarios that follow, the residual torque as a table.
-py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads,
+py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, unsigned threads,
                   const Kept& kept) {
   DiagnosisSettings settings;
   settings.seed = seed;
-  settings.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = static_cast<int>(threads_for(threads));
   const DataKind kind = kind_of_data(files, scenario);
   Diagnosis found = without_python([&](SignalWatch& watch) {
     settings.progress = [&](const std::string&) { watch(); };
@@ -66,7 +65,7 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
 }  // namespace
 
 void add_diagnosis(py::module_& m) {
-  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, int threads,
+  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, unsigned threads,
                        const std::optional<std::string>& output, const std::string& scenario_file,
                        const std::string& command_line) {
     return diagnose(scenario, files, seed, threads, kept(output, files, scenario_file, command_line));

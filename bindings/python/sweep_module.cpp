@@ -1,25 +1,18 @@
-#include <algorithm>
-#include <thread>
-
 #include "bindings/python/module.hpp"
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "bindings/python/sweep_result.hpp"
 #include "sweep/load_study.hpp"
+#include "sweep/threads.hpp"
 
 namespace py = pybind11;
 
 namespace wormdrive {
 namespace {
 
-/// 0: as many as the machine has.
-unsigned wanted_threads(unsigned threads) {
-  return threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
 std::unique_ptr<SweepResult> run(Study study, unsigned threads) {
   auto result = std::make_unique<SweepResult>(std::move(study));
-  without_python([&](SignalWatch& watch) { result->run(wanted_threads(threads), [&] { watch(); }); });
+  without_python([&](SignalWatch& watch) { result->run(threads_for(threads), [&] { watch(); }); });
   return result;
 }
 
@@ -46,7 +39,7 @@ void add_sweep(py::module_& m) {
           "write",
           [](const SweepResult& r, const std::string& path, const std::string& command_line, std::size_t referee) {
             const py::gil_scoped_release others_may_run;
-            r.write(path, command_line, referee, wanted_threads(0));
+            r.write(path, command_line, referee, threads_for(0));
           },
           py::arg("path"), py::arg("command_line"), py::arg("referee"));
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
