@@ -1,8 +1,12 @@
 #include "diagnosis/bounces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/impact.hpp"
 #include "diagnosis/fit.hpp"
@@ -11,32 +15,81 @@
 
 namespace wormdrive {
 
-void fit_bounces(const Evaluation& by, Hypothesis& h, double widest) {
-  const auto found =
-      std::find_if(h.free.begin(), h.free.end(), [](const Coordinate& c) { return c.effect == "backlash"; });
-  if (found == h.free.end()) return;
-  const Coordinate gap = *found;
-  const auto index = static_cast<std::size_t>(found - h.free.begin());
-  for (double width = widest; width >= 0.25; width *= 0.5) {
-    std::vector<Hypothesis> trials;
-    for (const double by_gap : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0})
-      for (const double by_restitution : {-1.0, 0.0, 1.0})
-        for (const double by_duration : {-1.0, 0.0, 1.0}) {
-          Hypothesis trial = h;
-          const auto [restitution, duration] = h.noise.bounce;
-          trial.values[index] = std::clamp(h.values[index] * std::exp(0.1 * width * by_gap), gap.low, gap.high);
-          trial.noise.bounce = {std::clamp(restitution + 0.06 * width * by_restitution, 0.1, 0.95),
-                                std::clamp(duration + 3e-4 * width * by_duration, 1e-4, 3e-3)};
-          trials.push_back(std::move(trial));
-        }
-    parallel_for(trials.size(), by.threads(), [&](std::size_t k) { evaluate(by, trials[k]); });
-    constexpr double least_gain = 2.0;
-    const auto best = std::min_element(trials.begin(), trials.end(),
-                                       [](const auto& a, const auto& b) { return a.objective < b.objective; });
-    if (best->objective > h.objective - least_gain) continue;
-    h = std::move(*best);
-    fit(by, h, 4, 0.5);
+namespace {
+
+/// A gap and the bounces of its teeth, found by trying many: the likelihood is too rough to be followed.
+class GapSearch {
+ public:
+  GapSearch(const Evaluation& by, Hypothesis& h, std::size_t gap) : by_(by), h_(h), gap_(gap) {}
+
+  /// Gaps up to a third larger and smaller, with teeth that bounce little and much.
+  void coarse() {
+    for (const double step : gap_steps)
+      for (const double restitution : {0.3, 0.45, 0.6, 0.75}) plan(0.1 * step, {restitution, h_.noise.bounce.duration});
+    take_best();
   }
+  /// Gaps three steps up and down, with restitutions and durations one step up and down.
+  void fine(double gap_step, const Bounce& step) {
+    const auto [restitution, duration] = h_.noise.bounce;
+    for (const double by_gap : gap_steps)
+      for (const double by_restitution : {-1.0, 0.0, 1.0})
+        for (const double by_duration : {-1.0, 0.0, 1.0})
+          plan(gap_step * by_gap,
+               {restitution + step.restitution * by_restitution, duration + step.duration * by_duration});
+    take_best();
+  }
+
+ private:
+  static constexpr std::array<double, 7> gap_steps{-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
+
+  void plan(double larger, const Bounce& bounce) {
+    Hypothesis trial = h_;
+    const Coordinate& gap = h_.free[gap_];
+    trial.values[gap_] = std::clamp(h_.values[gap_] * std::exp(larger), gap.low, gap.high);
+    trial.noise.bounce = {std::clamp(bounce.restitution, 0.1, 0.95), std::clamp(bounce.duration, 1e-4, 3e-3)};
+    trials_.push_back(std::move(trial));
+  }
+  void take_best() {
+    parallel_for(trials_.size(), by_.threads(), [&](std::size_t k) { evaluate(by_, trials_[k]); });
+    constexpr double least_gain = 2.0;
+    const auto best = std::min_element(trials_.begin(), trials_.end(),
+                                       [](const auto& a, const auto& b) { return a.objective < b.objective; });
+    if (best->objective <= h_.objective - least_gain) {
+      h_ = std::move(*best);
+      fit(by_, h_, 4, 0.5);
+    }
+    trials_.clear();
+  }
+
+  const Evaluation& by_;
+  Hypothesis& h_;
+  std::size_t gap_;
+  std::vector<Hypothesis> trials_{};
+};
+
+std::optional<std::size_t> gap_of(const Hypothesis& h) {
+  for (std::size_t k = 0; k < h.free.size(); ++k)
+    if (h.free[k].effect == "backlash") return k;
+  return std::nullopt;
+}
+
+}  // namespace
+
+void refine_bounces(const Evaluation& by, Hypothesis& h) {
+  const auto gap = gap_of(h);
+  if (!gap) return;
+  GapSearch search(by, h, *gap);
+  search.fine(0.05, {0.06, 3e-4});
+  search.fine(0.025, {0.03, 1.5e-4});
+}
+
+void find_bounces(const Evaluation& by, Hypothesis& h) {
+  const auto gap = gap_of(h);
+  if (!gap) return;
+  restart_noise(by, h);
+  GapSearch(by, h, *gap).coarse();
+  restart_noise(by, h);
+  refine_bounces(by, h);
 }
 
 void give_teeth_to_bounce(Scenario& scenario, const Bounce& bounce) {

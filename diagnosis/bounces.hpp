@@ -3,10 +3,12 @@
 
 namespace wormdrive {
 
-/// Fits a gap between the teeth together with how they bounce, by trying sizes around what is there: teeth that
-/// bounce leave a likelihood with many maxima. widest: of the steps, 1 for a gap that was never fitted so. Nothing
-/// where a hypothesis has no free gap.
-void fit_bounces(const Evaluation& by, Hypothesis& h, double widest);
+/// Finds a gap between the teeth together with how they bounce, by trying many sizes around what is there: teeth that
+/// bounce leave a likelihood with many maxima. Nothing where a hypothesis has no free gap.
+void find_bounces(const Evaluation& by, Hypothesis& h);
+
+/// The same from what was found so, in smaller steps.
+void refine_bounces(const Evaluation& by, Hypothesis& h);
 
 /// Gives a scenario with backlash or compliance teeth that can be simulated, where it does not state them in full: as
 /// stiff as an impact is short, and damped by as much as the restitution asks for.

@@ -28,28 +28,17 @@ struct Signature {
 
 class Signatures {
  public:
-  Signatures(const Evaluation& by, const Hypothesis& base, const Screening& screening, const std::vector<Suspect>& all)
-      : base_(base), all_(all) {
-    const WeightedColumns weigh(fit_weights(by.layout(), base.residuals, base.noise_model));
-    std::vector<Eigen::VectorXd> all_columns;
-    for (const auto& c : screening.free_columns) all_columns.push_back(weigh(c));
-    for (const Screened& s : screening.found) {
+  Signatures(const LinearSystem& linear, const Hypothesis& base, const std::vector<Suspect>& all)
+      : gram_(linear.A), base_(base), all_(all) {
+    for (const StartColumns& s : linear.starts) {
       const Suspect& suspect = all[s.suspect];
-      Signature made{s.suspect, s.start, {}, suspect.coordinates[0].scale};
+      Signature made{s.suspect, s.start, s.columns, suspect.coordinates[0].scale};
       if (suspect.finite) made.size = std::abs(suspect.starts[s.start].values[0]);
-      for (const auto& c : s.signatures) {
-        made.columns.push_back(static_cast<Eigen::Index>(all_columns.size()));
-        all_columns.push_back(weigh(c));
-      }
       if (suspect.toleranced) made.columns.push_back(index_of(base, suspect.coordinates[0]));
       if (!is_periodic(suspect) && made.columns.size() > 1)
         made.columns.erase(made.columns.begin() + 1, made.columns.end());
       list_.push_back(std::move(made));
     }
-    if (all_columns.empty()) return;
-    Eigen::MatrixXd V(all_columns.front().size(), static_cast<Eigen::Index>(all_columns.size()));
-    for (std::size_t k = 0; k < all_columns.size(); ++k) V.col(static_cast<Eigen::Index>(k)) = all_columns[k];
-    gram_ = V.transpose() * V;
   }
 
   const std::vector<Signature>& list() const { return list_; }
@@ -89,9 +78,9 @@ class Signatures {
            std::any_of(s.coordinates.begin(), s.coordinates.end(), [&](const Coordinate& own) { return own.is(c); });
   }
 
+  const Eigen::MatrixXd& gram_;
   const Hypothesis& base_;
   const std::vector<Suspect>& all_;
-  Eigen::MatrixXd gram_;  ///< of the free coordinates' columns, then of all signatures, weighted by the noise
   std::vector<Signature> list_;
 };
 
@@ -148,9 +137,9 @@ Visibility of_limit(const Signatures& signatures, std::size_t suspect, const std
 
 }  // namespace
 
-std::vector<Visibility> certificate(const Evaluation& by, const Hypothesis& base, const Screening& screening,
-                                    const std::vector<Suspect>& all, const Magnitudes& sizes) {
-  const Signatures signatures(by, base, screening, all);
+std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis& base, const std::vector<Suspect>& all,
+                                    const Magnitudes& sizes) {
+  const Signatures signatures(linear, base, all);
   std::vector<Visibility> list;
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (all[c].finite && !all[c].resizable && all[c].effect == "torque_saturation") {

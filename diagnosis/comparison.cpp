@@ -15,8 +15,14 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
   for (std::size_t k = 0; k < layout.size; ++k)
     if (layout.part[k] == 2) out[layout.block[k]] = 1;
   std::vector<double> gains, sizes;
-  for (std::size_t b = 0; b < layout.blocks; ++b)
-    if (out[b]) gains.push_back(without.misfit.blocks[b] - with.misfit.blocks[b]);
+  double best_of_all = 0.0;
+  for (std::size_t b = 0; b < layout.blocks; ++b) {
+    const double gain = without.misfit.blocks[b] - with.misfit.blocks[b];
+    if (out[b]) gains.push_back(gain);
+    best_of_all = std::max(best_of_all, gain);
+    e.everywhere_but_best += gain;
+  }
+  e.everywhere_but_best -= best_of_all;
   if (!gains.empty()) {
     double best = gains.front();
     for (const double g : gains) {
@@ -31,6 +37,8 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
     const double most = AcceptanceRules{}.clip * *middle;
     for (const double g : gains) e.clipped += std::clamp(g, -most, most);
   }
+  const auto is_gap = [](const Coordinate& c) { return c.effect == "backlash"; };
+  e.beside_gap = suspect.effect != "backlash" && std::any_of(with.free.begin(), with.free.end(), is_gap);
   for (const Coordinate& c : suspect.coordinates) {
     const int k = index_of(with, c);
     if (k < 0) continue;
@@ -45,17 +53,28 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
 
 namespace {
 
+/// Whether what was held out bears a suspect out.
+bool holds(const Evidence& e, const Suspect& suspect, const AcceptanceRules& rules) {
+  const bool gains = e.held_out > rules.least_held_out;
+  const bool steady = gains && e.without_best > 0.0;
+  const bool broad = e.clipped > rules.least_held_out && e.positive_share >= rules.positive_share;
+  // teeth that bounce throw single blocks about, by more than many causes are worth
+  if (e.beside_gap) return steady && broad;
+  // a number that is free within its tolerance without being named has gained most of it already
+  if (suspect.toleranced) return e.held_out > -rules.least_held_out;
+  const bool has_steps = std::any_of(suspect.coordinates.begin(), suspect.coordinates.end(),
+                                     [](const Coordinate& c) { return !has_slope(c); });
+  return steady || broad || (has_steps && gains && e.everywhere_but_best > rules.least_bic);
+}
+
 /// The first rule that is broken, empty if none is.
 std::string broken_rule(const Evidence& e, const Suspect& suspect, const AcceptanceRules& rules) {
   if (e.at_bound) return "its parameter stands at a bound";
-  if (suspect.toleranced) {
-    if (e.delta_bic <= rules.least_bic_toleranced) return "no evidence beyond the stated tolerance";
-    return e.tolerances > rules.least_tolerances ? "" : "within what its tolerance leaves open";
-  }
-  if (e.delta_bic <= rules.least_bic) return e.delta_bic > 0.0 ? "too little evidence" : "no evidence";
-  const bool steady = e.held_out > rules.least_held_out && e.without_best > 0.0;
-  const bool broad = e.clipped > rules.least_held_out && e.positive_share >= rules.positive_share;
-  return steady || broad ? "" : "does not predict the data that were held out";
+  if (suspect.toleranced && e.delta_bic <= rules.least_bic_toleranced) return "no evidence beyond the stated tolerance";
+  if (suspect.toleranced && e.tolerances <= rules.least_tolerances) return "within what its tolerance leaves open";
+  if (!suspect.toleranced && e.delta_bic <= rules.least_bic)
+    return e.delta_bic > 0.0 ? "too little evidence" : "no evidence";
+  return holds(e, suspect, rules) ? "" : "does not predict the data that were held out";
 }
 
 }  // namespace

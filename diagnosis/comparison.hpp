@@ -16,12 +16,14 @@ struct AcceptanceRules {
 /// How a model with a suspect compares with one without it.
 struct Evidence {
   double delta_bic{};
-  double held_out{};        ///< gain of held-out data [nats]
-  double without_best{};    ///< the same without the block that gains most
-  double clipped{};         ///< the same with every block's gain clipped
-  double positive_share{};  ///< of the held-out blocks that gain
-  double tolerances{};      ///< largest distance of a stated number from its value, in tolerances
-  bool at_bound = false;    ///< a coordinate of the suspect came to rest at its bound
+  double held_out{};             ///< gain of held-out data [nats]
+  double without_best{};         ///< the same without the block that gains most
+  double clipped{};              ///< the same with every block's gain clipped
+  double positive_share{};       ///< of the held-out blocks that gain
+  double tolerances{};           ///< largest distance of a stated number from its value, in tolerances
+  double everywhere_but_best{};  ///< gain of all data, fitted or not, without the block that gains most [nats]
+  bool beside_gap = false;       ///< a gap between the teeth is in both models
+  bool at_bound = false;         ///< a coordinate of the suspect came to rest at its bound
 };
 
 Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspect& suspect,

@@ -59,8 +59,8 @@ Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hy
     return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
   };
   Selection found = causes(base);
-  constexpr double much = 0.5, clearly = 0.9;
-  if (swallowed_share(found.model.noise_model) < much) return found;
+  constexpr double clearly = 0.9;
+  if (!hides_what_is_slow(found.model.noise_model)) return found;
   Selection plain = causes(without_noise_model(base));
   const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
   return error(plain) < clearly * error(found) ? plain : found;
@@ -186,7 +186,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   Diagnosis d;
   d.seed = settings.seed;
   tell("working out what the data can show");
-  d.certificate = certificate(by, found.base, found.screening, all, sizes);
+  d.certificate = certificate(found.linear, found.base, all, sizes);
   d.ranking = ranking(by, found, all);
 
   tell("predicting ahead");
@@ -201,7 +201,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
-  fit_bounces(by_all, last, 0.5);
+  refine_bounces(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last);
   for (const Found& f : found.causes)

@@ -112,7 +112,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
         }
       if (!evaluate(by, h)) continue;
       adjust_noise(by, h, 6);
-      const std::vector<Visibility> seen = certificate(by, h, screen(by, h, members), members, sizes);
+      const std::vector<Visibility> seen = certificate(linear_system(by, h, screen(by, h, members)), h, members, sizes);
       if (seen.empty() || seen.front().effect != members.front().effect) continue;
       const double margin = size / seen.front().nameable;
       if (margin <= best_margin) continue;

@@ -72,9 +72,10 @@ double structural_error(const Coordinate& c, double value) {
   constexpr double moving_share = 0.03;  // of an inertia, which seems the smaller the faster the motion
   constexpr double held_torque = 2e-5;   // [s], of a lag or delay that acts on a torque held over a sample
   constexpr double impact_share = 0.03;  // of a gap, by how an impact goes on
+  constexpr double yielding = 2e-5;      // [rad], of a gap, by which loaded teeth make it seem wider
   constexpr double limit_share = 1e-3;   // of a limit that is met in the fastest motions
   constexpr double shape_share = 0.1;    // of a fall over the speed, by laws of other shapes
-  if (c.effect == "backlash") return impact_share * value;
+  if (c.effect == "backlash") return std::hypot(impact_share * value, yielding);
   if (c.effect == "stribeck") return shape_share * value;
   if (c.effect == "torque_saturation") return limit_share * value;
   if (c.effect == "worm_inertia" || c.effect == "gear_inertia") return moving_share * c.scale;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "diagnosis/screening.hpp"
+#include "diagnosis/linear_system.hpp"
 
 namespace wormdrive {
 
@@ -14,7 +14,7 @@ struct MaskedPair {
 
 /// The pairs that promise clearly more than these causes, or about as much as three or more, by one linear fit of all
 /// signatures for both, which knows nothing of how the noise changes with a better model; the best first.
-std::vector<MaskedPair> masked_pairs(const Evaluation& by, const Hypothesis& base, const Screening& screening,
+std::vector<MaskedPair> masked_pairs(const LinearSystem& linear, const Hypothesis& base,
                                      const std::vector<Suspect>& all, const std::vector<std::size_t>& causes,
                                      std::size_t most);
 

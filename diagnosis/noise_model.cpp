@@ -154,13 +154,13 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
   return noise;
 }
 
-double swallowed_share(const NoiseModel& noise) {
-  double most = 0.0;
+bool hides_what_is_slow(const NoiseModel& noise) {
+  constexpr double much = 0.5;
   for (std::size_t g = 1; g < noise.groups.size(); g += 2) {
     const WhiteningWeights& weights = noise.groups[g].weights;
-    most = std::max(most, std::accumulate(weights.begin(), weights.end(), 0.0));
+    if (std::accumulate(weights.begin(), weights.end(), 0.0) >= much) return true;
   }
-  return most;
+  return false;
 }
 
 std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,

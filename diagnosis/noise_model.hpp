@@ -74,9 +74,8 @@ struct NoiseModel {
   bool whitens = true;  ///< false: the weights are zero
 };
 
-/// Share of a steady innovation while moving that whitening takes for noise, the largest of all recordings: at 1 it
-/// hides whatever is slow.
-double swallowed_share(const NoiseModel& noise);
+/// Whether whitening takes more than half of a steady innovation while moving for noise, in any recording.
+bool hides_what_is_slow(const NoiseModel& noise);
 
 /// What innovations come to under a noise model, negative log likelihoods in nats.
 struct Misfit {

@@ -37,6 +37,11 @@ class Trial {
       if (result_.model.objective < h_.objective - 1.0) break;
     }
     if (suspect_.finite && !suspect_.either_sign) keep_better(with_);
+    if (suspect_.bounces) {  // less wild with teeth that bounce little
+      Hypothesis soft = with_;
+      soft.noise.bounce.restitution = 0.4;
+      keep_better(std::move(soft));
+    }
     result_.gain = h_.bic - result_.model.bic;
   }
 

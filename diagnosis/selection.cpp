@@ -96,17 +96,18 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   };
   for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].suspect, std::move(fitted[k]));
   if (first_round) {
-    if (current.whitens)
+    if (hides_what_is_slow(current.noise_model))
       for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
     s_.screening = std::move(screening);
   }
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
   std::stable_sort(tried.begin(), tried.end(), by_bic);
-  constexpr std::size_t polished = 3;
-  parallel_for(std::min(polished, tried.size()), by_.threads(), [&](std::size_t k) {
+  const std::size_t polished = std::min<std::size_t>(3, tried.size());
+  for (std::size_t k = 0; k < polished; ++k)
+    if (all_[tried[k].suspect].bounces && tried[k].model.bic < current.bic) find_bounces(by_, tried[k].model);
+  parallel_for(polished, by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
-    if (all_[tried[k].suspect].bounces) fit_bounces(by_, h, 1.0);
     restart_noise(by_, h);
     adjust_noise(by_, h, 3);
     fit(by_, h, 4);
@@ -116,7 +117,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   return tried;
 }
 
-/// A second start without a noise model.
+/// A second start without a noise model, where that takes slow effects for its own.
 std::vector<Tried> CauseSearch::try_plainly(const Hypothesis& current) const {
   Hypothesis plain = without_noise_model(current);
   fit(by_, plain, 5);

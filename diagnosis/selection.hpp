@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/comparison.hpp"
-#include "diagnosis/screening.hpp"
+#include "diagnosis/linear_system.hpp"
 
 namespace wormdrive {
 
@@ -28,6 +28,7 @@ struct Selection {
   std::vector<Found> causes;
   std::vector<Tried> tried;  ///< suspects beside the base, the best first
   Screening screening;       ///< of the base
+  LinearSystem linear{};     ///< of the base with it
 };
 
 /// Forward selection with backward elimination, then pairs of suspects that mask each other.

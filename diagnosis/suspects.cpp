@@ -70,7 +70,7 @@ Suspect cogging(const Magnitudes& m) {
 
 /// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes.
 Suspect backlash() {
-  Suspect s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 6e-4, 1.2e-3, 2.5e-3, 5e-3});
+  Suspect s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 5.5e-4, 1e-3, 1.8e-3, 3.3e-3, 6e-3});
   s.bounces = true;
   return s;
 }

@@ -17,8 +17,8 @@ struct Amount {
   double amount;
 };
 
-recovery::Case hard(std::uint64_t seed, const std::vector<Amount>& hidden) {
-  recovery::Case drawn{recovery::Kind::single, recovery::conditions("ideal"), seed, {}};
+recovery::Case hard(std::uint64_t seed, const std::vector<Amount>& hidden, const char* conditions = "ideal") {
+  recovery::Case drawn{recovery::Kind::single, recovery::conditions(conditions), seed, {}};
   for (const Amount& h : hidden) drawn.hidden.push_back({&truth::secret(h.effect), truth::Size::medium, h.amount});
   return drawn;
 }
@@ -73,6 +73,26 @@ TEST_CASE("what did as well as a cause when that was found is no class with it i
 TEST_CASE("two causes that do as well as three are the better explanation") {
   // less inertia of worm and gear and some of the load is the same motion
   const auto [score, d] = answer(hard(12987163819398539930U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("friction at rest is named for all its break-aways, though one of those held out outweighs all others") {
+  const auto [score, d] = answer(hard(16617251610193380410U, {{"static_friction", 0.09}}, "realistic"));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("a wide gap is found though the noise without it passes for most of the motion") {
+  const auto [score, d] = answer(hard(11050129810103917130U, {{"backlash", 0.004}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+  REQUIRE(d.causes.size() == 1);
+  CHECK(std::abs(d.causes[0].parameters[0].value - 0.004) < 0.15 * 0.004);
+}
+
+TEST_CASE("what impacts leave in single blocks makes no cause beside a gap") {
+  const auto [score, d] = answer(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
   CAPTURE(d.sentence);
   CHECK(score == recovery::Score::exact);
 }
