@@ -148,6 +148,11 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
     d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
   }
   d.sentence += gain_sentence(d);
+  if (e && e->after > e->before)
+    d.remarks.push_back(
+        fmt::format("the error {} s ahead is no smaller: what is named stands on the likelihood of the single samples, "
+                    "{:.3g} nats{}",
+                    e->horizon, explained, bounces(d) ? "; teeth that bounce cannot be followed far" : ""));
   if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
 }
 
