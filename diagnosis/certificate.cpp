@@ -8,6 +8,7 @@
 
 #include "diagnosis/comparison.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/selection.hpp"
 
 namespace wormdrive {
 
@@ -16,6 +17,11 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 /// Squared length of a signature in standard deviations that a search can find: least BIC and ln N together.
 constexpr double least_length = 30.0;
+/// Share of that which the nearest other suspect has to leave. Evidence grows less than squared length where an effect
+/// is strong, so the share of it that keeps suspects in one class comes to about a third here.
+constexpr double least_share = reach_share / 3.0;
+/// Share of a signature below which its shape, and not its length, decides whether it can be named.
+constexpr double much_alike = 0.1;
 
 using Columns = std::vector<Eigen::Index>;
 
@@ -84,6 +90,10 @@ class Signatures {
   std::vector<Signature> list_;
 };
 
+/// Whether the signature of a suspect changes its shape with its size: the smaller a lag is the more it looks like a
+/// delay, and what tells them apart grows twice as fast with the size as they do.
+bool is_shaped(const Suspect& s) { return s.finite && s.resizable && !s.either_sign; }
+
 /// What one start of a suspect shows.
 Visibility of_signature(const Signatures& signatures, const Signature& mine, const std::vector<Suspect>& all) {
   const Suspect& suspect = all[mine.suspect];
@@ -105,6 +115,11 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
   }
   v.likeness = alone > 0.0 ? 1.0 - std::min(1.0, least / alone) : 0.0;
   v.nameable = size(least);
+  const double share = alone > 0.0 ? least / alone : 1.0;
+  if (is_shaped(suspect) && share < much_alike)
+    v.nameable = std::max(v.nameable, mine.size * std::sqrt(least_share / std::max(share, 1e-12)));
+  else if (share < least_share)
+    v.nameable = never;
   if (suspect.toleranced) {
     const double least_size = AcceptanceRules{}.least_tolerances * c.tolerance;
     v.detectable = std::max(v.detectable, least_size);

@@ -55,6 +55,13 @@ TEST_CASE("a recording of the drive as stated is adequate, and the certificate k
     for (const Estimate& p : c.effect.parameters) CHECK(p.standard_error != 0.0);
   CHECK(visibility(d, "actuator_delay").nearest == "encoder_delay");
   CHECK(visibility(d, "encoder_delay").likeness == 1.0);
+  // half a sample of 1 ms late is as good as a lag, three are not
+  for (const char* late : {"actuator_delay", "actuator_lag", "encoder_delay"}) {
+    CAPTURE(late);
+    CHECK(visibility(d, late).detectable < 0.5e-3);
+    CHECK(visibility(d, late).nameable > 0.5e-3);
+    CHECK(visibility(d, late).nameable < 6e-3);
+  }
   CHECK(visibility(d, "load_angle").nearest == "encoder_offset");
   CHECK(visibility(d, "backlash").detectable < 1e-3);
   CHECK_FALSE(visibility(d, "tooth_compliance").observable);
