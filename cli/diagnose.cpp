@@ -143,9 +143,9 @@ int diagnose_command(const DiagnoseOptions& options) {
   }();
 
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
-  const std::vector<std::string> written = folder.write(
-      diagnosis, json, scenario.title, options.scenario.command_line,
-      [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
+  const std::vector<std::string> written =
+      folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
+                   [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk) print(diagnosis, written, folder.path());
   return 0;

@@ -71,7 +71,8 @@ class RankSweep {
       return true;
     };
     run_ensemble(
-        study_, [this] { return next(); }, threads_for(options_.threads), take, [] { return Interruptible::signal() != 0; });
+        study_, [this] { return next(); }, threads_for(options_.threads), take,
+        [] { return Interruptible::signal() != 0; });
     const auto ranks = static_cast<std::size_t>(ranks_.count());
     if (!too_many() && Interruptible::signal() == 0)
       judge(file, study_, options_, cpu_time() - begin, (least_judged + ranks - 1) / ranks);

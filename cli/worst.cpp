@@ -32,7 +32,8 @@ int worst_command(const WorstOptions& options) {
   refuse_to_overwrite(options.output, options.sweep);
   const SweepReader sweep(options.sweep);
   const Study& study = sweep.study();
-  const WorstCase worst = find_worst(sweep, {options.metric, options.evaluations, options.tail, threads_for(options.threads)});
+  const WorstCase worst =
+      find_worst(sweep, {options.metric, options.evaluations, options.tail, threads_for(options.threads)});
   Trials trials(study);
   trials.at(worst.point);
   Scenario scenario = trials.scenario();

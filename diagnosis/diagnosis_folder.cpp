@@ -27,8 +27,7 @@ std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
   if (!d.equivalents.empty())
     text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
-  if (!d.calibration.empty())
-    text += fmt::format("# Stated values that moved with them: {}.\n", ids(d.calibration));
+  if (!d.calibration.empty()) text += fmt::format("# Stated values that moved with them: {}.\n", ids(d.calibration));
   return text + to_toml(d.extended);
 }
 

@@ -1,8 +1,8 @@
 #include "events/event_log.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace wormdrive {
 
@@ -43,7 +43,8 @@ Halt EventLog::chatter() const {
 }
 
 Halt EventLog::halt(double t, Mode mode, const std::string& reason) const {
-  std::string history = total_ == 0 ? "before any event" : fmt::format("after {} event{}", total_, total_ == 1 ? "" : "s");
+  std::string history =
+      total_ == 0 ? "before any event" : fmt::format("after {} event{}", total_, total_ == 1 ? "" : "s");
   if (!latest_.empty()) {
     const auto first = latest_.end() - std::min<std::ptrdiff_t>(3, std::ssize(latest_));
     for (auto e = first; e != latest_.end(); ++e)

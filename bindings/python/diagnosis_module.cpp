@@ -65,8 +65,8 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
 }  // namespace
 
 void add_diagnosis(py::module_& m) {
-  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, unsigned threads,
-                       const std::optional<std::string>& output, const std::string& scenario_file,
+  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed,
+                       unsigned threads, const std::optional<std::string>& output, const std::string& scenario_file,
                        const std::string& command_line) {
     return diagnose(scenario, files, seed, threads, kept(output, files, scenario_file, command_line));
   });
