@@ -126,7 +126,8 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
     all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, m.friction,
-                         {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.5 * m.friction}));
+                         {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.36 * m.friction, 0.5 * m.friction,
+                          0.7 * m.friction}));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
     all.push_back(backlash());
     if (m.has_worm_encoder) all.push_back(tooth_compliance(m));

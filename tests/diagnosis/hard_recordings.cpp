@@ -83,6 +83,12 @@ TEST_CASE("friction at rest is named for all its break-aways, though one of thos
   CHECK(score == recovery::Score::exact);
 }
 
+TEST_CASE("friction at rest is found between the sizes that are tried: much less of it helps no more than none") {
+  const auto [score, d] = answer(hard(5367963912548052634U, {{"static_friction", 0.156}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
 TEST_CASE("a wide gap is found though the noise without it passes for most of the motion") {
   const auto [score, d] = answer(hard(11050129810103917130U, {{"backlash", 0.004}}));
   CAPTURE(d.sentence);

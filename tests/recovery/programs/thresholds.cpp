@@ -38,9 +38,8 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
     Threshold t{secret, seen ? seen->detectable : never, seen ? seen->nameable : never};
     if (std::isfinite(t.nameable))
       for (const double multiple : multiples) {
-        Case hiding = nothing;
+        Case hiding = nothing;  // in the very motion that the certificate is of
         hiding.kind = Kind::single;
-        hiding.seed = generator();
         hiding.hidden = {{secret, truth::Size::medium, multiple * t.nameable}};
         const Bench bench = record(hiding);
         const Outcome outcome = judge(hiding, bench.drive, diagnose(sheet, {bench.recording}));
