@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/run_and_write.hpp"
-#include "cli/sweep_steps.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/second_opinion.hpp"
 #include "sweep/threads.hpp"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -67,13 +66,13 @@ class GapSearch {
   std::vector<Hypothesis> trials_{};
 };
 
+}  // namespace
+
 std::optional<std::size_t> gap_of(const Hypothesis& h) {
   for (std::size_t k = 0; k < h.free.size(); ++k)
     if (h.free[k].effect == "backlash") return k;
   return std::nullopt;
 }
-
-}  // namespace
 
 void refine_bounces(const Evaluation& by, Hypothesis& h) {
   const auto gap = gap_of(h);

@@ -1,7 +1,12 @@
 #pragma once
+#include <optional>
+
 #include "diagnosis/hypothesis.hpp"
 
 namespace wormdrive {
+
+/// Index of a free gap between the teeth among the free coordinates; nothing where there is none.
+std::optional<std::size_t> gap_of(const Hypothesis& h);
 
 /// Finds a gap between the teeth together with how they bounce, by trying many sizes around what is there: teeth that
 /// bounce leave a likelihood with many maxima. Nothing where a hypothesis has no free gap.

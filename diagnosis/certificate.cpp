@@ -8,7 +8,6 @@
 
 #include "diagnosis/comparison.hpp"
 #include "diagnosis/fit.hpp"
-#include "diagnosis/selection.hpp"
 
 namespace wormdrive {
 
@@ -113,9 +112,9 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
     least = beside;
     v.nearest = all[other.suspect].effect;
   }
-  v.likeness = alone > 0.0 ? 1.0 - std::min(1.0, least / alone) : 0.0;
-  v.nameable = size(least);
   const double share = alone > 0.0 ? least / alone : 1.0;
+  v.likeness = 1.0 - std::min(1.0, share);
+  v.nameable = size(least);
   if (is_shaped(suspect) && share < much_alike)
     v.nameable = std::max(v.nameable, mine.size * std::sqrt(least_share / std::max(share, 1e-12)));
   else if (share < least_share)

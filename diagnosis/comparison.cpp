@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/stepwise.hpp"
 
 namespace wormdrive {
@@ -37,8 +38,7 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
     const double most = AcceptanceRules{}.clip * *middle;
     for (const double g : gains) e.clipped += std::clamp(g, -most, most);
   }
-  const auto is_gap = [](const Coordinate& c) { return c.effect == "backlash"; };
-  e.beside_gap = suspect.effect != "backlash" && std::any_of(with.free.begin(), with.free.end(), is_gap);
+  e.beside_gap = suspect.effect != "backlash" && gap_of(with);
   for (const Coordinate& c : suspect.coordinates) {
     const int k = index_of(with, c);
     if (k < 0) continue;

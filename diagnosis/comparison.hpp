@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "diagnosis/hypothesis.hpp"
 
 namespace wormdrive {
@@ -30,6 +32,10 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Suspec
                  const InnovationLayout& layout);
 
 bool accepted(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules = {});
+
+/// Suspects whose evidence is within reach of the best one's form a class with it.
+inline constexpr double reach_share = 0.03;
+inline double reach(double best) { return std::max(10.0, reach_share * best); }
 
 /// Why a suspect is not believed; "named" if it is.
 std::string outcome(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules = {});

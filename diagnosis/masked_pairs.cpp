@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/comparison.hpp"
 #include "diagnosis/fit.hpp"
 
 namespace wormdrive {
@@ -54,12 +55,16 @@ class Promise {
 
 }  // namespace
 
+double clear_margin(double gain) {
+  constexpr double least_share = 0.05;
+  return std::max(AcceptanceRules{}.least_bic, least_share * gain);
+}
+
 std::vector<MaskedPair> masked_pairs(const LinearSystem& linear, const Hypothesis& base,
                                      const std::vector<Suspect>& all, const std::vector<std::size_t>& causes,
                                      std::size_t most) {
   const Promise promise(linear, base, all);
-  constexpr double least_gain = 20.0, least_share = 0.05;
-  const double have = promise.gain_of(causes), clearly = std::max(least_gain, least_share * have);
+  const double have = promise.gain_of(causes), clearly = clear_margin(have);
   const double more_than = causes.size() > 2 ? have - clearly : have + clearly;
   const std::vector<StartColumns>& e = linear.starts;
   std::vector<MaskedPair> pairs;

@@ -12,6 +12,9 @@ struct MaskedPair {
   double gain;  ///< of the BIC, in the linear fit
 };
 
+/// By how much a pair has to gain more than causes that gain so much themselves [BIC].
+double clear_margin(double gain);
+
 /// The pairs that promise clearly more than these causes, or about as much as three or more, by one linear fit of all
 /// signatures for both, which knows nothing of how the noise changes with a better model; the best first.
 std::vector<MaskedPair> masked_pairs(const LinearSystem& linear, const Hypothesis& base,

@@ -86,7 +86,7 @@ void CauseSearch::simplify() {
 void CauseSearch::try_pairs() {
   const double have = s_.base.bic - s_.model.bic;
   constexpr std::size_t most = 6;
-  const double margin = std::max(AcceptanceRules{}.least_bic, 0.05 * have);
+  const double margin = clear_margin(have);
   s_.linear = linear_system(by_, s_.base, s_.screening);
   const std::vector<MaskedPair> pairs = masked_pairs(s_.linear, s_.base, all_, suspects_of(s_.causes), most);
   std::vector<Hypothesis> fitted(pairs.size());

@@ -103,7 +103,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
   std::stable_sort(tried.begin(), tried.end(), by_bic);
   const std::size_t polished = std::min<std::size_t>(3, tried.size());
-  for (std::size_t k = 0; k < polished; ++k)
+  for (std::size_t k = 0; k < polished; ++k)  // one after the other: each takes all threads itself
     if (all_[tried[k].suspect].bounces && tried[k].model.bic < current.bic) find_bounces(by_, tried[k].model);
   parallel_for(polished, by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;

@@ -65,8 +65,4 @@ class CauseSearch {
   Selection s_;
 };
 
-/// Suspects whose evidence is within reach of the best one's form a class with it.
-inline constexpr double reach_share = 0.03;
-inline double reach(double best) { return std::max(10.0, reach_share * best); }
-
 }  // namespace wormdrive
