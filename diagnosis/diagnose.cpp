@@ -82,7 +82,7 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
   for (const Tried& t : selection.tried) {
     Candidate c;
     const Suspect& suspect = all[t.suspect];
-    c.effect = estimated(t.model, covariance(by, t.model), suspect.effect, suspect.coordinates);
+    c.effect = estimated(t.model, covariance(by, t.model, 0), suspect.effect, suspect.coordinates);
     c.delta_bic = t.evidence.delta_bic;
     c.held_out_gain = t.evidence.held_out;
     c.named = is_cause(t.suspect);
@@ -203,7 +203,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   adjust_noise(by_all, last, 2);
   refine_bounces(by_all, last);
   fit(by_all, last, 6, 0.01);
-  const Eigen::MatrixXd spread = covariance(by_all, last);
+  const Eigen::MatrixXd spread = covariance(by_all, last, 2);
   for (const Found& f : found.causes)
     d.causes.push_back(estimated(last, spread, all[f.suspect].effect, all[f.suspect].coordinates));
   const auto is_freed = [&](const Coordinate& c) {

@@ -31,7 +31,7 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
     fit(by, h, 3);
     adjust_noise(by, h, 6);
     fit(by, h, 3);
-    const double error = std::sqrt(covariance(by, h)(0, 0));
+    const double error = std::sqrt(covariance(by, h, 0)(0, 0));
     CAPTURE(h.values[0], error);
     CHECK(std::abs(h.values[0] - rise) < 1.96 * error);
     CHECK(error < 0.3 * rise);
