@@ -61,7 +61,7 @@ bool holds(const Evidence& e, const Suspect& suspect, const AcceptanceRules& rul
   // teeth that bounce throw single blocks about, by more than many causes are worth
   if (e.beside_gap) return steady && broad;
   // a number that is free within its tolerance without being named has gained most of it already
-  if (suspect.toleranced) return e.held_out > -rules.least_held_out;
+  if (suspect.toleranced) return e.held_out > -std::max(rules.least_held_out, rules.loss_share * e.delta_bic);
   const bool has_steps = std::any_of(suspect.coordinates.begin(), suspect.coordinates.end(),
                                      [](const Coordinate& c) { return !has_slope(c); });
   return steady || broad || (has_steps && gains && e.everywhere_but_best > rules.least_bic);
@@ -81,6 +81,15 @@ std::string broken_rule(const Evidence& e, const Suspect& suspect, const Accepta
 
 bool accepted(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules) {
   return broken_rule(evidence, suspect, rules).empty();
+}
+
+bool passes_for(const Hypothesis& h, const Suspect& suspect, const Suspect& other) {
+  if (suspect.effect != "stribeck" || other.effect != "static_friction") return false;
+  constexpr double little_more = 2.0;
+  const auto is_speed = [](const Coordinate& c) { return c.field == "speed"; };
+  const auto speed = std::find_if(suspect.coordinates.begin(), suspect.coordinates.end(), is_speed);
+  const int k = speed == suspect.coordinates.end() ? -1 : index_of(h, *speed);
+  return k >= 0 && h.values[static_cast<std::size_t>(k)] < little_more * speed->low;
 }
 
 std::string outcome(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules) {

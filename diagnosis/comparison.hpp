@@ -13,6 +13,7 @@ struct AcceptanceRules {
   double positive_share = 0.7;        ///< of the blocks, if the gain counts clipped only
   double least_bic_toleranced = 5.0;  ///< gain of the BIC by a stated number that is off
   double least_tolerances = 3.5;      ///< from the stated value, for such a number
+  double loss_share = 0.05;           ///< of the BIC's gain that held-out data may lose by such a number [nats]
 };
 
 /// How a model with a suspect compares with one without it.
@@ -36,6 +37,10 @@ bool accepted(const Evidence& evidence, const Suspect& suspect, const Acceptance
 /// Suspects whose evidence is within reach of the best one's form a class with it.
 inline constexpr double reach_share = 0.03;
 inline double reach(double best) { return std::max(10.0, reach_share * best); }
+
+/// Whether a suspect as it was fitted is hard to tell from another one by its nature, whatever the evidence: a fall of
+/// friction over little more than the smallest speed that it may have is nearly friction at rest.
+bool passes_for(const Hypothesis& h, const Suspect& suspect, const Suspect& other);
 
 /// Why a suspect is not believed; "named" if it is.
 std::string outcome(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules = {});

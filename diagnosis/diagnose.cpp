@@ -128,12 +128,14 @@ void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, cons
 
 /// What no test of the residuals saw, for it took it for outliers, may show in the error ahead.
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
-  constexpr double most = 3.0;
-  if (const PredictionError* e = told(d); e && e->after > most * e->floor)
-    return Remainder{
-        fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, e->after / e->floor),
-        e->after / e->floor, 0.0, std::numeric_limits<double>::infinity()};
-  return std::nullopt;
+  constexpr double most = 3.0, most_of_bounces = 10.0;
+  const PredictionError* e = told(d);
+  if (!e || e->after <= most * e->floor) return std::nullopt;
+  const double ratio = e->after / e->floor;
+  // what bounces leave does not speak against a gap
+  const double gain = bounces(d) && ratio <= most_of_bounces ? 0.0 : std::numeric_limits<double>::infinity();
+  return Remainder{fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, ratio), ratio, 0.0,
+                   gain};
 }
 
 /// Looks for a motion that splits the class of a diagnosis.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
@@ -54,8 +55,9 @@ void CauseSearch::eliminate() {
         if (j != k) rest.push_back(s_.causes[j].suspect);
       Hypothesis without = fit_causes(rest, &s_.model, 6);
       adjust_noise(by_, without, 3);
+      refine_bounces(by_, without);
       const Suspect& suspect = all_[s_.causes[k].suspect];
-      if (accepted(compare(without, s_.model, suspect, by_.layout()), suspect)) continue;
+      if (stands(compare(without, s_.model, suspect, by_.layout()), s_.model, suspect)) continue;
       s_.model = std::move(without);
       s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(k));
       again = true;
@@ -111,7 +113,7 @@ void CauseSearch::try_pairs() {
     Suspect unstated;  // the pair as a whole is judged by the data that were held out
     if (!fewer && !accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
     const Hypothesis only_b = fit_causes({pairs[k].second}, &h, 6), only_a = fit_causes({pairs[k].first}, &h, 6);
-    if (!accepted(compare(only_b, h, a, by_.layout()), a) || !accepted(compare(only_a, h, b, by_.layout()), b))
+    if (!stands(compare(only_b, h, a, by_.layout()), h, a) || !stands(compare(only_a, h, b, by_.layout()), h, b))
       continue;
     s_.model = h;
     s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};
@@ -125,6 +127,7 @@ void CauseSearch::confirm_classes() {
   const double enough = s_.model.bic + reach(s_.base.bic - s_.model.bic);
   for (Found& found : s_.causes)
     std::erase_if(found.equals, [&](std::size_t other) {
+      if (passes_for(s_.model, all_[found.suspect], all_[other])) return false;
       const std::vector<std::size_t> causes = exchanged(s_.causes, found.suspect, other);
       if (causes.empty()) return true;
       Hypothesis rival = fit_causes(causes, &s_.model, 8);

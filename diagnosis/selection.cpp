@@ -4,6 +4,7 @@
 
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/intervals.hpp"
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/prediction_error.hpp"
 
@@ -103,8 +104,15 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
   std::stable_sort(tried.begin(), tried.end(), by_bic);
   const std::size_t polished = std::min<std::size_t>(3, tried.size());
-  for (std::size_t k = 0; k < polished; ++k)  // one after the other: each takes all threads itself
-    if (all_[tried[k].suspect].bounces && tried[k].model.bic < current.bic) find_bounces(by_, tried[k].model);
+  const double worth_refining = reach_share * (s_.base.bic - current.bic);
+  for (std::size_t k = 0; k < polished; ++k) {  // one after the other: each takes all threads itself
+    Hypothesis& h = tried[k].model;
+    const double gain = current.bic - h.bic;
+    if (all_[tried[k].suspect].bounces && gain > 0.0)
+      find_bounces(by_, h);
+    else if (gain > worth_refining)
+      refine_bounces(by_, h);
+  }
   parallel_for(polished, by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
@@ -149,6 +157,7 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
     if (there >= 0) simpler.values[k] = with.model.values[static_cast<std::size_t>(there)];
   }
   fit(by_, simpler, 5);
+  refine_bounces(by_, simpler);
   if (simpler.objective < s_.model.objective) {
     s_.model = std::move(simpler);
     if (base_too) s_.base = s_.model;
@@ -161,6 +170,18 @@ bool CauseSearch::matters(const Tried& with) const {
   constexpr double least_share = 0.01;
   return s_.causes.empty() ||
          error_ahead(by_, with.model, told_horizon) < (1.0 - least_share) * error_ahead(by_, s_.model, told_horizon);
+}
+
+/// Whether the data bear a cause out beside others. What the law of an impact gets wrong grows with what a gap
+/// explains, and passes for small causes, of some size by chance.
+bool CauseSearch::stands(const Evidence& evidence, const Hypothesis& with, const Suspect& suspect) const {
+  if (!accepted(evidence, suspect)) return false;
+  if (!evidence.beside_gap) return true;
+  if (evidence.delta_bic <= reach_share * (s_.base.bic - with.bic)) return false;
+  const EstimatedEffect found = estimated(with, covariance(by_, with, 1), suspect.effect, suspect.coordinates);
+  const Estimate& size = found.parameters.front();
+  const double stated = field_of(by_.scenario().effects, found.effect, size.field).value;
+  return stated < size.low || stated > size.high;
 }
 
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
@@ -184,12 +205,15 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     if (first_round)
       for (Tried& kept : s_.tried)
         if (kept.suspect == t.suspect) kept.evidence = t.evidence;
-    if (!accepted(t.evidence, suspect) || !matters(t)) continue;
+    if (!stands(t.evidence, t.model, suspect) || !matters(t)) continue;
     Found found{t.suspect, {}};
-    for (const Tried& other : tried)
-      if (other.suspect != t.suspect && !other.evidence.at_bound &&
-          t.evidence.delta_bic - other.evidence.delta_bic < reach(best) && all_[other.suspect].frees != suspect.effect)
+    for (const Tried& other : tried) {
+      const Suspect& rival = all_[other.suspect];
+      if (other.suspect == t.suspect || other.evidence.at_bound || rival.frees == suspect.effect) continue;
+      if (t.evidence.delta_bic - other.evidence.delta_bic < reach(best) ||
+          (passes_for(t.model, suspect, rival) && accepted(other.evidence, rival)))
         found.equals.push_back(other.suspect);
+    }
     s_.causes.push_back(found);
     s_.model = t.model;
     return true;

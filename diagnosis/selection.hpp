@@ -47,6 +47,7 @@ class CauseSearch {
   std::vector<Tried> try_plainly(const Hypothesis& current) const;
   void finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const;
   bool matters(const Tried& with) const;
+  bool stands(const Evidence& evidence, const Hypothesis& with, const Suspect& suspect) const;
   bool take_best(std::vector<Tried>& tried, bool first_round);
   void compare_fairly(Tried& with, bool base_too);
   void eliminate();

@@ -45,10 +45,6 @@ std::string gain_sentence(const Diagnosis& d) {
 /// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
 constexpr double most_noise = 1.0 / 3.0;
 
-bool bounces(const Diagnosis& d) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
-}
-
 bool drowned(const Diagnosis& d, double torque) { return !bounces(d) && d.noise_torque > most_noise * torque; }
 
 std::string remainder_sentence(const Diagnosis& d, double torque) {
@@ -70,6 +66,10 @@ const PredictionError* told(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)
     if (e.horizon == told_horizon) return &e;
   return nullptr;
+}
+
+bool bounces(const Diagnosis& d) {
+  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
 }
 
 std::string phrase(const EstimatedEffect& effect) {

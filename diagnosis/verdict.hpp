@@ -12,6 +12,9 @@ void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<S
 /// The error ahead that the sentence tells of, null if there is none.
 const PredictionError* told(const Diagnosis& diagnosis);
 
+/// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
+bool bounces(const Diagnosis& diagnosis);
+
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect);
 

@@ -70,6 +70,10 @@ TEST_CASE("a stated number needs evidence beyond its tolerance, and must not mak
   CHECK(outcome(e, suspect("gear_inertia", true)) == "named");
   e.held_out = -4.0;
   CHECK(outcome(e, suspect("gear_inertia", true)) == refuted);
+  e.delta_bic = 100.0;  // of numbers far beyond their tolerances
+  CHECK(outcome(e, suspect("gear_inertia", true)) == "named");
+  e.held_out = -5.1;
+  CHECK(outcome(e, suspect("gear_inertia", true)) == refuted);
   e.tolerances = 3.0;
   CHECK(outcome(e, suspect("gear_inertia", true)) == "within what its tolerance leaves open");
   e.delta_bic = 4.0;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "catch.hpp"
 #include "diagnosis/diagnose.hpp"
@@ -102,6 +104,38 @@ TEST_CASE("what impacts leave in single blocks makes no cause beside a gap") {
   const auto [score, d] = answer(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
   CAPTURE(d.sentence);
   CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("a gap keeps its name though its teeth cannot be followed as far as the noise lets others be") {
+  const auto [score, d] = answer(hard(8559633916621165583U, {{"backlash", 0.004}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("what is of no certain size beside a gap is no cause, for all that it adds to the likelihood") {
+  const auto [score, d] = answer(hard(4253192110446129441U, {{"backlash", 0.004}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("suspects beside a gap are compared by bounces that suit each of them") {
+  const auto [score, d] = answer(hard(6401084500742193729U, {{"torque_offset", 0.0012}, {"backlash", 0.001}}));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE(
+    "a number far beyond its tolerance is named though others, within theirs, predict what was held out as well") {
+  const auto [score, d] = answer(hard(8060836718574869034U, {{"mesh_friction", -0.045}}, "realistic"));
+  CAPTURE(d.sentence);
+  CHECK(score == recovery::Score::exact);
+}
+
+TEST_CASE("friction that falls as soon as anything moves is in a class with friction at rest") {
+  const auto [score, d] = answer(hard(16379865211237047177U, {{"static_friction", 0.09}}, "realistic"));
+  CAPTURE(d.sentence);
+  CHECK(d.verdict == Verdict::ambiguous);
+  CHECK(d.equivalents == std::vector<std::string>{"stribeck", "static_friction"});
 }
 
 TEST_CASE("less friction at one place of the gear is seen, and no name is claimed for it") {
