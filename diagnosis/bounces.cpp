@@ -69,9 +69,8 @@ class GapSearch {
 }  // namespace
 
 std::optional<std::size_t> gap_of(const Hypothesis& h) {
-  for (std::size_t k = 0; k < h.free.size(); ++k)
-    if (h.free[k].effect == "backlash") return k;
-  return std::nullopt;
+  const int k = index_of(h, "backlash", "gap");
+  return k < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(k));
 }
 
 void refine_bounces(const Evaluation& by, Hypothesis& h) {

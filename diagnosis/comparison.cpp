@@ -86,10 +86,10 @@ bool accepted(const Evidence& evidence, const Suspect& suspect, const Acceptance
 bool passes_for(const Hypothesis& h, const Suspect& suspect, const Suspect& other) {
   if (suspect.effect != "stribeck" || other.effect != "static_friction") return false;
   constexpr double little_more = 2.0;
-  const auto is_speed = [](const Coordinate& c) { return c.field == "speed"; };
-  const auto speed = std::find_if(suspect.coordinates.begin(), suspect.coordinates.end(), is_speed);
-  const int k = speed == suspect.coordinates.end() ? -1 : index_of(h, *speed);
-  return k >= 0 && h.values[static_cast<std::size_t>(k)] < little_more * speed->low;
+  const int k = index_of(h, "stribeck", "speed");
+  if (k < 0) return false;
+  const auto speed = static_cast<std::size_t>(k);
+  return h.values[speed] < little_more * h.free[speed].low;
 }
 
 std::string outcome(const Evidence& evidence, const Suspect& suspect, const AcceptanceRules& rules) {

@@ -45,6 +45,10 @@ int index_of(const Hypothesis& h, const Coordinate& coordinate) {
   return -1;
 }
 
+int index_of(const Hypothesis& h, std::string_view effect, std::string_view field) {
+  return index_of(h, Coordinate{.effect = effect, .field = field, .scale = 1.0, .low = 0.0, .high = 0.0});
+}
+
 void add_suspect(Hypothesis& h, const std::vector<Suspect>& all, std::size_t index, std::size_t start) {
   const Suspect& suspect = all[index];
   const SuspectStart& from = suspect.starts[std::min(start, suspect.starts.size() - 1)];

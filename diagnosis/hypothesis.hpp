@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/evaluation.hpp"
@@ -40,6 +41,8 @@ void add_suspect(Hypothesis& h, const std::vector<Suspect>& all, std::size_t sus
 
 /// Index of a coordinate among the free ones, -1 where it is fixed.
 int index_of(const Hypothesis& h, const Coordinate& coordinate);
+/// The same of a field that is a coordinate as it stands.
+int index_of(const Hypothesis& h, std::string_view effect, std::string_view field);
 
 /// Change of the whitened innovations by a change of one free coordinate, per scale; clipped where it is beyond all
 /// proportion to the noise. step: in scales, its sign is turned where it would leave the bounds.

@@ -135,8 +135,8 @@ double structural_error(const Hypothesis& h, std::size_t k) {
   if (c.tolerance > 0.0 && gap_of(h)) return c.tolerance;
   if (c.effect == "stribeck") return shape_share * value;
   if (c.effect == "mesh_friction")  // at rest, from where it falls
-    for (std::size_t q = 0; q < h.free.size(); ++q)
-      if (h.free[q].effect == "stribeck" && h.free[q].field == "drop") return shape_share * h.values[q];
+    if (const int q = index_of(h, "stribeck", "drop"); q >= 0)
+      return shape_share * h.values[static_cast<std::size_t>(q)];
   if (c.effect == "torque_saturation") return limit_share * value;
   if (c.effect == "worm_inertia" || c.effect == "gear_inertia") return moving_share * c.scale;
   return c.effect == "actuator_lag" || c.effect == "actuator_delay" ? held_torque : rigid_share * c.scale;

@@ -14,24 +14,20 @@ namespace wormdrive::test::diagnosis_intervals {
 namespace {
 
 /// A hypothesis with everything that is stated and one suspect, from its last start.
-struct Extended {
-  std::vector<Suspect> all;
-  Hypothesis h{};
-};
-
-Extended extended_by(std::string_view effect) {
+Hypothesis extended_by(std::string_view effect) {
   const Scenario drive = nominal_arm();
   const PreparedRecording recording = prepared(record(drive, {.duration = 2.0}), {}, 0);
   const Magnitudes sizes = magnitudes(drive, {recording});
   const auto stated = toleranced_coordinates(drive, sizes, {});
-  Extended e{suspects({}, sizes, stated)};
+  const auto all = suspects({}, sizes, stated);
+  Hypothesis h;
   for (const Coordinate& c : stated) {
-    e.h.free.push_back(c);
-    e.h.values.push_back(c.centre);
+    h.free.push_back(c);
+    h.values.push_back(c.centre);
   }
-  for (std::size_t k = 0; k < e.all.size(); ++k)
-    if (e.all[k].effect == effect) add_suspect(e.h, e.all, k, e.all[k].starts.size() - 1);
-  return e;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].effect == effect) add_suspect(h, all, k, all[k].starts.size() - 1);
+  return h;
 }
 
 /// Standard error of a free coordinate by data without noise.
@@ -46,7 +42,7 @@ double error(const Hypothesis& h, std::string_view effect, std::string_view fiel
 }  // namespace
 
 TEST_CASE("beside a gap a stated number is known no better than its tolerance") {
-  const Hypothesis gap = extended_by("backlash").h, none = extended_by("worm_viscous").h;
+  const Hypothesis gap = extended_by("backlash"), none = extended_by("worm_viscous");
   for (const Coordinate& c : gap.free) {
     if (c.tolerance <= 0.0) continue;
     CAPTURE(c.effect);
@@ -58,7 +54,7 @@ TEST_CASE("beside a gap a stated number is known no better than its tolerance") 
 }
 
 TEST_CASE("the friction at rest from where it falls is as uncertain as the fall") {
-  const Hypothesis h = extended_by("stribeck").h;
+  const Hypothesis h = extended_by("stribeck");
   const double drop = h.values[h.values.size() - 2];  // before the speed of the fall
   CHECK(std::abs(error(h, "stribeck", "drop") / (0.2 * drop) - 1.0) < 1e-6);
   CHECK(std::abs(error(h, "mesh_friction", "change") / (0.2 * drop) - 1.0) < 1e-6);
