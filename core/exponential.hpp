@@ -4,15 +4,14 @@
 
 namespace wormdrive {
 
-/// exp(-x) for x >= 0, wrong by less than one unit in the last place above 1e-307, and the same bits on every machine
-/// (a C library picks its variant by the processor). Smaller values are zero.
-inline double decay(double x) {
-  if (x > 707.0) return 0.0;
+/// e^x for -707 <= x < 709, wrong by less than one unit in the last place, and the same bits on every machine (a C
+/// library picks its variant by the processor).
+inline double exponential(double x) {
   constexpr double log2_e = 0x1.71547652b82fep+0;
   constexpr double ln2 = 0x1.62e42fee00000p-1, ln2_rest = 0x1.a39ef35793c76p-33;  // k ln2 is exact
   constexpr double to_whole = 0x1.8p52;  // added to a double it leaves the nearest whole number in the last bits
-  const double shifted = to_whole - x * log2_e, k = shifted - to_whole;
-  const double r = (-x - k * ln2) - k * ln2_rest;  // exp(-x) = 2^k exp(r), |r| <= ln 2/2
+  const double shifted = to_whole + x * log2_e, k = shifted - to_whole;
+  const double r = (x - k * ln2) - k * ln2_rest;  // e^x = 2^k e^r, |r| <= ln 2/2
   const double r2 = r * r, r4 = r2 * r2;
   const double tail =
       ((1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120))) +
@@ -21,5 +20,8 @@ inline double decay(double x) {
   const auto power = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023U) << 52U);
   return power * (1.0 + (r + r2 * tail));
 }
+
+/// e^-x for x >= 0; zero where that is less than 1e-307.
+inline double decay(double x) { return x > 707.0 ? 0.0 : exponential(-x); }
 
 }  // namespace wormdrive

@@ -59,10 +59,10 @@ void for_each_table(const RigidDrive<Load>& drive, Visit&& visit) {
   });
 }
 
-/// Whether a state can have a derivative by a field: not by a number of things or an order.
+/// Whether a state can have a derivative by a field: not by a number of things, an order or a choice.
 template <class Owner, class Value>
 constexpr bool continuous(const Field<Owner, Value>& field) {
-  return field.name != "exponent";
+  return field.name != "exponent" && field.name != "tail";
 }
 
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are

@@ -13,11 +13,11 @@ namespace wormdrive {
 
 /// Friction between the teeth that falls with the sliding speed v, in a motion that has formulas of its own.
 ///
-/// Friction is mu = least + drop e with e = exp(-x^p), x = |v|/speed. Inertia and torques of a mode, multiplied by the
-/// gear's lever arm, are linear in mu, and so
+/// Friction is mu = least + drop e with e = exp(-x^p) or 1/(1 + x^p), x = |v|/speed. Inertia and torques of a mode,
+/// multiplied by the gear's lever arm, are linear in mu, and so
 ///   theta'' = [theta'' with the least friction] + pull u beyond,  u = e/(1 + bend e),
 /// where beyond is the distance from the switching surface, in which there is no friction of the teeth. With
-/// u' = -(x^p)' (u - bend u^2) every coefficient of a series follows from those before it.
+/// u' = -(x^p)' (u - bend u^2) or -(x^p)' u^2 every coefficient of a series follows from those before it.
 class StribeckCurve {
  public:
   /// What the fall of friction does in one mode.
@@ -30,7 +30,8 @@ class StribeckCurve {
       : drop_(effect.drop),
         least_(mesh.mu - effect.drop),
         per_speed_(std::abs(mesh.sliding_speed(mesh.i)) / effect.speed),
-        exponent_(static_cast<int>(std::ceil(effect.exponent))) {}
+        exponent_(static_cast<int>(std::ceil(effect.exponent))),
+        has_tail_(effect.tail > 0.0) {}
 
   bool falls() const { return exponent_ > 0; }
   double least_friction() const { return least_; }
@@ -65,16 +66,18 @@ class StribeckCurve {
       double square = u_[k] * u_[0];
       square += square;
       for (int j = 1; j < k; ++j) square += u_[j] * u_[k - j];
-      rest_[k] = u_[k] - bend_ * square;
+      rest_[k] = rest(u_[k], square);
     }
     double sum = 0.0;
     for (int j = 0; j <= k; ++j) sum += beyond_[j] * u_[k - j];
     return pull_ * sum;
   }
 
-  /// Whether a series of this order can be judged by its last terms over a step of h. Far above its speed the curve is
-  /// flat, and terms too small to be seen would hide the friction that returns as the drive slows down.
+  /// Whether a series of this order can be judged by its last terms over a step of h. Far above its speed an
+  /// exponential fall is flat, and terms too small to be seen would hide the friction that returns as the drive slows
+  /// down.
   bool holds(int order, double h) const {
+    if (has_tail_) return true;
     constexpr double flat = 45.0;  // e^-45 is nothing in a double
     double slower = 0.0;
     for (int k = order - 1; k >= 1; --k) slower = (slower + std::abs(x_[k])) * h;
@@ -89,7 +92,7 @@ class StribeckCurve {
             const SineAndCosine& arm, const TaylorAccuracy& accuracy) {
     const double x = per_speed_ * (m.motion * omega);
     if (!(x >= 0.0)) return false;
-    const double e = decay(power(x));
+    const double e = left(power(x));
     const int terms = terms_over(m, branch, x, e, omega, h, held, arm, accuracy);
     if (terms == 0) return false;
 
@@ -125,26 +128,19 @@ class StribeckCurve {
     const double square = x * x;
     return exponent_ == 1 ? x : exponent_ == 2 ? square : exponent_ == 3 ? square * x : square * square;
   }
+  /// x^(p-1).
+  double below_power(double x) const {
+    return exponent_ == 1 ? 1.0 : exponent_ == 2 ? x : exponent_ == 3 ? x * x : x * x * x;
+  }
 
   /// How many coefficients of the acceleration a step of h needs; 0 if a guard might fall in it, or if it takes more
   /// than there are.
   ///
-  /// Bounds hold for complex times up to a radius within which x^p changes by at most `far`, or has no negative real
-  /// part: there |e| stays bounded, so does the acceleration, and by Cauchy's estimate its k-th coefficient is at most
-  /// that bound over the radius^k.
+  /// Bounds hold for complex times up to a radius within which |e| stays bounded, and so does the acceleration; by
+  /// Cauchy's estimate its k-th coefficient is at most that bound over the radius^k.
   int terms_over(const HeldMotion& m, const Branch& branch, double x, double e, double omega, double h,
                  const HeldTorques& held, const SineAndCosine& arm, const TaylorAccuracy& accuracy) const {
-    constexpr double far = 3.0, exp_far = 20.1;
-    constexpr std::array<double, 5> nowhere_negative{0.0, 0.999, 0.707, 0.499, 0.382};  // sin(pi/(2p))
-    constexpr std::array<double, 5> root_of_far{0.0, 3.0, 1.733, 1.443, 1.317};
-    // (x + r)^p - x^p <= p r (x + root of far)^(p-1)
-    double aside = far, highest = e * exp_far;
-    for (int k = 1; k < exponent_; ++k) aside /= x + root_of_far[exponent_];
-    aside /= exponent_;
-    if (const double wide = nowhere_negative[exponent_] * x; wide > aside) {
-      aside = wide;
-      highest = 1.0;
-    }
+    const auto [aside, highest] = has_tail_ ? bounds_with_tail(x, e) : bounds_without_tail(x, e);
     const double bent = std::abs(branch.bend) * highest;
     if (!(bent <= 0.5)) return 0;
 
@@ -171,13 +167,37 @@ class StribeckCurve {
     return 0;
   }
 
+  /// A distance from x in the complex plane, and the most that |e| comes to within it.
+  struct Disc {
+    double aside, highest;
+  };
+  /// exp(-x^p) where x^p changes by at most `far`, or has no negative real part.
+  Disc bounds_without_tail(double x, double e) const {
+    constexpr double far = 3.0, exp_far = 20.1;
+    constexpr std::array<double, 5> nowhere_negative{0.0, 0.999, 0.707, 0.499, 0.382};  // sin(pi/(2p))
+    constexpr std::array<double, 5> root_of_far{0.0, 3.0, 1.733, 1.443, 1.317};
+    // (x + r)^p - x^p <= p r (x + root of far)^(p-1)
+    const double aside = far / (exponent_ * below_power(x + root_of_far[exponent_]));
+    const double wide = nowhere_negative[exponent_] * x;
+    return wide > aside ? Disc{wide, 1.0} : Disc{aside, e * exp_far};
+  }
+  /// 1/(1 + x^p) where x^p changes by at most half of 1 + x^p: the distance is less than max(0.8, x/2) where p > 1.
+  Disc bounds_with_tail(double x, double e) const {
+    return {0.5 / (e * exponent_ * below_power(x + std::max(0.8, 0.5 * x))), 2.0 * e};
+  }
+
+  /// How much of the drop is left, e(x^p).
+  double left(double power) const { return has_tail_ ? 1.0 / (1.0 + power) : decay(power); }
+  /// The rate of u over that of -x^p.
+  double rest(double u, double square) const { return has_tail_ ? square : u - bend_ * square; }
+
   /// The first coefficients at x.
   void start(double x) {
-    const double e = decay(power(x));
+    const double e = left(power(x));
     x_[0] = x;
     square_[0] = x * x;
     u_[0] = e / (1.0 + bend_ * e);
-    rest_[0] = u_[0] - bend_ * (u_[0] * u_[0]);
+    rest_[0] = rest(u_[0], u_[0] * u_[0]);
   }
   /// Coefficient k of the rate of x^p, times k.
   [[gnu::always_inline]] void raise(int k) {
@@ -199,6 +219,7 @@ class StribeckCurve {
 
   double drop_ = 0.0, least_ = 0.0, per_speed_ = 0.0;
   int exponent_ = 0;  ///< 0: friction does not fall
+  bool has_tail_ = false;
   double pull_ = 0.0, bend_ = 0.0, scale_ = 0.0;
   Coefficients x_{}, square_{}, slope_{}, u_{}, rest_{}, beyond_{};  ///< rest: u - bend u^2, slope: k (x^p)_k
   Coefficients speed_{};                                             ///< in a leap

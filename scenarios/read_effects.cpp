@@ -16,6 +16,7 @@ void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
       Effect parameters;
       reader.read_fields(parameters);
       if constexpr (requires { parameters.exponent; }) require_whole(reader, "exponent", parameters.exponent);
+      if constexpr (requires { parameters.tail; }) require_whole(reader, "tail", parameters.tail);
       reader.finish();
       if (on) effect = parameters;
     });

@@ -11,28 +11,33 @@
 
 namespace wormdrive {
 
-/// Friction falls with the sliding speed v of the teeth as the lubricant parts them [Stribeck 1902]:
-/// mu - drop (1 - exp(-(|v|/speed)^exponent)), where mu is the value at rest.
+/// Friction falls with the sliding speed v of the teeth as the lubricant parts them [Stribeck 1902]: mu - drop (1 - e)
+/// with x = (|v|/speed)^exponent and e = exp(-x) [Tustin 1947; Bo & Pavelescu 1982] or 1/(1 + x) [Hess & Soom 1990],
+/// where mu is the value at rest.
 template <class T>
 struct Stribeck {
   static constexpr std::string_view id = "stribeck";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause = "the lubricant parts the teeth the more the faster they slide";
   static constexpr std::string_view law =
-      "mu - drop (1 - exp(-(|v|/speed)^exponent)) over the sliding speed v = lw theta_w'/cos(lambda); mu is the value "
-      "at rest";
-  static constexpr std::string_view source = "R. Stribeck, Z. VDI 46 (1902)";
+      "mu - drop (1 - e), e = exp(-x) or 1/(1 + x) with x = (|v|/speed)^exponent, over the sliding speed "
+      "v = lw theta_w'/cos(lambda); mu is the value at rest";
+  static constexpr std::string_view source =
+      "R. Stribeck, Z. VDI 46 (1902); D. P. Hess, A. Soom, J. Tribology 112 (1990) 147-152";
   T drop{};
   T speed{};
   T exponent{1};
+  T tail{0};
 
   static constexpr auto fields() {
     return std::tuple{
         Field{&Stribeck::drop, "drop", unit::none, bounds::any, "friction at rest less friction at high speed"},
         Field{&Stribeck::speed, "speed", unit::metre_per_second, bounds::positive,
-              "sliding speed by which 63 % of the drop are reached"},
+              "sliding speed by which 63 % of the drop are reached, 50 % with tail = 1"},
         Field{&Stribeck::exponent, "exponent", unit::none, bounds::between(1, 4),
-              "shape of the fall, 1 exponential, 2 a bell; a whole number", Presence::optional}};
+              "shape of the fall, 1 pointed, 2 a bell; a whole number", Presence::optional},
+        Field{&Stribeck::tail, "tail", unit::none, bounds::between(0, 1),
+              "end of the fall, 0 exponential, 1 as 1/(1 + x); a whole number", Presence::optional}};
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>
@@ -40,10 +45,12 @@ struct Stribeck {
     using portable::exp;
     // |v| by the sign of the motion: smooth where an integrator looks beyond a reversal, and bounded beyond that
     S x = T(sign(at.motion)) * at.sliding_speed / speed;
-    if (x < S(T(-1))) x = S(T(-1));
+    const S least = S(T(tail > 0 ? -0.5 : -1.0));  // 1/(1 + x) has a pole at -1
+    if (x < least) x = least;
     S power = x;
     for (int k = 1; k < exponent; ++k) power = power * x;
-    return mu - drop * (S(T(1)) - exp(-power));
+    const S one = S(T(1));
+    return mu - drop * (tail > 0 ? power / (one + power) : one - exp(-power));
   }
   FrictionRange friction_range(const FrictionRange& mu, double) const {
     return {mu.low - std::max(0.0, drop), mu.high - std::min(0.0, drop)};

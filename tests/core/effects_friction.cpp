@@ -49,7 +49,7 @@ TEST_CASE("mesh_friction: the drive is the one whose mesh states the sum, to the
 TEST_CASE("stribeck: all friction at rest, 1 - 1/e of the drop gone at its speed, all of it at high speed") {
   const double v = 0.02, omega_g = v * std::cos(mesh.lambda) / mesh.lw / 60.0;  // of the gear, where the teeth slide v
   for (const double p : {1.0, 2.0, 3.0}) {
-    const Stribeck<double> fall{.drop = 0.1, .speed = v, .exponent = p};
+    const Stribeck<double> fall{.drop = 0.1, .speed = v, .exponent = p, .tail = 0.0};
     for (const Motion motion : {Motion::forward, Motion::backward}) {
       const int s = sign(motion);
       REQUIRE(friction(fall, 0, 0, 0.0, motion) == 0.25);
@@ -60,17 +60,34 @@ TEST_CASE("stribeck: all friction at rest, 1 - 1/e of the drop gone at its speed
   }
 }
 
+TEST_CASE("stribeck with a tail: half of the drop gone at its speed, and it comes to its end as a power of the speed") {
+  const double v = 0.02, omega_g = v * std::cos(mesh.lambda) / mesh.lw / 60.0;
+  for (const double p : {1.0, 2.0, 3.0, 4.0}) {
+    const Stribeck<double> fall{.drop = 0.1, .speed = v, .exponent = p, .tail = 1.0};
+    for (const Motion motion : {Motion::forward, Motion::backward}) {
+      const int s = sign(motion);
+      REQUIRE(friction(fall, 0, 0, 0.0, motion) == 0.25);
+      REQUIRE(close(friction(fall, 0, 0, s * omega_g, motion), 0.2, 1e-14));
+      REQUIRE(close(friction(fall, 0, 0, s * 10.0 * omega_g, motion), 0.15 + 0.1 / (1.0 + std::pow(10.0, p)), 1e-14));
+    }
+  }
+}
+
 TEST_CASE("stribeck: beyond a reversal, where integrators look, friction goes on smoothly and stays bounded") {
-  const Stribeck<double> fall{.drop = 0.1, .speed = 0.02, .exponent = 1.0};
+  const Stribeck<double> fall{.drop = 0.1, .speed = 0.02, .exponent = 1.0, .tail = 0.0};
   const double h = 1e-5;
   const auto at = [&](double omega_g) { return friction(fall, 0, 0, omega_g, Motion::forward); };
   REQUIRE(std::abs(at(h) - 2.0 * at(0.0) + at(-h)) <= 2e-8);  // a kink would show as 7e-5
   REQUIRE(close(at(-1e6), 0.15 + 0.1 * std::exp(1.0), 1e-14));
+  const Stribeck<double> with_tail{.drop = 0.1, .speed = 0.02, .exponent = 1.0, .tail = 1.0};
+  const auto tailed = [&](double omega_g) { return friction(with_tail, 0, 0, omega_g, Motion::forward); };
+  REQUIRE(std::abs(tailed(h) - 2.0 * tailed(0.0) + tailed(-h)) <= 4e-8);
+  REQUIRE(close(tailed(-1e6), 0.35, 1e-14));
 }
 
 TEST_CASE("stribeck: the steady torque follows C(mu(v)), so lowering takes less motor torque the faster it goes") {
   const auto d = entered(table1(), constant(0.5), constant(0.0),
-                         effects(Stribeck<double>{.drop = 0.1, .speed = 0.02, .exponent = 1.0}));
+                         effects(Stribeck<double>{.drop = 0.1, .speed = 0.02, .exponent = 1.0, .tail = 0.0}));
   for (const double omega_w : {0.1, 1.0, 5.0, 40.0}) {
     const double v = mesh.lw * omega_w / std::cos(mesh.lambda), mu = 0.15 + 0.1 * std::exp(-v / 0.02);
     REQUIRE(close(steady_torque(d, omega_w, 0.0, 0.0), -mesh.C(mu) * 0.5, 1e-12));
@@ -159,7 +176,7 @@ TEST_CASE("the Jacobian knows how friction changes with angle and speed") {
 
 TEST_CASE("derivatives by an effect's own parameters come through the same formula") {
   using Jet = ceres::Jet<double, 2>;
-  const Stribeck<Jet> fall{.drop = Jet(0.1, 0), .speed = Jet(0.02, 1), .exponent = Jet(1.0)};
+  const Stribeck<Jet> fall{.drop = Jet(0.1, 0), .speed = Jet(0.02, 1), .exponent = Jet(1.0), .tail = Jet(0.0)};
   const SlidingContact<Jet> at{{}, Motion::forward, Jet(0.03)};
   const Jet mu = fall.friction(Jet(0.25), at);
   REQUIRE(close(mu.v[0], -(1.0 - std::exp(-1.5)), 1e-14));

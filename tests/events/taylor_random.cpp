@@ -131,7 +131,8 @@ Effects<double> random_effects(Dice& dice) {
   maybe(dice, on, BearingAsymmetry<double>{dice.between(-2e-3, 2e-3), dice.between(-2e-5, 2e-5)});
   maybe(dice, on, WormInertia<double>{dice.between(-5e-6, 5e-6)});
   maybe(dice, on, MeshFriction<double>{dice.between(-0.02, 0.05)});
-  maybe(dice, on, Stribeck<double>{dice.between(0, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(3)});
+  maybe(dice, on,
+        Stribeck<double>{dice.between(0, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(3), 1.0 * dice.below(2)});
   maybe(dice, on, FrictionAsymmetry<double>{dice.between(-0.03, 0.03)});
   maybe(dice, on, PositionFriction<double>{dice.between(0, 0.3), dice.between(0, 6)});
   maybe(dice, on, FrictionDrift<double>{dice.between(-0.3, 0.3), duration});
@@ -160,8 +161,8 @@ Comparison compare_random_effects(Dice& dice) {
 /// Friction that falls with the sliding speed and bearings, all of a size that shows.
 Comparison compare_random_stribeck(Dice& dice) {
   const MeshParameters<double> p = table1(dice.between(0.1, 0.35));
-  Effects<double> on =
-      effects(Stribeck<double>{dice.between(-0.05, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(4)});
+  Effects<double> on = effects(
+      Stribeck<double>{dice.between(-0.05, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(4), 1.0 * dice.below(2)});
   maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
   maybe(dice, on, GearCoulomb<double>{dice.between(0, 0.02)});
   maybe(dice, on, WormViscous<double>{dice.between(0, 1e-4)});

@@ -58,7 +58,7 @@ TEST_CASE("a run with any effect stated but off is the run without it to the las
       for_each_field<Effect>([&](const auto& field) {
         words.push_back(fmt::format("effect.{}.{}={}", Effect::id,
                                     spellings(field.name, field.unit, Axis::rotary).front().key,
-                                    field.bounds.contain(0.5) ? 0.5 : 1.0));
+                                    field.bounds.contain(1.0) ? 1.0 : 0.5));
       });
       require_same(without, simulate_scenario(load_scenario(shipped("fig09_switching.toml"), words, Purpose::run)));
     });

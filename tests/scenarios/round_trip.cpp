@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "core/rigid_drive.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 
@@ -80,7 +81,9 @@ class Filler {
   template <class Parameters>
   Parameters make() {
     Parameters parameters;
-    for_each_field<Parameters>([&](const auto& field) { parameters.*field.member = next(field.bounds); });
+    for_each_field<Parameters>([&](const auto& field) {
+      parameters.*field.member = continuous(field) ? next(field.bounds) : field.bounds.high;
+    });
     return parameters;
   }
 
