@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "diagnosis/certificate.hpp"
 #include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
@@ -69,10 +70,8 @@ void print_gain(const Diagnosis& d) {
 
 /// What these data can never show; what they show only above a size is in the file.
 void print_blind_spots(const Diagnosis& d) {
-  std::vector<std::string> unobservable;
-  for (const Visibility& v : d.certificate)
-    if (!v.observable) unobservable.push_back(v.effect);
-  if (!unobservable.empty()) print_item("unseen", fmt::format("{}", fmt::join(unobservable, ", ")));
+  const std::vector<std::string> unseen = unobservable(d.certificate);
+  if (!unseen.empty()) print_item("unseen", fmt::format("{}", fmt::join(unseen, ", ")));
 }
 
 void print(const Diagnosis& d, const std::vector<std::string>& written, const std::string& folder) {

@@ -129,10 +129,12 @@ void add_evidence(ReportPage& page, const json& findings) {
        {},
        "An empty size: these data never show it."},
       findings.at("certificate"), [](const json& v) {
-        return std::vector<Cell>{words(text(v.at("effect"))), words(text(v.at("parameter"))),
-                                 number(v.at("detectable")),  number(v.at("nameable")),
-                                 text(v.at("unit")),          words(text(v.at("nearest"))),
-                                 number(v.at("likeness"))};
+        const std::string chosen = text(v.at("chosen"));
+        return std::vector<Cell>{
+            words(text(v.at("effect"))), words(text(v.at("parameter")) + (chosen.empty() ? "" : ", " + chosen)),
+            number(v.at("detectable")),  number(v.at("nameable")),
+            text(v.at("unit")),          words(text(v.at("nearest"))),
+            number(v.at("likeness"))};
       });
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 #include "diagnosis/comparison.hpp"
 #include "diagnosis/fit.hpp"
@@ -100,6 +101,8 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
   Visibility v;
   v.effect = suspect.effect;
   v.field = c.field;
+  if (Signatures::is_periodic(suspect))
+    for (const FieldValue& f : suspect.starts[mine.start].chosen) v.chosen = fmt::format("{} = {:g}", f.field, f.value);
   v.unit = field_of({}, c.effect, c.field).unit;
   const double alone = signatures.length(mine, nullptr);
   const auto size = [&](double length) { return length > 1e-9 ? mine.size * std::sqrt(least_length / length) : never; };
@@ -161,9 +164,14 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
       continue;
     }
     std::vector<Visibility> starts;
-    for (const Signature& s : signatures.list())
-      if (s.suspect == c) starts.push_back(of_signature(signatures, s, all));
+    for (std::size_t start = 0; start < all[c].starts.size(); ++start)
+      for (const Signature& s : signatures.list())
+        if (s.suspect == c && s.start == start) starts.push_back(of_signature(signatures, s, all));
     if (starts.empty()) continue;
+    if (Signatures::is_periodic(all[c])) {  // each number of periods has a size of its own
+      list.insert(list.end(), starts.begin(), starts.end());
+      continue;
+    }
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Visibility& a, const Visibility& b) { return a.detectable < b.detectable; });
     list.push_back(starts[(starts.size() - 1) / 2]);
@@ -188,6 +196,16 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
     list.push_back(v);
   }
   return list;
+}
+
+std::vector<std::string> unobservable(const std::vector<Visibility>& certificate) {
+  std::vector<std::string> effects;
+  for (const Visibility& v : certificate)
+    if (std::none_of(certificate.begin(), certificate.end(),
+                     [&](const Visibility& other) { return other.effect == v.effect && other.observable; }) &&
+        std::find(effects.begin(), effects.end(), v.effect) == effects.end())
+      effects.push_back(v.effect);
+  return effects;
 }
 
 }  // namespace wormdrive

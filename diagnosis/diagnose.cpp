@@ -52,8 +52,9 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
 }
 
 /// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
-/// search without one is made, and kept if it predicts clearly better.
-Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base,
+/// search without one is made, and kept if it predicts clearly better. Where more noise than torque is at work,
+/// whatever was found, another search would not follow the motion either.
+Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base, double torque,
                  const DiagnosisSettings& settings) {
   const auto causes = [&](const Hypothesis& from) {
     return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
@@ -61,6 +62,7 @@ Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hy
   Selection found = causes(base);
   constexpr double clearly = 0.9;
   if (!hides_what_is_slow(found.model.noise_model)) return found;
+  if (!gap_of(found.model) && noise_sizes(by, found.model).torque > torque) return found;
   Selection plain = causes(without_noise_model(base));
   const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
   return error(plain) < clearly * error(found) ? plain : found;
@@ -183,7 +185,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
       base.free.push_back(c);
       base.values.push_back(c.centre);
     }
-  const Selection found = search(by, all, base, settings);
+  const Selection found = search(by, all, base, sizes.torque, settings);
 
   Diagnosis d;
   d.seed = settings.seed;

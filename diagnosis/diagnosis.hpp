@@ -52,7 +52,8 @@ struct PredictionError {
 /// What these data can show of an effect.
 struct Visibility {
   std::string effect;
-  std::string field;  ///< whose size is told
+  std::string field;   ///< whose size is told
+  std::string chosen;  ///< for which choice, "periods = 8"; empty where there is one only
   Unit unit;
   double detectable{};  ///< smallest size that can be seen, in SI; infinity: none
   double nameable{};    ///< smallest size that can be told apart from other effects, of exact twins as their class;

@@ -107,12 +107,13 @@ void write_ranking(hid_t file, const std::vector<Candidate>& ranking) {
 
 void write_certificate(hid_t file, const std::vector<Visibility>& certificate) {
   std::vector<std::vector<double>> columns(4);
-  std::vector<std::string> effects, parameters, units, nearest;
+  std::vector<std::string> effects, parameters, chosen, units, nearest;
   for (const Visibility& v : certificate) {
     const double row[] = {v.detectable / v.unit.si, v.nameable / v.unit.si, v.likeness, v.observable ? 1.0 : 0.0};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(row[k]);
     effects.push_back(v.effect);
     parameters.push_back(v.field);
+    chosen.push_back(v.chosen);
     units.emplace_back(v.unit.symbol);
     nearest.push_back(v.nearest);
   }
@@ -125,6 +126,7 @@ void write_certificate(hid_t file, const std::vector<Visibility>& certificate) {
   table.append(columns);
   write_texts(table.group(), "effect", "id of the effect", effects);
   write_texts(table.group(), "parameter", "whose size is told", parameters);
+  write_texts(table.group(), "chosen", "for which choice; empty where there is one only", chosen);
   write_texts(table.group(), "unit", "unit of the sizes", units);
   write_texts(table.group(), "nearest", "the nearest other effect", nearest);
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/certificate.hpp"
 #include "output/part_file.hpp"
 
 namespace wormdrive {
@@ -47,6 +48,7 @@ json as_json(const PredictionError& e) {
 json as_json(const Visibility& v) {
   return {{"effect", v.effect},
           {"parameter", v.field},
+          {"chosen", v.chosen.empty() ? json(nullptr) : json(v.chosen)},
           {"unit", si_symbol(v.unit)},
           {"observable", v.observable},
           {"detectable", number(v.detectable)},
@@ -80,9 +82,6 @@ std::string name(Verdict verdict) {
 }
 
 nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const std::vector<std::string>& files) {
-  json unobservable = json::array();
-  for (const Visibility& v : d.certificate)
-    if (!v.observable) unobservable.push_back(v.effect);
   return {{"verdict", name(d.verdict)},
           {"sentence", d.sentence},
           {"data", {{"kind", data_kind}, {"files", files}}},
@@ -93,7 +92,7 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
           {"calibration", list_of(d.calibration)},
           {"identified", list_of(d.identified)},
           {"certificate", list_of(d.certificate)},
-          {"unobservable", unobservable},
+          {"unobservable", unobservable(d.certificate)},
           {"adequacy", list_of(d.remainders)},
           {"noise", {{"torque_Nm", number(d.noise_torque)}, {"angle_rad", number(d.noise_angle)}}},
           {"experiment", d.experiment ? json(d.experiment_reason) : json(nullptr)},

@@ -39,6 +39,8 @@ void follow_slopes(const Evaluation& by, Hypothesis& h, int rounds, double least
     bool better = false;
     for (int attempt = 0; attempt < 4 && !better; ++attempt) {
       const Eigen::VectorXd step = solve_normal(A, b, damping);
+      constexpr double nothing = 0.03;  // of what makes a round worth another one
+      if (0.5 * b.dot(step) < nothing * least_gain) return;
       Hypothesis trial = h;
       for (std::size_t k = 0; k < n; ++k) {
         constexpr double longest = 20.0;  // scales

@@ -127,7 +127,7 @@ double structural_error(const Hypothesis& h, std::size_t k) {
   constexpr double impact_share = 0.05;  // of a gap, by how an impact goes on
   constexpr double yielding = 2e-5;      // [rad], of a gap, by which loaded teeth make it seem wider
   constexpr double limit_share = 1e-3;   // of a limit that is met in the fastest motions
-  constexpr double shape_share = 0.2;    // of a fall over the speed, by laws of other shapes
+  constexpr double shape_share = 0.1;    // of a fall over the speed, by laws of other shapes
   const Coordinate& c = h.free[k];
   const double value = h.values[k];
   if (c.effect == "backlash") return std::hypot(impact_share * value, yielding);

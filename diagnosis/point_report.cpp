@@ -99,7 +99,13 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
     if (std::any_of(list.begin(), list.end(), [](const Visibility& v) { return v.effect == Effect::id; })) return;
     constexpr auto first = std::get<0>(Effect::fields());
-    list.push_back({std::string(Effect::id), std::string(first.name), first.unit, infinity, infinity, "", 0.0, false});
+    Visibility never;
+    never.effect = Effect::id;
+    never.field = first.name;
+    never.unit = first.unit;
+    never.detectable = never.nameable = infinity;
+    never.observable = false;
+    list.push_back(never);
   });
   return list;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
@@ -112,8 +113,12 @@ void CauseSearch::try_pairs() {
       continue;
     Suspect unstated;  // the pair as a whole is judged by the data that were held out
     if (!fewer && !accepted(compare(s_.model, h, unstated, by_.layout()), unstated)) continue;
-    const Hypothesis only_b = fit_causes({pairs[k].second}, &h, 6), only_a = fit_causes({pairs[k].first}, &h, 6);
-    if (!stands(compare(only_b, h, a, by_.layout()), h, a) || !stands(compare(only_a, h, b, by_.layout()), h, b))
+    std::array<Hypothesis, 2> half;
+    parallel_for(half.size(), by_.threads(), [&](std::size_t q) {
+      half[q] = fit_causes({q == 0 ? pairs[k].first : pairs[k].second}, &h, 6);
+      refine_bounces(by_, half[q]);
+    });
+    if (!stands(compare(half[1], h, a, by_.layout()), h, a) || !stands(compare(half[0], h, b, by_.layout()), h, b))
       continue;
     s_.model = h;
     s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};

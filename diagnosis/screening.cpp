@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "diagnosis/fit.hpp"
 #include "diagnosis/parallel.hpp"
@@ -31,9 +32,16 @@ class Trial {
     tolerances.free.resize(h_.free.size());
     add_tolerances(tolerances, A, b);
     const Eigen::VectorXd step = solve_normal(A, b, 1e-6);
+    const double promised = b.dot(step), price = added_terms();
+    if (constexpr double little = 0.5; !suspect_.finite && promised < little * price) {
+      result_.model = moved(step, 1.0);  // a prediction would say no more
+      result_.gain = promised - price;
+      return;
+    }
     result_.model = with_;
+    result_.model.objective = std::numeric_limits<double>::infinity();
     for (const double share : {1.0, 0.4}) {
-      try_step(step, share);
+      keep_better(moved(step, share));
       if (result_.model.objective < h_.objective - 1.0) break;
     }
     if (suspect_.finite && !suspect_.either_sign) keep_better(with_);
@@ -50,8 +58,9 @@ class Trial {
     const std::size_t old = h_.free.size();
     size_ = old;
     if (suspect_.finite) {
-      const auto e = by_.innovations(extended(with_), h_.noise);
-      result_.signatures.push_back(e ? difference(by_, h_, *e) : std::vector<double>(h_.innovations.size(), 0.0));
+      const bool moves = evaluate(by_, with_);
+      result_.signatures.push_back(moves ? difference(by_, h_, with_.innovations)
+                                         : std::vector<double>(h_.innovations.size(), 0.0));
       return;
     }
     Hypothesis moved = with_;
@@ -61,26 +70,36 @@ class Trial {
       result_.signatures.push_back(sensitivity(by_, moved, k, 5.0 * derivative_step));
   }
 
-  void try_step(const Eigen::VectorXd& step, double share) {
+  /// What the coordinates that are free here and not in the hypothesis cost, as BIC.
+  double added_terms() const {
+    const auto unknown = [](const Hypothesis& h) {
+      return std::count_if(h.free.begin(), h.free.end(), [](const Coordinate& c) { return c.tolerance <= 0.0; });
+    };
+    return static_cast<double>(unknown(with_) - unknown(h_)) * std::log(static_cast<double>(by_.layout().fitted())) +
+           with_.choices - h_.choices;
+  }
+
+  /// The suspect and what was free before, moved by a share of a step.
+  Hypothesis moved(const Eigen::VectorXd& step, double share) const {
     Hypothesis trial = with_;
-    const auto moved = [&](std::size_t k, double by_scales) {
+    const auto move = [&](std::size_t k, double by_scales) {
       const Coordinate& c = trial.free[k];
       trial.values[k] = std::clamp(trial.values[k] + by_scales * c.scale, c.low, c.high);
     };
     for (std::size_t k = 0; k < h_.free.size(); ++k)
-      moved(k, share * std::clamp(step[static_cast<Eigen::Index>(k)], -20.0, 20.0));
+      move(k, share * std::clamp(step[static_cast<Eigen::Index>(k)], -20.0, 20.0));
     for (std::size_t q = 0; q < result_.signatures.size(); ++q) {
       const double length = share * std::clamp(step[static_cast<Eigen::Index>(h_.free.size() + q)], -30.0, 30.0);
       if (!suspect_.finite) {
-        moved(size_ + q, length);
+        move(size_ + q, length);
       } else if (suspect_.resizable) {
         const Coordinate& c = trial.free[size_];
         trial.values[size_] =
             std::clamp(trial.values[size_] * std::max(suspect_.either_sign ? -30.0 : 0.05, length), c.low, c.high);
       }
     }
-    evaluate(by_, trial);
-    keep_better(std::move(trial));
+    trial.objective = trial.bic = std::numeric_limits<double>::infinity();  // not known yet
+    return trial;
   }
 
   void keep_better(Hypothesis trial) {

@@ -5,6 +5,7 @@
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/intervals.hpp"
+#include "diagnosis/laws.hpp"
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/prediction_error.hpp"
 
@@ -112,6 +113,7 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
       find_bounces(by_, h);
     else if (gain > worth_refining)
       refine_bounces(by_, h);
+    if (gain > AcceptanceRules{}.least_bic) try_other_laws(by_, h, all_[tried[k].suspect]);
   }
   parallel_for(polished, by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;

@@ -1,6 +1,7 @@
 #include "diagnosis/suspects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -51,10 +52,13 @@ Suspect stribeck(const Magnitudes& m) {
       plain_coordinate("stribeck", "speed", 0.06 * m.sliding_speed, 0.02 * m.sliding_speed, 3.0 * m.sliding_speed));
   s.finite = s.either_sign = true;
   s.starts.clear();
-  for (const double exponent : {1.0, 2.0})
+  // exponential [Tustin], bell [Bo & Pavelescu], Lorentzian [Hess & Soom]
+  constexpr std::array<std::array<double, 2>, 3> shapes{{{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}};
+  for (const auto& [exponent, tail] : shapes)
     for (const double share : {0.04, 0.2, 0.75})
-      s.starts.push_back({{0.04 * m.friction, share * m.sliding_speed}, {{"stribeck", "exponent", exponent}}});
-  s.choices = 2.0 * std::log(2.0);
+      s.starts.push_back({{0.04 * m.friction, share * m.sliding_speed},
+                          {{"stribeck", "exponent", exponent}, {"stribeck", "tail", tail}}});
+  s.choices = 2.0 * std::log(static_cast<double>(shapes.size()));
   s.frees = "mesh_friction";
   return s;
 }
@@ -125,9 +129,9 @@ std::vector<Suspect> suspects(const Effects<double>& stated, const Magnitudes& m
     all.push_back(periodic("position_friction", 0.05, 0.7));
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
-    all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, m.friction,
+    all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, 2.0 * m.friction,
                          {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.36 * m.friction, 0.5 * m.friction,
-                          0.7 * m.friction}));
+                          0.7 * m.friction, m.friction, 1.4 * m.friction}));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
     all.push_back(backlash());
     if (m.has_worm_encoder) all.push_back(tooth_compliance(m));

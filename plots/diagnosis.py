@@ -241,7 +241,7 @@ def draw_certificate(result):
     if not rows.size:
         return empty(result, "These data show no effect.")
     effects, unit_of, nearest = texts(table, "effect"), texts(table, "unit"), texts(table, "nearest")
-    parameters = texts(table, "parameter")
+    parameters, chosen = texts(table, "parameter"), texts(table, "chosen")
     figure = new_figure(result, "what these data can show")
     axes = figure.subplots()
     place = np.arange(rows.size)
@@ -256,7 +256,7 @@ def draw_certificate(result):
     axes.set_ylim(-0.6, rows.size - 0.4)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    axes.set_yticks(place, [f"{effects[k]} {parameters[k]}" for k in rows], size=10)
+    axes.set_yticks(place, [" ".join(filter(None, (effects[k], parameters[k], chosen[k]))) for k in rows], size=10)
     for row, k in zip(place, rows):
         unit = "" if unit_of[k] == "1" else f" {unit_of[k]}"
         words = f"{seen[k]:.2g}{unit} seen"
@@ -269,7 +269,7 @@ def draw_certificate(result):
         axes.annotate(words, (max(1.0, at), row), xytext=(9, 0), textcoords="offset points", va="center", size=9,
                       color=style.INK, parse_math=False)
     axes.set_xlabel("size, in units of the smallest that can be seen")
-    hidden = [effects[k] for k in np.flatnonzero(observable == 0)]
+    hidden = [f"{effects[k]} {chosen[k]}".strip() for k in np.flatnonzero(observable == 0)]
     if hidden:
         figure.supxlabel("\ncannot be seen at all: " + textwrap.fill(", ".join(hidden), 150), x=0.012, ha="left", size=10)
     style.header(axes, dots)

@@ -75,7 +75,8 @@ TEST_CASE("the report holds every key with its type, and null for what is no num
                                   {"after_low", "number"}, {"after_high", "number"}, {"noise_floor", "null"},
                                   {"unit", "string"}});
   for (const json& v : d["certificate"])
-    check_members(v, {{"effect", "string"}, {"parameter", "string"}, {"unit", "string"}, {"observable", "boolean"},
+    check_members(v, {{"effect", "string"}, {"parameter", "string"}, {"chosen", "string null"}, {"unit", "string"},
+                      {"observable", "boolean"},
                       {"detectable", "number null"}, {"nameable", "number null"}, {"nearest", "string null"},
                       {"likeness", "number"}});
   check_members(d["settings"], {{"seed", "number"}, {"passes", "number"}});

@@ -37,12 +37,18 @@ Answer answer(const recovery::Case& drawn) {
   return {recovery::judge(drawn, bench.drive, d).score, std::move(d)};
 }
 
+/// The diagnosis of a recording whose causes have to be named exactly.
+Diagnosis named_exactly(const recovery::Case& drawn) {
+  Answer found = answer(drawn);
+  CAPTURE(found.diagnosis.sentence);
+  CHECK(found.score == recovery::Score::exact);
+  return std::move(found.diagnosis);
+}
+
 }  // namespace
 
 TEST_CASE("a limit far below the largest command is found, though all that it cuts passes for outliers") {
-  const auto [score, d] = answer(hard(10510089960399327083U, {{"torque_saturation", 0.12}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(10510089960399327083U, {{"torque_saturation", 0.12}}));
 }
 
 TEST_CASE("commands that are seldom exceeded are known") {
@@ -61,74 +67,67 @@ TEST_CASE("commands that are seldom exceeded are known") {
 }
 
 TEST_CASE("two effects that nearly cancel are found though other ones were found first") {
-  const auto [score, d] = answer(hard(7809331778440145391U, {{"mesh_friction", 0.015}, {"load_magnitude", -0.06}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(7809331778440145391U, {{"mesh_friction", 0.015}, {"load_magnitude", -0.06}}));
 }
 
 TEST_CASE("what did as well as a cause when that was found is no class with it if it does not so in the end") {
-  const auto [score, d] = answer(hard(18133264718257835443U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  const Diagnosis d = named_exactly(hard(18133264718257835443U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
   CHECK(d.equivalents.empty());
 }
 
 TEST_CASE("two causes that do as well as three are the better explanation") {
   // less inertia of worm and gear and some of the load is the same motion
-  const auto [score, d] = answer(hard(12987163819398539930U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(12987163819398539930U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
 }
 
 TEST_CASE("friction at rest is named for all its break-aways, though one of those held out outweighs all others") {
-  const auto [score, d] = answer(hard(16617251610193380410U, {{"static_friction", 0.09}}, "realistic"));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(16617251610193380410U, {{"static_friction", 0.09}}, "realistic"));
 }
 
 TEST_CASE("friction at rest is found between the sizes that are tried: much less of it helps no more than none") {
-  const auto [score, d] = answer(hard(5367963912548052634U, {{"static_friction", 0.156}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(5367963912548052634U, {{"static_friction", 0.156}}));
 }
 
 TEST_CASE("a wide gap is found though the noise without it passes for most of the motion") {
-  const auto [score, d] = answer(hard(11050129810103917130U, {{"backlash", 0.004}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  const Diagnosis d = named_exactly(hard(11050129810103917130U, {{"backlash", 0.004}}));
   REQUIRE(d.causes.size() == 1);
   CHECK(std::abs(d.causes[0].parameters[0].value - 0.004) < 0.15 * 0.004);
 }
 
 TEST_CASE("what impacts leave in single blocks makes no cause beside a gap") {
-  const auto [score, d] = answer(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
 }
 
 TEST_CASE("a gap keeps its name though its teeth cannot be followed as far as the noise lets others be") {
-  const auto [score, d] = answer(hard(8559633916621165583U, {{"backlash", 0.004}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(8559633916621165583U, {{"backlash", 0.004}}));
 }
 
 TEST_CASE("what is of no certain size beside a gap is no cause, for all that it adds to the likelihood") {
-  const auto [score, d] = answer(hard(4253192110446129441U, {{"backlash", 0.004}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(4253192110446129441U, {{"backlash", 0.004}}));
 }
 
 TEST_CASE("suspects beside a gap are compared by bounces that suit each of them") {
-  const auto [score, d] = answer(hard(6401084500742193729U, {{"torque_offset", 0.0012}, {"backlash", 0.001}}));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(6401084500742193729U, {{"torque_offset", 0.0012}, {"backlash", 0.001}}));
 }
 
 TEST_CASE(
     "a number far beyond its tolerance is named though others, within theirs, predict what was held out as well") {
-  const auto [score, d] = answer(hard(8060836718574869034U, {{"mesh_friction", -0.045}}, "realistic"));
-  CAPTURE(d.sentence);
-  CHECK(score == recovery::Score::exact);
+  named_exactly(hard(8060836718574869034U, {{"mesh_friction", -0.045}}, "realistic"));
+}
+
+TEST_CASE("of the shapes of a fall the one that fits is taken, though another promises more from afar") {
+  using enum truth::MeshFriction::Fall;
+  for (const std::uint64_t seed : {3U, 4U}) {
+    const recovery::Case drawn = hard(seed, {{"stribeck", 0.03}});
+    const bool is_bell = recovery::record(drawn).drive.friction.fall == gaussian;
+    const Diagnosis d = named_exactly(drawn);
+    REQUIRE(d.causes.size() == 1);
+    CHECK(std::abs(d.causes[0].parameters[0].value - 0.03) < 0.02 * 0.03);
+    const auto& fall = std::get<std::optional<Stribeck<double>>>(d.extended.effects.list);
+    REQUIRE(fall);
+    CHECK(fall->exponent == 2.0);
+    CHECK(fall->tail == (is_bell ? 0.0 : 1.0));
+  }
 }
 
 TEST_CASE("friction that falls as soon as anything moves is in a class with friction at rest") {

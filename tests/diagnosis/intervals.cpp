@@ -56,8 +56,8 @@ TEST_CASE("beside a gap a stated number is known no better than its tolerance") 
 TEST_CASE("the friction at rest from where it falls is as uncertain as the fall") {
   const Hypothesis h = extended_by("stribeck");
   const double drop = h.values[h.values.size() - 2];  // before the speed of the fall
-  CHECK(std::abs(error(h, "stribeck", "drop") / (0.2 * drop) - 1.0) < 1e-6);
-  CHECK(std::abs(error(h, "mesh_friction", "change") / (0.2 * drop) - 1.0) < 1e-6);
+  CHECK(std::abs(error(h, "stribeck", "drop") / (0.1 * drop) - 1.0) < 1e-6);
+  CHECK(std::abs(error(h, "mesh_friction", "change") / (0.1 * drop) - 1.0) < 1e-6);
 }
 
 }  // namespace wormdrive::test::diagnosis_intervals

@@ -117,8 +117,9 @@ struct Outcome {
 /// Whether a name is that of what is hidden, or of something with exactly the same data.
 bool same_or_twin(std::string_view named, const truth::Secret& secret);
 
-/// What a certificate says of an effect, null if it says nothing.
-const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::string_view effect);
+/// What a certificate says of an effect as it is in a drive, null if it says nothing.
+const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::string_view effect,
+                                        const truth::Drive& drive);
 
 /// Compares names and parameters; the drive is the truth.
 Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found);

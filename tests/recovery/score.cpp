@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "recovery/campaign.hpp"
 
 // What a diagnosis deserves for what it says of what was hidden.
@@ -9,9 +11,9 @@ namespace recovery {
 namespace {
 
 /// Whether a certificate says that an effect of this size can be named; of exact twins, as their class.
-bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding) {
+bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding, const truth::Drive& drive) {
   const truth::Secret& secret = *hiding.secret;
-  const wormdrive::Visibility* v = visibility(found, secret.effect);
+  const wormdrive::Visibility* v = visibility(found, secret.effect, drive);
   if (!v) return true;
   if (!v->observable) return false;
   if (secret.effect == "torque_saturation") return hiding.amount <= v->detectable;
@@ -55,9 +57,11 @@ bool same_or_twin(std::string_view named, const truth::Secret& secret) {
   return named == secret.effect || std::find(secret.twins.begin(), secret.twins.end(), named) != secret.twins.end();
 }
 
-const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::string_view effect) {
+const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::string_view effect,
+                                        const truth::Drive& drive) {
+  const std::string periods = fmt::format("periods = {:g}", drive.actuator.cogging_periods);
   for (const wormdrive::Visibility& v : found.certificate)
-    if (v.effect == effect) return &v;
+    if (v.effect == effect && (v.chosen.empty() || v.chosen == periods)) return &v;
   return nullptr;
 }
 
@@ -67,8 +71,8 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   outcome.drawn = drawn;
   outcome.told = found.sentence;
   outcome.flagged = found.verdict == Verdict::unexplained || !found.remainders.empty();
-  outcome.observable =
-      std::all_of(drawn.hidden.begin(), drawn.hidden.end(), [&](const Hiding& h) { return can_be_named(found, h); });
+  outcome.observable = std::all_of(drawn.hidden.begin(), drawn.hidden.end(),
+                                   [&](const Hiding& h) { return can_be_named(found, h, drive); });
   const bool claims = found.verdict == Verdict::named || found.verdict == Verdict::ambiguous;
   if (claims)
     for (const auto& cause : found.causes) outcome.named.push_back(cause.effect);

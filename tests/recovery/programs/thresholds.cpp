@@ -34,13 +34,14 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
   const wormdrive::Diagnosis bare = diagnose(sheet, {record(nothing).recording});
   std::vector<Threshold> measured;
   for (const truth::Secret* secret : secrets) {
-    const wormdrive::Visibility* seen = visibility(bare, secret->effect);
+    Case hiding = nothing;  // in the very motion that the certificate is of
+    hiding.kind = Kind::single;
+    hiding.hidden = {{secret, truth::Size::medium, secret->medium}};
+    const wormdrive::Visibility* seen = visibility(bare, secret->effect, record(hiding).drive);
     Threshold t{secret, seen ? seen->detectable : never, seen ? seen->nameable : never};
     if (std::isfinite(t.nameable))
       for (const double multiple : multiples) {
-        Case hiding = nothing;  // in the very motion that the certificate is of
-        hiding.kind = Kind::single;
-        hiding.hidden = {{secret, truth::Size::medium, multiple * t.nameable}};
+        hiding.hidden.front().amount = multiple * t.nameable;
         const Bench bench = record(hiding);
         const Outcome outcome = judge(hiding, bench.drive, diagnose(sheet, {bench.recording}));
         if (outcome.score != Score::exact) {  // which the class of exact twins is, too
@@ -79,7 +80,7 @@ std::vector<Unseen> unseen(std::uint64_t seed, const Diagnose& diagnose) {
       const wormdrive::Scenario sheet = data_sheet(hiding.conditions);
       const wormdrive::Diagnosis found = diagnose(sheet, {follow(drive, course, sheet, generator())});
       const Outcome outcome = judge(hiding, drive, found);
-      const wormdrive::Visibility* seen = visibility(found, effect);
+      const wormdrive::Visibility* seen = visibility(found, effect, drive);
       const bool limit = effect == "torque_saturation";  // shows from a smaller one on
       const bool hides =
           seen && (!seen->observable || (limit ? seen->detectable < secret.small : seen->detectable > secret.small));

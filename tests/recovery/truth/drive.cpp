@@ -22,6 +22,16 @@ struct DryImpulse {
   bool holds() const { return sum > lowest && sum < highest; }
 };
 
+/// Share of the drop that is gone at a sliding speed x in units of its own.
+double fallen(MeshFriction::Fall fall, double x) {
+  switch (fall) {
+    case MeshFriction::Fall::gaussian: return 1.0 - std::exp(-x * x);
+    case MeshFriction::Fall::lorentzian: return x * x / (1.0 + x * x);
+    case MeshFriction::Fall::hyperbolic: return 1.0 - 1.0 / std::cosh(x);
+  }
+  return 0.0;
+}
+
 /// Two inertias that touch with their teeth; one step after the other, drift - kick - drift.
 class Machine {
  public:
@@ -96,10 +106,7 @@ class Machine {
   double friction(double t) const {
     const MeshFriction& f = d_.friction;
     double mu = f.level;
-    if (f.drop != 0.0) {
-      const double square = std::pow(per_sliding_ * vw_ / f.fall_speed, 2);
-      mu -= f.drop * (f.fall == MeshFriction::Fall::gaussian ? 1.0 - std::exp(-square) : square / (1.0 + square));
-    }
+    if (f.drop != 0.0) mu -= f.drop * fallen(f.fall, per_sliding_ * vw_ / f.fall_speed);
     if (f.asymmetry != 0.0 && vw_ != 0.0) mu += vw_ > 0.0 ? f.asymmetry : -f.asymmetry;
     if (f.wave != 0.0) mu *= 1.0 + f.wave * std::sin(y_ + f.wave_phase);
     if (f.spot != 0.0) mu *= 1.0 + f.spot * std::exp(-std::pow((y_ - f.spot_angle) / f.spot_width, 2));

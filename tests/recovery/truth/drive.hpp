@@ -20,7 +20,7 @@ struct Geometry {
 
 /// Friction between the teeth, a function of everything that it may depend on.
 struct MeshFriction {
-  enum class Fall { gaussian, lorentzian };
+  enum class Fall { gaussian, lorentzian, hyperbolic };
 
   double level = 0.25;
   double drop = 0.0, fall_speed = 0.1;  ///< Stribeck: what it loses at speed, and by which sliding speed [m/s]

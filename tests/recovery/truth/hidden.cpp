@@ -30,7 +30,9 @@ const std::vector<Secret> known{
      [](Drive& d, double s, Generator& g) {
        d.friction.drop = s;
        d.friction.fall_speed = by_ratio(g, 0.06, 0.4);
-       d.friction.fall = between(g, 0, 1) < 0.5 ? MeshFriction::Fall::gaussian : MeshFriction::Fall::lorentzian;
+       using enum MeshFriction::Fall;
+       const double law = between(g, 0, 3);
+       d.friction.fall = law < 1.0 ? gaussian : law < 2.0 ? lorentzian : hyperbolic;
      },
      {{"drop", [](const Drive& d) { return d.friction.drop; }}}},
     {"friction_asymmetry", 0.004, 0.012, 0.036, true, false,
