@@ -17,7 +17,7 @@ class Trial {
   Trial(const Evaluation& by, const Hypothesis& h, const std::vector<Suspect>& all, Screened& result)
       : by_(by), h_(h), suspect_(all[result.suspect]), result_(result), with_(h) {
     add_suspect(with_, all, result.suspect, result.start);
-    with_.objective = with_.bic = std::numeric_limits<double>::infinity();  // not known yet
+    with_ = not_evaluated(std::move(with_));
   }
 
   void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
@@ -38,15 +38,14 @@ class Trial {
       result_.gain = promised - price;
       return;
     }
-    result_.model = with_;
-    result_.model.objective = std::numeric_limits<double>::infinity();
+    result_.model = not_evaluated(with_);
     for (const double share : {1.0, 0.4}) {
       keep_better(moved(step, share));
       if (result_.model.objective < h_.objective - 1.0) break;
     }
     if (suspect_.finite && !suspect_.either_sign) keep_better(with_);
     if (suspect_.bounces) {  // less wild with teeth that bounce little
-      Hypothesis soft = with_;
+      Hypothesis soft = not_evaluated(with_);
       soft.noise.bounce.restitution = 0.4;
       keep_better(std::move(soft));
     }
@@ -54,6 +53,11 @@ class Trial {
   }
 
  private:
+  static Hypothesis not_evaluated(Hypothesis h) {
+    h.objective = h.bic = std::numeric_limits<double>::infinity();
+    return h;
+  }
+
   void collect_signatures() {
     const std::size_t old = h_.free.size();
     size_ = old;
@@ -98,8 +102,7 @@ class Trial {
             std::clamp(trial.values[size_] * std::max(suspect_.either_sign ? -30.0 : 0.05, length), c.low, c.high);
       }
     }
-    trial.objective = trial.bic = std::numeric_limits<double>::infinity();  // not known yet
-    return trial;
+    return not_evaluated(std::move(trial));
   }
 
   void keep_better(Hypothesis trial) {
