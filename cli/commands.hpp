@@ -61,6 +61,8 @@ struct PlotOptions {
 int plot_command(const PlotOptions& options);
 /// Draws files into a picture; the exit code of the program that draws.
 int draw(const PlotOptions& options);
+/// Draws every picture of a diagnosis into a folder, PART.png, some at a time; the exit code likewise.
+int draw_all(const std::string& file, const std::string& folder, int at_a_time);
 
 struct SweepOptions {
   std::string study;

@@ -14,7 +14,6 @@
 #include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
-#include "diagnosis/parallel.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "sweep/threads.hpp"
@@ -89,13 +88,10 @@ void print(const Diagnosis& d, const std::vector<std::string>& written, const st
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
 std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_time) {
-  const std::vector<std::string> parts{"prediction", "residual", "ranking", "certificate"};
-  std::vector<std::string> pictures(parts.size());
-  parallel_for(parts.size(), at_a_time, [&](std::size_t k) {
-    const std::string picture = folder.inside(parts[k] + ".png");
-    if (draw({{folder.inside("diagnosis.h5")}, picture, "", parts[k]}) == 0) pictures[k] = picture;
-  });
-  std::erase(pictures, "");
+  if (draw_all(folder.inside("diagnosis.h5"), folder.path(), at_a_time) != 0) return {};
+  std::vector<std::string> pictures;
+  for (const char* const part : {"prediction", "residual", "ranking", "certificate"})
+    pictures.push_back(folder.inside(std::string(part) + ".png"));
   return pictures;
 }
 

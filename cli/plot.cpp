@@ -27,6 +27,21 @@ std::string picture(const PlotOptions& options) {
                                 : options.output;
 }
 
+/// Runs the script that draws; its exit code.
+int run_script(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ); error != 0)
+    throw OutputFault(fmt::format("cannot start {}: {}", words[0], std::strerror(error)));
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
@@ -43,20 +58,15 @@ int plot_command(const PlotOptions& options) {
 }
 
 int draw(const PlotOptions& options) {
-  std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
-  words.insert(words.end(), options.files.begin(), options.files.end());
+  std::vector<std::string> words = options.files;
   words.insert(words.end(), {"-o", picture(options)});
   if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  if (const int error = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ); error != 0)
-    throw OutputFault(fmt::format("cannot start {}: {}", words[0], std::strerror(error)));
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return run_script(words);
+}
+
+int draw_all(const std::string& file, const std::string& folder, int at_a_time) {
+  return run_script({file, "-o", folder, "--part", "all", "--at-a-time", std::to_string(at_a_time)});
 }
 
 }  // namespace wormdrive

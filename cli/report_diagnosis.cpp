@@ -129,7 +129,7 @@ void add_evidence(ReportPage& page, const json& findings) {
        {},
        "An empty size: these data never show it."},
       findings.at("certificate"), [](const json& v) {
-        const std::string chosen = text(v.at("chosen"));
+        const std::string chosen = text(v.value("chosen", json()));
         return std::vector<Cell>{
             words(text(v.at("effect"))), words(text(v.at("parameter")) + (chosen.empty() ? "" : ", " + chosen)),
             number(v.at("detectable")),  number(v.at("nameable")),

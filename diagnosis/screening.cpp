@@ -33,7 +33,9 @@ class Trial {
     add_tolerances(tolerances, A, b);
     const Eigen::VectorXd step = solve_normal(A, b, 1e-6);
     const double promised = b.dot(step), price = added_terms();
-    if (constexpr double little = 0.5; !suspect_.finite && promised < little * price) {
+    // where a spring is slack shows only once it has a stiffness: then a step does not promise all that there is
+    const bool promises_all = !suspect_.finite && (A.diagonal().tail(fresh).array() > 0.0).all();
+    if (constexpr double little = 0.5; promises_all && promised < little * price) {
       result_.model = moved(step, 1.0);  // a prediction would say no more
       result_.gain = promised - price;
       return;

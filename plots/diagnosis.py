@@ -241,7 +241,8 @@ def draw_certificate(result):
     if not rows.size:
         return empty(result, "These data show no effect.")
     effects, unit_of, nearest = texts(table, "effect"), texts(table, "unit"), texts(table, "nearest")
-    parameters, chosen = texts(table, "parameter"), texts(table, "chosen")
+    parameters = texts(table, "parameter")
+    chosen = texts(table, "chosen") if "chosen" in table else [""] * len(effects)  # older files do not say
     figure = new_figure(result, "what these data can show")
     axes = figure.subplots()
     place = np.arange(rows.size)

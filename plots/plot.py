@@ -101,6 +101,20 @@ def save(figure, path):
         fail(NOT_WRITTEN, f"cannot write {path}: {reason(error)}")
 
 
+def save_all(path, folder, at_a_time):
+    """Draws every picture of a diagnosis into a folder, some at a time; returns the worst exit code."""
+    parts = list(diagnosis.PARTS)
+    children = []
+    for first in range(at_a_time):
+        child = os.fork()  # what is imported is shared
+        if child == 0:
+            for part in parts[first::at_a_time]:
+                save(picture([path], None, part), os.path.join(folder, part + ".png"))
+            sys.exit(0)
+        children.append(child)
+    return max(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children)
+
+
 def main():
     """Reads the command line and draws."""
     parser = argparse.ArgumentParser(prog="plot", description="Draws wormdrive result files as a PNG picture.")
@@ -109,8 +123,12 @@ def main():
                              "and runs of its trials; or, with --over, several runs")
     parser.add_argument("-o", "--output", metavar="OUT.png", required=True, help="picture to write")
     parser.add_argument("--over", choices=["motor_torque"], help="draw the gear angle of runs over the motor torque")
-    parser.add_argument("--part", choices=list(diagnosis.PARTS), help="which picture of a diagnosis")
+    parser.add_argument("--part", choices=[*diagnosis.PARTS, "all"],
+                        help="which picture of a diagnosis; all: every one, OUT.png is a folder then")
+    parser.add_argument("--at-a-time", metavar="N", type=int, default=1, help="how many of all to draw at a time")
     arguments = parser.parse_args()
+    if arguments.part == "all":
+        sys.exit(save_all(arguments.files[0], arguments.output, arguments.at_a_time))
     for target in (arguments.output, arguments.output + ".part"):
         for file in arguments.files:
             if os.path.exists(target) and os.path.exists(file) and os.path.samefile(target, file):

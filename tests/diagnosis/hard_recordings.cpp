@@ -137,6 +137,13 @@ TEST_CASE("friction that falls as soon as anything moves is in a class with fric
   CHECK(d.equivalents == std::vector<std::string>{"stribeck", "static_friction"});
 }
 
+TEST_CASE("a spring is found though where it is slack shows only once it has a stiffness") {
+  const auto [score, d] = answer(hard(14339916788581164878U, {{"load_spring", 0.005}}, "realistic"));
+  CAPTURE(d.sentence);
+  REQUIRE(d.causes.size() == 1);
+  CHECK(d.causes[0].effect == "load_spring");
+}
+
 TEST_CASE("less friction at one place of the gear is seen, and no name is claimed for it") {
   const auto [score, d] = answer(hard(76605843690817575U, {{"friction_spot", -0.2}}));
   CAPTURE(d.sentence);
