@@ -1,8 +1,8 @@
 // Four trials in a register, for processors with AVX2.
 #if defined(__x86_64__)
-#include "control/lane_library.hpp"
-
 #include <immintrin.h>
+
+#include "control/lane_library.hpp"
 
 // Behind the standard library, whose functions the rest of the program shares.
 #pragma GCC target("avx2")

@@ -19,7 +19,7 @@ struct SolverSettings {
   SolverKind solver = SolverKind::cvode;
   Method method = Method::bdf;
   double relative_tolerance = 1e-10;
-  double absolute_tolerance = 1e-12;  ///< of the angle [rad] and of the speed [rad/s]
+  double absolute_tolerance = 1e-12;                          ///< of the angle [rad] and of the speed [rad/s]
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
 };
 

@@ -19,10 +19,9 @@ struct Sinusoid {
 
   static constexpr auto fields() {
     using P = Sinusoid;
-    return std::tuple{
-        Field{&P::amplitude, "amplitude", unit::newton_metre, bounds::any, "amplitude of the cosine"},
-        Field{&P::frequency, "frequency", unit::hertz, bounds::positive, "frequency"},
-        Field{&P::phase, "phase", unit::degrees, bounds::any, "phase at t = 0", Presence::optional}};
+    return std::tuple{Field{&P::amplitude, "amplitude", unit::newton_metre, bounds::any, "amplitude of the cosine"},
+                      Field{&P::frequency, "frequency", unit::hertz, bounds::positive, "frequency"},
+                      Field{&P::phase, "phase", unit::degrees, bounds::any, "phase at t = 0", Presence::optional}};
   }
   void add_to(Piece& piece, double) const {
     piece.cosines.push_back({amplitude, 2.0 * std::numbers::pi * frequency, phase});

@@ -25,8 +25,7 @@ struct Staircase {
         Field{&P::rise, "rise", unit::newton_metre, bounds::any, "height of one step"},
         Field{&P::interval, "interval", unit::second, bounds::positive, "time between two steps"},
         Field{&P::start, "start", unit::second, bounds::any, "time of the first step", Presence::optional},
-        Field{&P::steps, "steps", unit::none, bounds::not_negative, "number of steps, then held",
-              Presence::optional}};
+        Field{&P::steps, "steps", unit::none, bounds::not_negative, "number of steps, then held", Presence::optional}};
   }
   void add_to(Piece& piece, double t) const { piece.constant += rise * taken(t); }
   double next_knot(double t) const {

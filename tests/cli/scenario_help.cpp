@@ -55,8 +55,7 @@ TEST_CASE("the schema has the keys that the reader knows, in every table") {
     for (const auto& one : kinds) names.push_back(one.at("properties").at("kind").at("const"));
     return names;
   };
-  check("mesh", rotary.at("mesh").at("oneOf")[0],
-        good_scenario.substr(0, good_scenario.find("[motor")));
+  check("mesh", rotary.at("mesh").at("oneOf")[0], good_scenario.substr(0, good_scenario.find("[motor")));
   check("run", rotary.at("run"), good_scenario);
   check("initial", rotary.at("initial"), good_scenario + "[initial]\n");
   check("linear initial", linear.at("initial"), "[mesh]\nkind = \"none\"\naxis = \"linear\"\n[initial]\n");
