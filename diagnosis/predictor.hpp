@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -46,7 +47,7 @@ class Predictor {
 
   /// Innovations of the gear angle and, with an encoder on it, of the worm counted at the gear [rad]; the first are 0.
   /// The worm's correct the state, and the gear's are those that are left then. Throws SolverFault where the model has
-  /// no motion.
+  /// no motion, or loses the measured one.
   void operator()(std::span<double> of_gear, std::span<double> of_worm, FilteredStates* states = nullptr) {
     const Recording& data = recording_.data;
     State now = start(recording_.speed[0]);
@@ -62,6 +63,8 @@ class Predictor {
         correct(now, w, k + 1, of_worm[k + 1]);
       }
       of_gear[k + 1] = data.gear_angle[k + 1] - model_.measured_angle(now);
+      constexpr double lost = 1e3;  // [rad], from where on steps grow ever shorter
+      if (!(std::abs(of_gear[k + 1]) < lost)) throw SolverFault("the prediction has left the motion");
       if (of_worm.empty()) correct(now, w, k + 1, of_gear[k + 1]);
     }
     if (!of_worm.empty()) align(of_gear);
