@@ -105,14 +105,15 @@ def save_all(path, folder, at_a_time):
     """Draws every picture of a diagnosis into a folder, some at a time; returns the worst exit code."""
     parts = list(diagnosis.PARTS)
     children = []
-    for first in range(at_a_time):
+    for first in range(min(at_a_time, len(parts))):
         child = os.fork()  # what is imported is shared
         if child == 0:
             for part in parts[first::at_a_time]:
                 save(picture([path], None, part), os.path.join(folder, part + ".png"))
             sys.exit(0)
         children.append(child)
-    return max(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children)
+    # of a child that was killed it is negative
+    return max(abs(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])) for child in children)
 
 
 def main():

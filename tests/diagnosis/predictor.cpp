@@ -95,6 +95,14 @@ TEST_CASE("a late encoder and a late command are the same to the predictor") {
   REQUIRE(*by.innovations(sensor, {}) == *by.innovations(actuator, {}));
 }
 
+TEST_CASE("a model that runs away has no innovations, and takes no time to tell") {
+  const Recording recording = record(nominal_arm(), {.duration = 4});
+  const Evaluation by = evaluation(nominal_arm(), recording);
+  Effects<double> pushes;
+  set_field(pushes, {"worm_viscous", "coefficient", -1e-2});  // faster and faster, with ever shorter steps
+  REQUIRE_FALSE(by.innovations(pushes, {0.012, 0.0}));
+}
+
 TEST_CASE("a prediction ahead from the state of a sample starts where the recording was") {
   RecordingConditions exact{.duration = 4, .white_torque = 0, .counts = 0, .angle_noise = 0};
   Scenario arm = nominal_arm();
