@@ -53,19 +53,29 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
 
 /// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
 /// search without one is made, and kept if it predicts clearly better. Where more noise than torque is at work,
-/// whatever was found, another search would not follow the motion either.
+/// whatever was found, neither that nor pairs of causes would follow the motion.
 Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base, double torque,
                  const DiagnosisSettings& settings) {
-  const auto causes = [&](const Hypothesis& from) {
-    return CauseSearch(by, all, settings.most_causes, settings.progress)(from);
+  if (settings.progress) settings.progress("fitting what is stated");
+  const Start start = fitted_start(by, all, base);
+  std::optional<Start> plain;
+  const auto start_plainly = [&] {
+    if (!plain) plain = fitted_start(by, all, without_noise_model(base));
+    return &*plain;
   };
-  Selection found = causes(base);
-  constexpr double clearly = 0.9;
-  if (!hides_what_is_slow(found.model.noise_model)) return found;
-  if (!gap_of(found.model) && noise_sizes(by, found.model).torque > torque) return found;
-  Selection plain = causes(without_noise_model(base));
-  const auto error = [&](const Selection& s) { return error_ahead(by, s.model, told_horizon); };
-  return error(plain) < clearly * error(found) ? plain : found;
+  CauseSearch found(by, all, settings.most_causes, settings.progress);
+  found.select(start, hides_what_is_slow(start.base.noise_model) ? start_plainly() : nullptr);
+  if (!gap_of(found.model()) && noise_sizes(by, found.model()).torque > torque) return found.confirmed();
+  CauseSearch second(by, all, settings.most_causes, settings.progress);
+  CauseSearch* better = &found;
+  if (hides_what_is_slow(found.model().noise_model)) {
+    second.select(*start_plainly(), nullptr);
+    const auto error = [&](const CauseSearch& s) { return error_ahead(by, s.model(), told_horizon); };
+    constexpr double clearly = 0.9;
+    if (error(second) < clearly * error(found)) better = &second;
+  }
+  better->try_pairs();
+  return better->confirmed();
 }
 
 /// What the scenario states, with the noise that suits it.
@@ -215,7 +225,8 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
                        [&](const Found& f) { return all[f.suspect].frees == c.effect; });
   };
   for (const Coordinate& c : last.free)
-    if (c.tolerance > 0.0 || is_freed(c)) d.calibration.push_back(estimated(last, spread, c.effect, {c}));
+    if (c.tolerance > 0.0 || is_freed(c))
+      d.calibration.push_back(estimated(last, spread, c.effect, {c}));
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);

@@ -87,10 +87,10 @@ void CauseSearch::simplify() {
 }
 
 void CauseSearch::try_pairs() {
+  tell("trying pairs");
   const double have = s_.base.bic - s_.model.bic;
   constexpr std::size_t most = 6;
   const double margin = clear_margin(have);
-  s_.linear = linear_system(by_, s_.base, s_.screening);
   const std::vector<MaskedPair> pairs = masked_pairs(s_.linear, s_.base, all_, suspects_of(s_.causes), most);
   std::vector<Hypothesis> fitted(pairs.size());
   parallel_for(pairs.size(), by_.threads(), [&](std::size_t k) {

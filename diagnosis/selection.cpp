@@ -11,21 +11,51 @@
 
 namespace wormdrive {
 
-Selection CauseSearch::operator()(Hypothesis base) {
-  tell("fitting what is stated");
-  fit_base(base);
-  s_.base = base;
-  s_.model = std::move(base);
+namespace {
+
+void finish_with_noise_model(const Evaluation& by, Hypothesis& h, const ProcessNoise& noise) {
+  h.whitens = true;
+  h.noise = noise;
+  evaluate(by, h);
+  restart_noise(by, h);
+  fit(by, h, 5);
+}
+
+}  // namespace
+
+Start fitted_start(const Evaluation& by, const std::vector<Suspect>& all, Hypothesis base) {
+  evaluate(by, base);
+  adjust_noise(by, base, 6);
+  fit(by, base, 6);
+  adjust_noise(by, base, 6);
+  fit(by, base, 2);
+  if (base.whitens) {
+    Hypothesis second = without_noise_model(base);
+    fit(by, second, 5);
+    finish_with_noise_model(by, second, base.noise);
+    if (second.objective < base.objective) base = std::move(second);
+  }
+  Screening screening = screen(by, base, all);
+  return {std::move(base), std::move(screening)};
+}
+
+void CauseSearch::select(const Start& start, const Start* other) {
+  s_.base = s_.model = start.base;
+  s_.screening = start.screening;
   for (int round = 0; round < most_causes_; ++round) {
     tell("trying suspects, round " + std::to_string(round + 1));
-    std::vector<Tried> tried = try_suspects(s_.model, round == 0);
-    if (round == 0) s_.tried = tried;
-    if (tried.empty() || !take_best(tried, round == 0)) break;
+    const bool first = round == 0;
+    std::vector<Tried> tried =
+        first ? try_suspects(start, other) : try_suspects({s_.model, screen(by_, s_.model, all_)}, nullptr);
+    if (first) s_.tried = tried;
+    if (tried.empty() || !take_best(tried, first)) break;
     eliminate();
   }
   simplify();
-  tell("trying pairs");
-  try_pairs();
+  s_.linear = linear_system(by_, s_.base, s_.screening);
+}
+
+Selection CauseSearch::confirmed() {
   confirm_classes();
   // a stated number that a cause frees is a part of its law, no cause beside it
   std::erase_if(s_.causes, [&, causes = s_.causes](const Found& found) {
@@ -33,27 +63,6 @@ Selection CauseSearch::operator()(Hypothesis base) {
                        [&](const Found& other) { return all_[other.suspect].frees == all_[found.suspect].effect; });
   });
   return std::move(s_);
-}
-
-void CauseSearch::fit_base(Hypothesis& base) const {
-  evaluate(by_, base);
-  adjust_noise(by_, base, 6);
-  fit(by_, base, 6);
-  adjust_noise(by_, base, 6);
-  fit(by_, base, 2);
-  if (!base.whitens) return;
-  Hypothesis second = without_noise_model(base);
-  fit(by_, second, 5);
-  finish_with_noise_model(second, base.noise);
-  if (second.objective < base.objective) base = std::move(second);
-}
-
-void CauseSearch::finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const {
-  h.whitens = true;
-  h.noise = noise;
-  evaluate(by_, h);
-  restart_noise(by_, h);
-  fit(by_, h, 5);
 }
 
 /// The best starts of the suspects that promise most.
@@ -80,9 +89,9 @@ std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& fo
   return worth;
 }
 
-std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool first_round) {
-  Screening screening = screen(by_, current, all_);
-  const std::vector<Screened> worth = worth_fitting(screening.found);
+std::vector<Tried> CauseSearch::try_suspects(const Start& start, const Start* other) {
+  const Hypothesis& current = start.base;
+  const std::vector<Screened> worth = worth_fitting(start.screening.found);
   std::vector<Hypothesis> fitted(worth.size());
   parallel_for(worth.size(), by_.threads(), [&](std::size_t k) {
     fitted[k] = worth[k].model;
@@ -97,11 +106,8 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
       known->model = std::move(model);
   };
   for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].suspect, std::move(fitted[k]));
-  if (first_round) {
-    if (hides_what_is_slow(current.noise_model))
-      for (Tried& t : try_plainly(current)) keep(t.suspect, std::move(t.model));
-    s_.screening = std::move(screening);
-  }
+  if (other)
+    for (Tried& t : try_from(*other, current)) keep(t.suspect, std::move(t.model));
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
   std::stable_sort(tried.begin(), tried.end(), by_bic);
   const std::size_t polished = std::min<std::size_t>(3, tried.size());
@@ -127,22 +133,19 @@ std::vector<Tried> CauseSearch::try_suspects(const Hypothesis& current, bool fir
   return tried;
 }
 
-/// A second start without a noise model, where that takes slow effects for its own.
-std::vector<Tried> CauseSearch::try_plainly(const Hypothesis& current) const {
-  Hypothesis plain = without_noise_model(current);
-  fit(by_, plain, 5);
-  const Screening screening = screen(by_, plain, all_);
+/// The suspects that do best at another start, with the noise model of the current hypothesis.
+std::vector<Tried> CauseSearch::try_from(const Start& other, const Hypothesis& current) const {
   constexpr std::size_t most = 3;
   constexpr double least_gain = 10.0;
   std::vector<Tried> tried;
-  for (const Screened& s : screening.found) {
+  for (const Screened& s : other.screening.found) {
     if (tried.size() >= most || s.gain < least_gain) break;
     if (std::none_of(tried.begin(), tried.end(), [&](const Tried& t) { return t.suspect == s.suspect; }))
       tried.push_back({s.suspect, s.model, {}});
   }
   parallel_for(tried.size(), by_.threads(), [&](std::size_t k) {
     fit(by_, tried[k].model, 4);
-    finish_with_noise_model(tried[k].model, current.noise);
+    finish_with_noise_model(by_, tried[k].model, current.noise);
   });
   return tried;
 }

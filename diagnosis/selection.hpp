@@ -21,6 +21,15 @@ struct Found {
   std::vector<std::size_t> equals;  ///< other suspects within reach of its evidence
 };
 
+/// Where a search for causes sets out.
+struct Start {
+  Hypothesis base;      ///< the scenario with its tolerances, fitted
+  Screening screening;  ///< of the base
+};
+
+/// Fits what is stated and screens all suspects beside it.
+Start fitted_start(const Evaluation& by, const std::vector<Suspect>& all, Hypothesis base);
+
 /// What the search for causes came to.
 struct Selection {
   Hypothesis base;   ///< the scenario with its tolerances
@@ -31,21 +40,26 @@ struct Selection {
   LinearSystem linear{};     ///< of the base with it
 };
 
-/// Forward selection with backward elimination, then pairs of suspects that mask each other.
+/// A search for causes, step by step.
 class CauseSearch {
  public:
   CauseSearch(const Evaluation& by, const std::vector<Suspect>& all, int most_causes,
               std::function<void(const std::string&)> progress)
       : by_(by), all_(all), most_causes_(most_causes), progress_(std::move(progress)) {}
 
-  Selection operator()(Hypothesis base);
+  /// Forward selection with backward elimination. The suspects that do best at another start, if there is one, are
+  /// tried as well.
+  void select(const Start& start, const Start* other);
+  /// Tries pairs of suspects that mask each other.
+  void try_pairs();
+  /// The causes with what does as well as each of them; nothing can be done after that.
+  Selection confirmed();
+  const Hypothesis& model() const { return s_.model; }
 
  private:
-  void fit_base(Hypothesis& base) const;
-  std::vector<Tried> try_suspects(const Hypothesis& current, bool first_round);
+  std::vector<Tried> try_suspects(const Start& start, const Start* other);
   std::vector<Screened> worth_fitting(const std::vector<Screened>& found) const;
-  std::vector<Tried> try_plainly(const Hypothesis& current) const;
-  void finish_with_noise_model(Hypothesis& h, const ProcessNoise& noise) const;
+  std::vector<Tried> try_from(const Start& other, const Hypothesis& current) const;
   bool matters(const Tried& with) const;
   bool stands(const Evidence& evidence, const Hypothesis& with, const Suspect& suspect) const;
   bool take_best(std::vector<Tried>& tried, bool first_round);
@@ -53,7 +67,6 @@ class CauseSearch {
   void eliminate();
   void simplify();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
-  void try_pairs();
   void confirm_classes();
   void tell(const std::string& what) const {
     if (progress_) progress_(what);
