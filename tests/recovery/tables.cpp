@@ -138,9 +138,10 @@ std::string line(const Outcome& outcome) {
   std::vector<std::string> parts;
   for (const Hiding& h : outcome.drawn.hidden)
     parts.push_back(fmt::format("{} {:+.3g} ({})", h.secret->effect, h.amount, name(h.size)));
-  return fmt::format("{:20} {:45} {:8} {:40} class {} errors [{:.1e}] {:.1f} s  {}", outcome.drawn.seed,
-                     fmt::format("{}", fmt::join(parts, ", ")), name(outcome.score), answer(outcome),
-                     outcome.class_size, fmt::join(outcome.errors, ", "), outcome.seconds,
+  return fmt::format("{:20} {:45} {:8} {:40} class {} errors [{:.1e}] deviations [{:.1f}] {:.1f} s  {}",
+                     outcome.drawn.seed, fmt::format("{}", fmt::join(parts, ", ")), name(outcome.score),
+                     answer(outcome), outcome.class_size, fmt::join(outcome.errors, ", "),
+                     fmt::join(outcome.deviations, ", "), outcome.seconds,
                      outcome.score == Score::crash ? outcome.told
                      : outcome.observable          ? ""
                                                    : "below the certificate");

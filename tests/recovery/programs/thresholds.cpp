@@ -22,6 +22,25 @@ std::vector<const truth::Secret*> gradual() {
   return all;
 }
 
+/// A name, a class with the truth in it, or word of something that no name fits.
+bool is_seen(const Outcome& outcome) {
+  return outcome.score == Score::exact || outcome.score == Score::in_class ||
+         (outcome.score == Score::silent && outcome.flagged);
+}
+
+/// Of exact twins, as the class of both.
+bool is_named(const Outcome& outcome) { return outcome.score == Score::exact; }
+
+/// Between the last good answer and the first that is not lies the threshold.
+bool within_a_factor_of_two(const Limit& limit) {
+  return limit.reached > 0.0 && limit.reached <= 2.0 && limit.missed >= 0.25;
+}
+
+std::string cells(const Limit& limit) {
+  const auto size = [&](double multiple) { return multiple > 0.0 ? fmt::format("{:g} x", multiple) : "-"; };
+  return fmt::format("{:.2g} | {} | {} | {}", limit.certified, size(limit.reached), size(limit.missed), limit.answer);
+}
+
 }  // namespace
 
 std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
@@ -38,20 +57,24 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
     hiding.kind = Kind::single;
     hiding.hidden = {{secret, truth::Size::medium, secret->medium}};
     const wormdrive::Visibility* seen = visibility(bare, secret->effect, record(hiding).drive);
-    Threshold t{secret, seen ? seen->detectable : never, seen ? seen->nameable : never};
-    if (std::isfinite(t.nameable))
+    const auto limit = [&](double certified, const auto& good) {
+      Limit found{certified};
+      if (!std::isfinite(certified)) return found;
       for (const double multiple : multiples) {
-        hiding.hidden.front().amount = multiple * t.nameable;
+        hiding.hidden.front().amount = multiple * certified;
         const Bench bench = record(hiding);
         const Outcome outcome = judge(hiding, bench.drive, diagnose(sheet, {bench.recording}));
-        if (outcome.score != Score::exact) {  // which the class of exact twins is, too
-          t.missed = multiple;
-          t.answer = answer(outcome);
+        if (!good(outcome)) {
+          found.missed = multiple;
+          found.answer = answer(outcome);
           break;
         }
-        t.named = multiple;
+        found.reached = multiple;
       }
-    measured.push_back(t);
+      return found;
+    };
+    measured.push_back(
+        {secret, limit(seen ? seen->detectable : never, is_seen), limit(seen ? seen->nameable : never, is_named)});
   }
   return measured;
 }
@@ -91,19 +114,17 @@ std::vector<Unseen> unseen(std::uint64_t seed, const Diagnose& diagnose) {
 
 std::string table(const std::vector<Threshold>& measured) {
   std::string text =
-      "| effect | certificate: seen from | named from | measured: named down to | missed at | answer there |\n"
-      "|---|---|---|---|---|---|\n";
-  long within = 0, known = 0;
+      "| effect | certificate: seen from | measured: down to | missed at | answer there "
+      "| certificate: named from | measured: down to | missed at | answer there |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  long seen = 0, named = 0, known = 0;
   for (const Threshold& t : measured) {
-    const auto size = [&](double multiple) { return multiple > 0.0 ? fmt::format("{:g} x", multiple) : "-"; };
-    text += fmt::format("| {} | {:.2g} | {:.2g} | {} | {} | {} |\n", t.secret->effect, t.detectable, t.nameable,
-                        size(t.named), size(t.missed), t.answer);
-    if (!std::isfinite(t.nameable)) continue;
-    ++known;
-    // between the last named and the first missed lies the threshold
-    within += t.named > 0.0 && t.named <= 2.0 && t.missed >= 0.25;
+    text += fmt::format("| {} | {} | {} |\n", t.secret->effect, cells(t.seen), cells(t.named));
+    known += std::isfinite(t.named.certified);
+    seen += within_a_factor_of_two(t.seen);
+    named += within_a_factor_of_two(t.named);
   }
-  return text + fmt::format("\nWithin a factor of 2 of the certificate: {} of {}.\n", within, known);
+  return text + fmt::format("\nWithin a factor of 2 of the certificate: {} and {} of {}.\n", seen, named, known);
 }
 
 std::string table(const std::vector<Unseen>& cases) {

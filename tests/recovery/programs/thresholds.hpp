@@ -6,16 +6,21 @@
 
 namespace recovery {
 
-/// From which size on an effect is named, against what a certificate says of the same bench with nothing hidden.
-struct Threshold {
-  const truth::Secret* secret;
-  double detectable, nameable;  ///< of the certificate; infinity: not at all
-  double named = 0.0;           ///< smallest multiple of `nameable` down to which all are named rightly; 0: none
-  double missed = 0.0;          ///< the next smaller multiple, which was not; 0: all were named
-  std::string answer{};         ///< to that one
+/// Down to which size a diagnosis gives a good answer, against what a certificate says.
+struct Limit {
+  double certified;      ///< of the same bench with nothing hidden; infinity: not at all
+  double reached = 0.0;  ///< smallest multiple of that down to which all answers are good; 0: none
+  double missed = 0.0;   ///< the next smaller multiple, whose answer was not; 0: all were good
+  std::string answer{};  ///< to that one
 };
 
-/// Multiples of the nameable size that are hidden, largest first.
+/// From which size on an effect is seen at all, and from which it is named.
+struct Threshold {
+  const truth::Secret* secret;
+  Limit seen, named;
+};
+
+/// Multiples of a certified size that are hidden, largest first.
 inline constexpr double multiples[] = {4.0, 2.0, 1.0, 0.5, 0.25};
 
 /// Measures the thresholds of the effects of a plan, ideal conditions, until the first that is missed.
