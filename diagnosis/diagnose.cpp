@@ -220,12 +220,16 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recor
   const Eigen::MatrixXd spread = covariance(by_all, last, 2);
   for (const Found& f : found.causes)
     d.causes.push_back(estimated(last, spread, all[f.suspect].effect, all[f.suspect].coordinates));
+  const auto is_cause = [&](const Coordinate& c) {
+    return std::any_of(found.causes.begin(), found.causes.end(),
+                       [&](const Found& f) { return all[f.suspect].effect == c.effect; });
+  };
   const auto is_freed = [&](const Coordinate& c) {
     return std::any_of(found.causes.begin(), found.causes.end(),
                        [&](const Found& f) { return all[f.suspect].frees == c.effect; });
   };
   for (const Coordinate& c : last.free)
-    if (c.tolerance > 0.0 || is_freed(c))
+    if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c)))
       d.calibration.push_back(estimated(last, spread, c.effect, {c}));
 
   tell("looking for what is left");

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/intervals.hpp"
 #include "diagnosis/masked_pairs.hpp"
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/selection.hpp"
@@ -140,6 +142,28 @@ void CauseSearch::confirm_classes() {
       fit(by_, rival, 4);
       return rival.bic > enough;
     });
+}
+
+/// A stated number that a cause frees is a part of its law, and no cause beside it unless it has moved far.
+void CauseSearch::judge_freed_numbers() {
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const Suspect& number = all_[k];
+    if (std::none_of(s_.causes.begin(), s_.causes.end(),
+                     [&](const Found& found) { return all_[found.suspect].frees == number.effect; }))
+      continue;
+    const auto known =
+        std::find_if(s_.causes.begin(), s_.causes.end(), [&](const Found& found) { return found.suspect == k; });
+    const Coordinate& stated = number.coordinates[0];
+    bool moved = false;
+    if (index_of(s_.model, stated) >= 0) {
+      const Estimate now =
+          estimated(s_.model, covariance(by_, s_.model, 1), number.effect, number.coordinates).parameters[0];
+      moved = std::abs(now.value - stated.centre) >
+              AcceptanceRules{}.least_tolerances * std::hypot(stated.tolerance, now.standard_error);
+    }
+    if (!moved && known != s_.causes.end()) s_.causes.erase(known);
+    if (moved && known == s_.causes.end()) s_.causes.push_back({k, {}});
+  }
 }
 
 }  // namespace wormdrive

@@ -57,11 +57,7 @@ void CauseSearch::select(const Start& start, const Start* other) {
 
 Selection CauseSearch::confirmed() {
   confirm_classes();
-  // a stated number that a cause frees is a part of its law, no cause beside it
-  std::erase_if(s_.causes, [&, causes = s_.causes](const Found& found) {
-    return std::any_of(causes.begin(), causes.end(),
-                       [&](const Found& other) { return all_[other.suspect].frees == all_[found.suspect].effect; });
-  });
+  judge_freed_numbers();
   return std::move(s_);
 }
 
@@ -119,7 +115,10 @@ std::vector<Tried> CauseSearch::try_suspects(const Start& start, const Start* ot
       find_bounces(by_, h);
     else if (gain > worth_refining)
       refine_bounces(by_, h);
-    if (gain > AcceptanceRules{}.least_bic) try_other_laws(by_, h, all_[tried[k].suspect]);
+    if (gain <= AcceptanceRules{}.least_bic) continue;
+    try_other_laws(by_, h, all_[tried[k].suspect]);
+    for (const Found& found : s_.causes)  // a law that stood in for a number it frees may not be the best beside it
+      if (all_[found.suspect].frees == all_[tried[k].suspect].effect) try_other_laws(by_, h, all_[found.suspect]);
   }
   parallel_for(polished, by_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
@@ -177,12 +176,14 @@ bool CauseSearch::matters(const Tried& with) const {
          error_ahead(by_, with.model, told_horizon) < (1.0 - least_share) * error_ahead(by_, s_.model, told_horizon);
 }
 
-/// Whether the data bear a cause out beside others. What the law of an impact gets wrong grows with what a gap
-/// explains, and passes for small causes, of some size by chance.
+/// Whether the data bear a cause out beside others. What the law of an impact, or of a fall over the speed, gets wrong
+/// grows with what a gap or a fall explains, and passes for small causes, beside a gap of some size by chance.
 bool CauseSearch::stands(const Evidence& evidence, const Hypothesis& with, const Suspect& suspect) const {
   if (!accepted(evidence, suspect)) return false;
-  if (!evidence.beside_gap) return true;
+  const bool beside_fall = suspect.effect != "stribeck" && index_of(with, "stribeck", "drop") >= 0;
+  if (!evidence.beside_gap && !beside_fall) return true;
   if (evidence.delta_bic <= reach_share * (s_.base.bic - with.bic)) return false;
+  if (!evidence.beside_gap) return true;
   const EstimatedEffect found = estimated(with, covariance(by_, with, 1), suspect.effect, suspect.coordinates);
   const Estimate& size = found.parameters.front();
   const double stated = field_of(by_.scenario().effects, found.effect, size.field).value;

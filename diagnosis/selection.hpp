@@ -68,6 +68,7 @@ class CauseSearch {
   void simplify();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
   void confirm_classes();
+  void judge_freed_numbers();
   void tell(const std::string& what) const {
     if (progress_) progress_(what);
   }

@@ -51,6 +51,17 @@ TEST_CASE("a limit far below the largest command is found, though all that it cu
   named_exactly(hard(10510089960399327083U, {{"torque_saturation", 0.12}}));
 }
 
+TEST_CASE("a level of friction far from what is stated is named beside its fall, whose law is sought anew for it") {
+  const Diagnosis below = named_exactly(hard(8544923407699674050U, {{"stribeck", 0.03}, {"mesh_friction", -0.015}}));
+  CHECK(below.causes.size() == 2);
+  const Diagnosis within = named_exactly(hard(17675402408226979046U, {{"mesh_friction", 0.015}, {"stribeck", 0.03}}));
+  CHECK(within.causes.size() == 2);
+}
+
+TEST_CASE("what a fall of another shape than the catalogue's leaves over the speed makes no cause beside it") {
+  named_exactly(hard(7590460569741094619U, {{"stribeck", 0.09}}));
+}
+
 TEST_CASE("commands that are seldom exceeded are known") {
   Recording r;
   r.period = 1e-3;
