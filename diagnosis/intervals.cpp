@@ -121,13 +121,13 @@ namespace {
 /// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
 /// free coordinate in SI.
 double structural_error(const Hypothesis& h, std::size_t k) {
-  constexpr double rigid_share = 0.005;  // of a size that shows: less than a thousandth of all that acts
-  constexpr double moving_share = 0.03;  // of an inertia, which seems the smaller the faster the motion
-  constexpr double held_torque = 2e-5;   // [s], of a lag or delay that acts on a torque held over a sample
-  constexpr double impact_share = 0.05;  // of a gap, by how an impact goes on
-  constexpr double yielding = 2e-5;      // [rad], of a gap, by which loaded teeth make it seem wider
-  constexpr double limit_share = 1e-3;   // of a limit that is met in the fastest motions
-  constexpr double shape_share = 0.1;    // of a fall over the speed, by laws of other shapes
+  constexpr double rigid_share = 0.0035;  // of a size that shows: less than a thousandth of all that acts
+  constexpr double moving_share = 0.02;   // of an inertia, which seems the smaller the faster the motion
+  constexpr double held_torque = 1.5e-5;  // [s], of a lag or delay that acts on a torque held over a sample
+  constexpr double impact_share = 0.05;   // of a gap, by how an impact goes on
+  constexpr double yielding = 2e-5;       // [rad], of a gap, by which loaded teeth make it seem wider
+  constexpr double limit_share = 7e-4;    // of a limit that is met in the fastest motions
+  constexpr double shape_share = 0.1;     // of a fall over the speed, by laws of other shapes
   const Coordinate& c = h.free[k];
   const double value = h.values[k];
   if (c.effect == "backlash") return std::hypot(impact_share * value, yielding);

@@ -49,7 +49,8 @@ Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const
   return h;
 }
 
-void CauseSearch::eliminate() {
+/// Drops causes that do not stand beside the last one, if what is left is better than enough, a BIC.
+void CauseSearch::eliminate(double enough) {
   for (bool again = s_.causes.size() >= 2; again;) {
     again = false;
     for (std::size_t k = 0; k + 1 < s_.causes.size(); ++k) {
@@ -60,7 +61,8 @@ void CauseSearch::eliminate() {
       adjust_noise(by_, without, 3);
       refine_bounces(by_, without);
       const Suspect& suspect = all_[s_.causes[k].suspect];
-      if (stands(compare(without, s_.model, suspect, by_.layout()), s_.model, suspect)) continue;
+      if (without.bic > enough || stands(compare(without, s_.model, suspect, by_.layout()), s_.model, suspect))
+        continue;
       s_.model = std::move(without);
       s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(k));
       again = true;

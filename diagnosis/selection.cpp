@@ -48,8 +48,9 @@ void CauseSearch::select(const Start& start, const Start* other) {
     std::vector<Tried> tried =
         first ? try_suspects(start, other) : try_suspects({s_.model, screen(by_, s_.model, all_)}, nullptr);
     if (first) s_.tried = tried;
+    const double before = s_.model.bic;
     if (tried.empty() || !take_best(tried, first)) break;
-    eliminate();
+    eliminate(before);
   }
   simplify();
   s_.linear = linear_system(by_, s_.base, s_.screening);
@@ -169,10 +170,11 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
   with.evidence = compare(s_.model, with.model, all_[with.suspect], by_.layout());
 }
 
-/// Long data find traces of what is of no account. A further cause has to lower the error ahead as well.
+/// Long data find traces of what is of no account. A further cause has to lower the error ahead as well, or to gain
+/// more than all before it: how teeth bounce over a wide gap nobody can predict.
 bool CauseSearch::matters(const Tried& with) const {
   constexpr double least_share = 0.01;
-  return s_.causes.empty() ||
+  return s_.causes.empty() || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
          error_ahead(by_, with.model, told_horizon) < (1.0 - least_share) * error_ahead(by_, s_.model, told_horizon);
 }
 

@@ -64,7 +64,7 @@ class CauseSearch {
   bool stands(const Evidence& evidence, const Hypothesis& with, const Suspect& suspect) const;
   bool take_best(std::vector<Tried>& tried, bool first_round);
   void compare_fairly(Tried& with, bool base_too);
-  void eliminate();
+  void eliminate(double enough);
   void simplify();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
   void confirm_classes();

@@ -62,6 +62,14 @@ TEST_CASE("what a fall of another shape than the catalogue's leaves over the spe
   named_exactly(hard(7590460569741094619U, {{"stribeck", 0.09}}));
 }
 
+TEST_CASE("a wide gap is named beside what hid it, though nobody can predict how its teeth bounce") {
+  named_exactly(hard(12351327449815399994U, {{"worm_coulomb", 0.01}, {"backlash", 0.004}}));
+}
+
+TEST_CASE("a gap that was found later does not drop a cause without which nothing fits") {
+  named_exactly(hard(3689283242906862325U, {{"worm_viscous", 9e-5}, {"backlash", 0.004}}));
+}
+
 TEST_CASE("commands that are seldom exceeded are known") {
   Recording r;
   r.period = 1e-3;
