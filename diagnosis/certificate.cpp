@@ -15,8 +15,9 @@ namespace wormdrive {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Squared length of a signature in standard deviations that a search can find: least BIC and ln N together.
-constexpr double least_length = 30.0;
+/// Squared length of a signature in standard deviations that a search can find: twice least BIC and ln N together, for
+/// noise may be against it, and an estimate of the noise takes a share of what is small for its own.
+constexpr double least_length = 60.0;
 /// Share of that which the nearest other suspect has to leave. Evidence grows less than squared length where an effect
 /// is strong, so the share of it that keeps suspects in one class comes to about a third here.
 constexpr double least_share = reach_share / 3.0;

@@ -127,7 +127,29 @@ void CauseSearch::try_pairs() {
     s_.model = h;
     s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};
   }
+  while (s_.causes.size() > 2 && exchange_for_fewer()) {
+  }
   simplify();
+}
+
+/// Of what did as well as a cause one may make another cause superfluous: fewer that do as well are the better
+/// explanation. False if there is no such one.
+bool CauseSearch::exchange_for_fewer() {
+  for (const Found& found : s_.causes)
+    for (const std::size_t other : found.equals)
+      for (const Found& superfluous : s_.causes) {
+        std::vector<std::size_t> rest = exchanged(s_.causes, found.suspect, other);
+        if (superfluous.suspect == found.suspect || std::erase(rest, superfluous.suspect) == 0) continue;
+        Hypothesis fewer = fit_causes(rest, &s_.model, 10);
+        adjust_noise(by_, fewer, 3);
+        fit(by_, fewer, 3);
+        if (fewer.bic >= s_.model.bic) continue;
+        s_.model = std::move(fewer);
+        s_.causes.clear();
+        for (const std::size_t suspect : rest) s_.causes.push_back({suspect, {}});
+        return true;
+      }
+  return false;
 }
 
 /// What did as well when a cause was found need not do so beside the causes that came later.

@@ -66,6 +66,7 @@ class CauseSearch {
   void compare_fairly(Tried& with, bool base_too);
   void eliminate(double enough);
   void simplify();
+  bool exchange_for_fewer();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
   void confirm_classes();
   void judge_freed_numbers();

@@ -70,6 +70,10 @@ TEST_CASE("a gap that was found later does not drop a cause without which nothin
   named_exactly(hard(3689283242906862325U, {{"worm_viscous", 9e-5}, {"backlash", 0.004}}));
 }
 
+TEST_CASE("of three causes that scale all torques alike, two remain that do as well") {
+  named_exactly(hard(5020412394954123531U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
+}
+
 TEST_CASE("commands that are seldom exceeded are known") {
   Recording r;
   r.period = 1e-3;

@@ -1,5 +1,6 @@
 #include "recovery/programs/thresholds.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,9 +33,7 @@ bool is_seen(const Outcome& outcome) {
 bool is_named(const Outcome& outcome) { return outcome.score == Score::exact; }
 
 /// Between the last good answer and the first that is not lies the threshold.
-bool within_a_factor_of_two(const Limit& limit) {
-  return limit.reached > 0.0 && limit.reached <= 2.0 && limit.missed >= 0.25;
-}
+bool within_a_factor_of_two(const Limit& limit) { return limit.reached > 0.0 && limit.missed >= 0.25; }
 
 std::string cells(const Limit& limit) {
   const auto size = [&](double multiple) { return multiple > 0.0 ? fmt::format("{:g} x", multiple) : "-"; };
@@ -48,33 +47,52 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
   std::vector<const truth::Secret*> secrets;
   for (const std::string& effect : plan.effects) secrets.push_back(&truth::secret(effect));
   if (secrets.empty()) secrets = gradual();
-  Case nothing{Kind::nothing, conditions("ideal"), generator(), {}, plan.duration};
-  const wormdrive::Scenario sheet = data_sheet(nothing.conditions);
-  const wormdrive::Diagnosis bare = diagnose(sheet, {record(nothing).recording});
+  struct Nothing {
+    Case drawn;
+    wormdrive::Diagnosis found;
+  };
+  std::vector<Nothing> nothing;
+  const wormdrive::Scenario sheet = data_sheet(conditions("ideal"));
+  for (int k = 0; k < benches; ++k) {
+    const Case drawn{Kind::nothing, conditions("ideal"), generator(), {}, plan.duration};
+    nothing.push_back({drawn, diagnose(sheet, {record(drawn).recording})});
+  }
   std::vector<Threshold> measured;
   for (const truth::Secret* secret : secrets) {
-    Case hiding = nothing;  // in the very motion that the certificate is of
-    hiding.kind = Kind::single;
-    hiding.hidden = {{secret, truth::Size::medium, secret->medium}};
-    const wormdrive::Visibility* seen = visibility(bare, secret->effect, record(hiding).drive);
-    const auto limit = [&](double certified, const auto& good) {
-      Limit found{certified};
-      if (!std::isfinite(certified)) return found;
+    const auto hiding = [&](const Nothing& bench, double amount) {  // in the very motion that the certificate is of
+      Case drawn = bench.drawn;
+      drawn.kind = Kind::single;
+      drawn.hidden = {{secret, truth::Size::medium, amount}};
+      return drawn;
+    };
+    const auto limit = [&](double wormdrive::Visibility::*size, const auto& good) {
+      std::vector<double> certified;
+      for (const Nothing& bench : nothing) {
+        const truth::Drive drive = record(hiding(bench, secret->medium)).drive;
+        const wormdrive::Visibility* seen = visibility(bench.found, secret->effect, drive);
+        certified.push_back(seen ? seen->*size : never);
+      }
+      Limit found{*std::max_element(certified.begin(), certified.end())};
+      if (!std::isfinite(found.certified)) return found;
       for (const double multiple : multiples) {
-        hiding.hidden.front().amount = multiple * certified;
-        const Bench bench = record(hiding);
-        const Outcome outcome = judge(hiding, bench.drive, diagnose(sheet, {bench.recording}));
-        if (!good(outcome)) {
+        long well = 0, badly = 0;
+        for (std::size_t k = 0; k < nothing.size() && 2 * std::max(well, badly) <= benches; ++k) {
+          const Case drawn = hiding(nothing[k], multiple * certified[k]);
+          const Bench bench = record(drawn);
+          const Outcome outcome = judge(drawn, bench.drive, diagnose(sheet, {bench.recording}));
+          ++(good(outcome) ? well : badly);
+          if (!good(outcome)) found.answer = answer(outcome);
+        }
+        if (badly > well) {
           found.missed = multiple;
-          found.answer = answer(outcome);
           break;
         }
         found.reached = multiple;
       }
       return found;
     };
-    measured.push_back(
-        {secret, limit(seen ? seen->detectable : never, is_seen), limit(seen ? seen->nameable : never, is_named)});
+    measured.push_back({secret, limit(&wormdrive::Visibility::detectable, is_seen),
+                        limit(&wormdrive::Visibility::nameable, is_named)});
   }
   return measured;
 }

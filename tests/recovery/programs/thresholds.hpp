@@ -6,12 +6,12 @@
 
 namespace recovery {
 
-/// Down to which size a diagnosis gives a good answer, against what a certificate says.
+/// Down to which size a diagnosis gives a good answer on most benches, against what the certificates say.
 struct Limit {
-  double certified;      ///< of the same bench with nothing hidden; infinity: not at all
-  double reached = 0.0;  ///< smallest multiple of that down to which all answers are good; 0: none
-  double missed = 0.0;   ///< the next smaller multiple, whose answer was not; 0: all were good
-  std::string answer{};  ///< to that one
+  double certified;      ///< largest of the same benches with nothing hidden; infinity: not at all on one
+  double reached = 0.0;  ///< smallest multiple of each one's down to which most answers are good; 0: none
+  double missed = 0.0;   ///< the next smaller multiple, whose answers were not; 0: all were good
+  std::string answer{};  ///< the last that was not good
 };
 
 /// From which size on an effect is seen at all, and from which it is named.
@@ -21,7 +21,10 @@ struct Threshold {
 };
 
 /// Multiples of a certified size that are hidden, largest first.
-inline constexpr double multiples[] = {4.0, 2.0, 1.0, 0.5, 0.25};
+inline constexpr double multiples[] = {2.0, 1.0, 0.5, 0.25};
+
+/// What is drawn of each: noise decides on sizes near a threshold.
+inline constexpr long benches = 3;
 
 /// Measures the thresholds of the effects of a plan, ideal conditions, until the first that is missed.
 std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose);
