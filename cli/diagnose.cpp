@@ -73,7 +73,7 @@ void print_blind_spots(const Diagnosis& d) {
   if (!unseen.empty()) print_item("unseen", fmt::format("{}", fmt::join(unseen, ", ")));
 }
 
-void print(const Diagnosis& d, const std::vector<std::string>& written, const std::string& folder) {
+void print(const Diagnosis& d) {
   fmt::print("{}\n", d.sentence);
   for (const std::string& remark : d.remarks) print_item("data", remark);
   print_ranking(d);
@@ -83,7 +83,7 @@ void print(const Diagnosis& d, const std::vector<std::string>& written, const st
                                     e.standard_error, e.low, e.high));
   print_blind_spots(d);
   if (d.experiment) print_item("next", d.experiment_reason);
-  print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder));
+  std::fflush(stdout);  // pictures take a second
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
@@ -137,12 +137,14 @@ int diagnose_command(const DiagnoseOptions& options) {
     return diagnose_files(scenario, kind, options.data, settings, loads);
   }();
 
+  if (talk) print(diagnosis);
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
   const std::vector<std::string> written =
       folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
                    [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
-  if (talk) print(diagnosis, written, folder.path());
+  if (talk)
+    print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder.path()));
   return 0;
 }
 
