@@ -68,7 +68,8 @@ std::vector<Threshold> thresholds(const Plan& plan, const Diagnose& diagnose) {
     const auto limit = [&](double wormdrive::Visibility::*size, const auto& good) {
       std::vector<double> certified;
       for (const Nothing& bench : nothing) {
-        const truth::Drive drive = record(hiding(bench, secret->medium)).drive;
+        truth::Generator of_bench(bench.drawn.seed);
+        const truth::Drive drive = disturbed_drive(hiding(bench, secret->medium), of_bench);
         const wormdrive::Visibility* seen = visibility(bench.found, secret->effect, drive);
         certified.push_back(seen ? seen->*size : never);
       }
