@@ -134,18 +134,20 @@ class CompliantDrive {
     return J;
   }
 
-  /// Time, angles and speeds along the motion in the present mode, as power series to order N.
-  template <int N>
-  Moment<Series<T, N>> ahead(const Instant& now) const {
-    using Flow = Series<T, N>;
-    Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
-    const auto extend = [&](int k, const T& worm, const T& gear) {
-      at.theta_w[k + 1] = at.omega_w[k] / T(k + 1);
-      at.omega_w[k + 1] = worm / T(k + 1);
-      at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
-      at.omega_g[k + 1] = gear / T(k + 1);
+  /// Time, angles and speeds along the motion in the present mode, as power series to order N; with Rounded for a
+  /// scalar every coefficient knows its rounding.
+  template <int N, class C = T>
+  Moment<Series<C, N>> ahead(const Instant& now) const {
+    using Flow = Series<C, N>;
+    Moment<Flow> at = moment(Flow::variable(C(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
+    const auto extend = [&](int k, const C& worm, const C& gear) {
+      at.theta_w[k + 1] = at.omega_w[k] / C(k + 1);
+      at.omega_w[k + 1] = worm / C(k + 1);
+      at.theta_g[k + 1] = at.omega_g[k] / C(k + 1);
+      at.omega_g[k + 1] = gear / C(k + 1);
     };
-    const Accelerations<T> first = accelerations(moment(now), now.mode);
+    const Accelerations<C> first =
+        accelerations(moment(C(now.t), C(now.x[0]), C(now.x[1]), C(now.x[2]), C(now.x[3])), now.mode);
     extend(0, first.worm, first.gear);
     for (int k = 1; k < N; ++k) {
       const Accelerations<Flow> a = accelerations(at, now.mode);
@@ -154,10 +156,21 @@ class CompliantDrive {
     return at;
   }
 
+  /// The state at a moment, in the order of State.
+  template <class S>
+  static std::array<S, state_size> state_at(const Moment<S>& at) {
+    return {at.theta_w, at.omega_w, at.theta_g, at.omega_g};
+  }
+
   // ---- events -------------------------------------------------------------------------------------------------
 
   /// At rest nothing moves; a worm that sticks under a gear that swings is not at rest.
   static bool at_rest(Mode mode) { return mode.worm == Motion::stuck && mode.gear == Motion::stuck; }
+
+  /// Whether a shaft moves and has no speed yet.
+  static bool leaves_rest(const Instant& now) {
+    return (now.mode.worm != Motion::stuck && now.x[1] == T(0)) || (now.mode.gear != Motion::stuck && now.x[3] == T(0));
+  }
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,
   /// in the gap the distance to each flank; for a moving shaft its speed, for a stuck one its two margins to break-in.
@@ -253,8 +266,7 @@ class CompliantDrive {
   }
 
  private:
-  static constexpr int order = 3;           ///< of the series that decide what happens just after an event
-  static constexpr double instant = 1e-11;  ///< events closer than this are one event [s]
+  static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
   static int speed_of(Shaft shaft) { return shaft == Shaft::worm ? 1 : 3; }
   static int first_guard(Shaft shaft) { return shaft == Shaft::worm ? worm_guards : gear_guards; }
@@ -267,7 +279,7 @@ class CompliantDrive {
   }
   /// Whether the teeth push on a flank just after now.
   bool touches(const Instant& now, Flank flank) const {
-    return sign_just_after(apart(ahead<order>(now), flank), instant) < 0;
+    return sign_just_after(apart(ahead<order, Rounded>(now), flank), time_resolution(now.t)) < 0;
   }
 
   /// The acceleration that a shaft at rest would have, moving in this direction.
@@ -281,9 +293,9 @@ class CompliantDrive {
     Mode mode = now.mode;
     for (const Shaft shaft : {Shaft::worm, Shaft::gear}) {
       if (mode[shaft] != Motion::stuck) continue;
-      const auto at = ahead<order>({now.t, now.x, mode});
+      const auto at = ahead<order, Rounded>({now.t, now.x, mode});
       for (const Motion motion : {Motion::forward, Motion::backward})
-        if (sign_just_after(release_acceleration(at, mode, shaft, motion), instant) == sign(motion))
+        if (sign_just_after(release_acceleration(at, mode, shaft, motion), time_resolution(now.t)) == sign(motion))
           mode = mode.with(shaft, motion);
     }
     return mode;

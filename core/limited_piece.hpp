@@ -6,6 +6,7 @@
 
 #include "core/crossing.hpp"
 #include "core/piece.hpp"
+#include "core/rounded.hpp"
 
 namespace wormdrive {
 
@@ -22,8 +23,9 @@ inline LimitedPiece limited(const Piece& raw, double limit, double t) {
   const auto ahead = [&](double at) { return raw(Series<double, 1>::variable(at)); };
   const Series<double, 1> now = ahead(t);
   const double side = now[0] < 0.0 ? -1.0 : 1.0;
-  // Entered where the piece reaches the limit, rounding leaves it on either side: its slope decides.
-  const bool cut = sign_just_after(side * now - Series<double, 1>(limit), 1e-11) > 0;
+  // Entered where the piece reaches the limit, rounding leaves it on either side: its derivatives decide.
+  using Exact = Series<Rounded, 3>;
+  const bool cut = sign_just_after(side * raw(Exact::variable(t)) - Exact(limit), time_resolution(t)) > 0;
   // Positive while this state of affairs lasts.
   const auto lasts = [&](double sign) {
     return [&ahead, sign, limit, cut](double at) {

@@ -110,16 +110,4 @@ Series<T, N> exp(const Series<T, N>& x) {
   return r;
 }
 
-/// Sign of the series just after the present moment: that of the first coefficient that matters for longer than
-/// `instant` seconds; 0 if none does.
-template <class T, int N>
-int sign_just_after(const Series<T, N>& x, double instant) {
-  using std::abs;
-  for (int k = 0; k <= N; ++k) {
-    const T next = k < N ? abs(x[k + 1]) * T(k + 1) * instant : T(0);
-    if (abs(x[k]) > next) return x[k] > T(0) ? 1 : -1;
-  }
-  return 0;
-}
-
 }  // namespace wormdrive

@@ -8,6 +8,7 @@
 #include <ceres/jet.h>
 
 #include "core/observation.hpp"
+#include "core/rounded.hpp"
 #include "core/series.hpp"
 #include "core/torque_balance.hpp"
 
@@ -61,29 +62,37 @@ class WormDrive : public TorqueBalance<T, Load> {
     return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
   }
 
-  /// Time, angle and speed along the motion in the present mode, as power series to order N.
-  template <int N>
-  Moment<Series<T, N>> ahead(const Instant& now) const {
-    using Flow = Series<T, N>;
-    Moment<Flow> at = moment(Flow::variable(T(now.t)), Flow(now.x[0]), Flow(now.x[1]));
-    at.theta_g[1] = now.x[1];
-    at.omega_g[1] = acceleration(moment(now), now.mode);
-    for (int k = 1;; ++k) {
+  /// Time, angle and speed along the motion in the present mode, as power series to order N; with Rounded for a scalar
+  /// every coefficient knows its rounding.
+  template <int N, class C = T>
+  Moment<Series<C, N>> ahead(const Instant& now) const {
+    using Flow = Series<C, N>;
+    Moment<Flow> at = moment(Flow::variable(C(now.t)), Flow(now.x[0]), Flow(now.x[1]));
+    if constexpr (N > 0) {
+      at.theta_g[1] = now.x[1];
+      at.omega_g[1] = acceleration(resting(moment(C(now.t), C(now.x[0]), C(now.x[1])), now), now.mode);
       this->turn_worm(at);
-      if (k == N) return resting(at, now);
-      const Flow a = acceleration(at, now.mode);
-      at.theta_g[k + 1] = at.omega_g[k] / T(k + 1);
-      at.omega_g[k + 1] = a[k] / T(k + 1);
     }
+    for (int k = 1; k < N; ++k) {
+      const Flow a = acceleration(at, now.mode);
+      at.theta_g[k + 1] = at.omega_g[k] / C(k + 1);
+      at.omega_g[k + 1] = a[k] / C(k + 1);
+      this->turn_worm(at);
+    }
+    return resting(at, now);
+  }
+
+  /// The state at a moment, in the order of State.
+  template <class S>
+  static std::array<S, state_size> state_at(const Moment<S>& at) {
+    return {at.theta_g, at.omega_g};
   }
 
   // ---- events -------------------------------------------------------------------------------------------------
 
-  /// Events closer than this are one event [s]. Where an input only touches a boundary, rounding places the event no
-  /// better than the square root of epsilon in its period; still far below anything mechanical.
-  double instant() const { return fastest_input() > 0.0 ? std::max(1e-11, 1e-7 / fastest_input()) : 1e-11; }
-
   static bool at_rest(Mode mode) { return mode.motion == Motion::stuck; }
+  /// Whether the gear moves and has no speed yet.
+  static bool leaves_rest(const Instant& now) { return !at_rest(now.mode) && now.x[1] == T(0); }
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in
   /// its direction and the distance to the switching surface, while stuck the margins to break-in, in rad/s^2.
@@ -169,11 +178,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
     return at;
   }
-  /// Whether a balance of torques [N m] keeps its sign for an instant, none of them changing by its size within 10 us.
-  bool lasts(const T& balance, const SideTorques<T>& tau) const {
-    using std::abs;
-    return abs(balance) > T(1e5 * instant()) * (abs(tau.worm) + abs(surface() * tau.gear));
-  }
   static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
   /// The acceleration that motion from rest would have, on the flank that this motion would load.
@@ -187,38 +191,38 @@ class WormDrive : public TorqueBalance<T, Load> {
     return beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
 
-  /// Whether the gear starts from rest in this direction: by its acceleration now or, where that is zero, just after.
+  /// Whether the gear starts from rest in this direction. An acceleration that vanishes within its rounding starts
+  /// nothing: ties mean stick, and the guard of rest finds the moment at which they end.
   bool starts(const Instant& now, Motion motion) const {
     const Instant rest{now.t, {now.x[0], T(0)}, {}, now.since};
-    const T a_now = release_acceleration(moment(rest), motion);
-    if (lasts(a_now * mesh().Jw * mesh().i, side_torques(moment(rest), motion)))
-      return (a_now > T(0)) == (motion == Motion::forward);
-    const auto a = release_acceleration(ahead<order>(rest), motion);
-    return a[0] != T(0) && sign_just_after(a, instant()) == sign(motion);
+    const Series<Rounded, 0> a = release_acceleration(ahead<0, Rounded>(rest), motion);
+    return !a[0].vanishes() && (a[0].value > 0.0) == (motion == Motion::forward);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
   Mode moving(const Instant& now, Motion motion) const {
+    using std::abs;
     if (!mesh().has_teeth) return {motion, Flank::none};
     const Moment<T> at = moment(now);
     const SideTorques<T> tau = side_torques(at, motion);
     const T distance = beyond_surface(tau, at);
     const Flank now_on = flank_at(distance);
-    if (lasts(distance, tau)) return {motion, now_on};
-    const auto beyond = beyond_surface(ahead<order>({now.t, now.x, {motion, now_on}, now.since}), motion);
-    return {motion, sign_just_after(beyond, instant()) > 0 ? Flank::right : Flank::left};
+    // no input or drive moves a torque by a thousandth within the resolution of time, and rounding is far below it
+    if (abs(distance) > T(1e-3) * (abs(tau.worm) + abs(surface() * tau.gear))) return {motion, now_on};
+    const Instant then{now.t, now.x, {motion, now_on}, now.since};
+    return {motion, flank_just_after(beyond_surface(ahead<order, Rounded>(then), motion), now.t, Flank::left)};
   }
 
   /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
   Flank flank_after_crossing(const Instant& now) const {
-    using std::abs;
-    const auto near = beyond_surface(ahead<2>(now), now.mode.motion);
-    if (abs(near[1]) > T(2.0 * instant()) * abs(near[2])) return near[1] > T(0) ? Flank::right : Flank::left;
-    auto beyond = beyond_surface(ahead<order>(now), now.mode.motion);
-    beyond[0] = T(0);
-    const int side = sign_just_after(beyond, instant());
-    if (side == 0) return across_surface(now.mode).flank;
-    return side > 0 ? Flank::right : Flank::left;
+    auto beyond = beyond_surface(ahead<order, Rounded>(now), now.mode.motion);
+    beyond[0].value = 0.0;  // as was found
+    return flank_just_after(beyond, now.t, across_surface(now.mode).flank);
+  }
+  /// The flank that carries the load just after t; the other argument where nothing decides.
+  static Flank flank_just_after(const Series<Rounded, order>& beyond, double t, Flank undecided) {
+    const int side = sign_just_after(beyond, time_resolution(t));
+    return side == 0 ? undecided : side > 0 ? Flank::right : Flank::left;
   }
 };
 

@@ -12,6 +12,8 @@
 #include "core/compliant_energy.hpp"
 #include "core/crossing.hpp"
 #include "core/energy.hpp"
+#include "core/rounded.hpp"
+#include "events/segment_start.hpp"
 
 namespace wormdrive {
 
@@ -124,15 +126,24 @@ class Audit {
       return;
     }
     long steps = finer * std::max(least_steps, solver_steps);
-    if (System::at_rest(start.mode))
-      steps = std::max(steps, std::lround(finer * system_.fastest_input(start.t) * span / 0.05));
+    // an input's own scale, which a loose tolerance may have passed over; as fine as where the drive rests and nothing
+    // else tells what happens in between
+    const double turn = System::at_rest(start.mode) ? 0.05 : 0.25;
+    steps = std::max(steps, std::lround(finer * system_.fastest_input(start.t) * span / turn));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
     Guards here = system_.guards_ahead(now);
-    std::array<bool, System::guard_count> armed{};
-    std::array<double, System::guard_count> crossed;
-    crossed.fill(std::numeric_limits<double>::infinity());
+    std::array<double, System::guard_count> floor{};
+    for (int g = 0; g < System::guard_count; ++g)
+      if (here[g][0] <= 0.0) floor[g] = guard_start(system_, now, g, here[g]).floor;
+    const auto guards_at = [&](const Instant& at) {
+      Guards guards = system_.guards_ahead(at);
+      for (int g = 0; g < System::guard_count; ++g) guards[g][0] += floor[g];
+      return guards;
+    };
+    here = guards_at(now);
+    std::array<Watched, System::guard_count> watched{};
     const double stored_at_start = stored_energy(system_, start);
     Power work{0.0, 0.0, 0.0};
     for (long k = 1; k <= steps; ++k) {
@@ -140,16 +151,20 @@ class Audit {
       const Guards there = here;
       step(now, k == steps ? end.t - now.t : h, work);
       now.t = k == steps ? end.t : start.t + static_cast<double>(k) * h;
-      here = system_.guards_ahead(now);
+      here = guards_at(now);
       for (int g = 0; g < System::guard_count; ++g) {
-        armed[g] = armed[g] || there[g][0] > 0.0;
-        if (!armed[g] || crossed[g] <= now.t) continue;
+        Watched& guard = watched[g];
+        guard.armed = guard.armed || there[g][0] > 0.0;
+        guard.held = guard.held || guard.armed;
+        if (!guard.armed) continue;
         const double when = crossing(g, before.t, there[g], now.t, here[g]);
-        if (when <= now.t) crossed[g] = when;
+        if (when > now.t) continue;
+        guard.falls.push_back(when);
+        guard.armed = here[g][0] > 0.0;
       }
     }
-    judge(start, end, here, armed, crossed, mode_ended && !input_ended,
-          span / static_cast<double>(std::max(1L, solver_steps)));
+    judge(start, end, here, watched, mode_ended && !input_ended,
+          span / static_cast<double>(std::max(1L, solver_steps)), std::max(h, 4.0 * time_resolution(end.t)));
     for (int k = 0; k < System::state_size; k += 2) {
       report_.largest_angle_error = std::max(report_.largest_angle_error, std::abs(now.x[k] - end.x[k]));
       report_.largest_speed_error = std::max(report_.largest_speed_error, std::abs(now.x[k + 1] - end.x[k + 1]));
@@ -188,40 +203,44 @@ class Audit {
     return never;
   }
 
-  /// Compares the crossings of a segment with the event that ended it, if one did.
+  /// A guard over one segment: whether it has ever been positive, and every time that it fell through zero [s].
+  struct Watched {
+    bool armed = false, held = false;
+    std::vector<double> falls{};
+  };
+
+  /// Compares the falls of a segment's guards with the event that ended it, if one did. negligible [s]: a fall this
+  /// close to the end belongs to its event.
   void judge(const Instant& start, const Instant& end, const Guards& at_end,
-             const std::array<bool, System::guard_count>& armed, const std::array<double, System::guard_count>& crossed,
-             bool guard_ended, double solver_step) {
-    if (end.t - start.t <= negligible) {
-      if (guard_ended) ++report_.events;
-      return;
-    }
+             const std::array<Watched, System::guard_count>& watched, bool guard_ended, double solver_step,
+             double negligible) {
     const auto until = [&](int g) { return std::abs(at_end[g][0]) / std::max(std::abs(at_end[g][1]), 1e-300); };
     int fired = -1;
     if (guard_ended) {
       fired = 0;  // one that has been positive, if there is any: others stay at zero without firing
       for (int g = 1; g < System::guard_count; ++g)
-        if (std::pair(!armed[g], until(g)) < std::pair(!armed[fired], until(fired))) fired = g;
+        if (std::pair(!watched[g].held, until(g)) < std::pair(!watched[fired].held, until(fired))) fired = g;
     }
     for (int g = 0; g < System::guard_count; ++g) {
-      const bool found = crossed[g] <= end.t;
+      std::vector<double> falls = watched[g].falls;
+      const auto finding = [&](double t, bool missed) {
+        report_.findings.push_back({t, end.mode, std::string(System::guard_name(end.mode, g)), missed});
+      };
       if (g == fired) {
-        const double error = found ? end.t - crossed[g] : until(g);
+        const double error = falls.empty() ? until(g) : end.t - falls.back();
         if (error <= solver_step) {
           ++report_.events;
           report_.largest_time_error = std::max(report_.largest_time_error, error);
-          continue;
+          if (!falls.empty()) falls.pop_back();
+        } else {
+          finding(end.t, false);
         }
-        report_.findings.push_back({end.t, end.mode, std::string(System::guard_name(end.mode, g)), false});
       }
-      const bool never_held = !armed[g] && at_end[g][0] < 0.0;
-      if (never_held || (found && end.t - crossed[g] > negligible))
-        report_.findings.push_back(
-            {never_held ? start.t : crossed[g], end.mode, std::string(System::guard_name(end.mode, g)), true});
+      if (!watched[g].held && at_end[g][0] < 0.0) finding(start.t, true);
+      for (const double t : falls)
+        if (end.t - t > negligible) finding(t, true);
     }
   }
-
-  static constexpr double negligible = 1e-9;  ///< [s]: a crossing this close to the segment's end belongs to its event
 
   System& system_;
   AuditReport report_;

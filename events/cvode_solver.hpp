@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -11,21 +13,23 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "core/crossing.hpp"
 #include "events/cvode_handles.hpp"
+#include "events/first_step.hpp"
 #include "events/halt.hpp"
+#include "events/segment_start.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {
 
-/// SUNDIALS CVODE with two root functions per guard: BDF with Newton and the exact Jacobian, or Adams with fixed point.
+/// SUNDIALS CVODE: BDF with Newton and the exact Jacobian, or Adams with fixed point.
 ///
-/// A guard that dips below zero and comes back within one step changes no sign at the step's ends. So the guard's rate
-/// is watched too: on the way to the root of the rate, CVODE evaluates all root functions and finds the guard below
-/// zero.
-///
-/// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial, for
-/// a call of CVODE and a look at the guards per report would cost more than the report.
+/// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial. After
+/// every step all guards are looked at with value and rate, so that one that dips below zero and comes back is seen as
+/// well as one that ends below, and their roots are found on the polynomial to a few roundings of the time. (CVODE's own
+/// roots are a hundred times coarser, which is microseconds after a day.) No step ends in a mode that its state
+/// contradicts.
 template <class System>
 class CvodeSolver {
  public:
@@ -34,14 +38,13 @@ class CvodeSolver {
 
   /// The system must outlive the solver; its inputs and parameters may change between restarts.
   CvodeSolver(const System& system, const SolverSettings& settings)
-      : system_(system), max_step_(settings.max_step), y_(N_VNew_Serial(System::state_size, context_)) {
+      : system_(system), settings_(settings), y_(N_VNew_Serial(System::state_size, context_)) {
     memory_.reset(CVodeCreate(settings.method == Method::bdf ? CV_BDF : CV_ADAMS, context_));
     if (!memory_ || !y_) throw std::bad_alloc();
     check_cvode(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
     check_cvode(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
     check_cvode(CVodeSetUserData(memory(), this));
     check_cvode(CVodeSetMaxNumSteps(memory(), max_steps));
-    set_longest_step(max_step_);
     if (settings.method == Method::bdf) {
       matrix_.reset(SUNDenseMatrix(System::state_size, System::state_size, context_));
       linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
@@ -51,11 +54,6 @@ class CvodeSolver {
       fixed_point_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
       check_cvode(CVodeSetNonlinearSolver(memory(), fixed_point_.get()));
     }
-    check_cvode(CVodeRootInit(memory(), root_count, roots));
-    std::array<int, root_count> directions;
-    for (int k = 0; k < root_count; ++k) directions[k] = k < System::guard_count ? -1 : 1;  // guards fall, rates rise
-    check_cvode(CVodeSetRootDirection(memory(), directions.data()));
-    check_cvode(CVodeSetNoInactiveRootWarn(memory()));
     silence_cvode(context_, memory());
   }
   CvodeSolver(const CvodeSolver&) = delete;
@@ -63,34 +61,29 @@ class CvodeSolver {
 
   /// Takes up a new state; what the solver counted so far is kept, for CVODE forgets it here.
   void restart(const Instant& now) {
-    total_ = statistics();
     ++total_.restarts;
     ahead_ = now;
     fired_ = no_guard;
     finite_ = true;
-    state() = now.x;
-    check_cvode(CVodeReInit(memory(), now.t, y_.get()));
-    if constexpr (requires { system_.longest_step(now.mode); })
-      set_longest_step(std::min(max_step_, system_.longest_step(now.mode)));
-    limit_ = std::numeric_limits<double>::quiet_NaN();
+    first_.reset();
+    if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now);
+    if (!leaves_rest_) begin();
   }
 
   /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
   /// no_guard.
   int advance(Instant& now, double next, double limit) {
+    if constexpr (Foresees<System>)
+      if ((leaves_rest_ || first_) && first_step(now, next, limit))
+        return now.t < first_->end() ? no_guard : first_->fired();
     if (already_there(now.t, next)) {
       now.t = next;
       return no_guard;
     }
     if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), limit_ = limit));
-    for (long step = 0; ahead_.t < next && fired_ == no_guard; ++step) {
-      const int flag = CVode(memory(), next, y_.get(), &ahead_.t, next < limit ? CV_ONE_STEP : CV_NORMAL);
-      if (flag < 0 || step == max_steps) {
-        now.t = ahead_.t;
-        throw SolverFault(cvode_reason(flag >= 0 ? CV_TOO_MUCH_WORK : finite_ ? flag : CV_RHSFUNC_FAIL));
-      }
-      ahead_.x = state();
-      if (flag == CV_ROOT_RETURN) fired_ = crossed();
+    for (long steps = 0; ahead_.t < next && fired_ == no_guard; ++steps) {
+      if (steps == max_steps) throw SolverFault(cvode_reason(CV_TOO_MUCH_WORK));
+      step(now, next);
     }
     if (ahead_.t <= next) {
       now = ahead_;
@@ -104,22 +97,20 @@ class CvodeSolver {
   /// What the solver did since it was made.
   SolverStatistics statistics() const {
     SolverStatistics sum = total_;
-    long steps = 0, evaluations = 0, jacobians = 0, failures = 0, roots = 0;
+    long steps = 0, evaluations = 0, jacobians = 0, failures = 0;
     check_cvode(CVodeGetNumSteps(memory(), &steps));
     check_cvode(CVodeGetNumRhsEvals(memory(), &evaluations));
     check_cvode(CVodeGetNumErrTestFails(memory(), &failures));
-    check_cvode(CVodeGetNumGEvals(memory(), &roots));
     if (linear_) check_cvode(CVodeGetNumJacEvals(memory(), &jacobians));
     sum.steps += steps;
     sum.evaluations += evaluations;
     sum.jacobians += jacobians;
     sum.error_test_failures += failures;
-    sum.guard_evaluations += roots;
     return sum;
   }
 
  private:
-  static constexpr int root_count = 2 * System::guard_count;  ///< every guard and its rate
+  using Guards = decltype(std::declval<const System&>().guards_ahead(std::declval<const Instant&>()));
   static constexpr long max_steps = 10'000'000;  ///< between two stops; a stalled run fails earlier for its step size
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
@@ -136,25 +127,86 @@ class CvodeSolver {
         solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
     return 0;
   }
-  static int roots(sunrealtype t, N_Vector y, sunrealtype* values, void* self) {
-    const auto& solver = *static_cast<const CvodeSolver*>(self);
-    const auto g = solver.system_.guards_ahead({t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode});
-    for (int k = 0; k < System::guard_count; ++k) {
-      values[k] = g[k][0];
-      // never exactly zero: CVODE gives up at a root function that stays zero behind its root, as slow rates do
-      values[System::guard_count + k] = g[k][1] != 0.0 ? g[k][1] : std::numeric_limits<double>::min();
+  /// Goes on by the first step of the motion from rest; false where that is over, and CVODE has begun behind it.
+  bool first_step(Instant& now, double next, double limit) requires Foresees<System> {
+    if (!first_) {
+      first_.emplace(system_, now, limit, longest_step(now), settings_);
+      total_.evaluations += first_->evaluations();
+      ++total_.steps;
+      leaves_rest_ = false;
     }
-    return 0;
+    if (now.t < first_->end()) {
+      now = first_->at(std::min(next, first_->end()));
+      if (now.t == next || first_->fired() != no_guard) return true;
+    }
+    first_.reset();
+    ahead_ = now;
+    begin();
+    return false;
   }
 
-  /// The guard whose crossing CVODE stopped at; none at a minimum above zero.
-  int crossed() const {
-    std::array<int, root_count> found;
-    check_cvode(CVodeGetRootInfo(memory(), found.data()));
-    for (int k = 0; k < System::guard_count; ++k)
-      if (found[k] != 0) return k;
-    return no_guard;
+  /// Lets CVODE begin at ahead_.
+  void begin() {
+    total_ = statistics();
+    state() = ahead_.x;
+    check_cvode(CVodeReInit(memory(), ahead_.t, y_.get()));
+    const double step = longest_step(ahead_);
+    check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0));
+    limit_ = std::numeric_limits<double>::quiet_NaN();
+    floor_.fill(0.0);
+    guards_ = guards_at(ahead_);
+    for (int g = 0; g < System::guard_count; ++g) {
+      if (guards_[g][0] > 0.0) continue;
+      const GuardStart start = guard_start(system_, ahead_, g, guards_[g]);
+      if (start.falls) fired_ = g;
+      floor_[g] = start.floor;
+      guards_[g][0] += start.floor;
+    }
   }
+  /// One step of CVODE, and the first guard that falls through zero in it.
+  void step(Instant& now, double next) {
+    const double from = ahead_.t;
+    const int flag = CVode(memory(), next, y_.get(), &ahead_.t, CV_ONE_STEP);
+    if (flag < 0) {
+      now.t = ahead_.t;
+      throw SolverFault(cvode_reason(finite_ ? flag : CV_RHSFUNC_FAIL));
+    }
+    ahead_.x = state();
+    const Guards there = guards_at(ahead_);
+    double first = ahead_.t;
+    for (int g = 0; g < System::guard_count; ++g) {
+      const auto guard = [&](double t) { return guards_at(at(t))[g]; };
+      const auto t = falling_crossing(guard, from, guards_[g], ahead_.t, there[g]);
+      if (!t || (fired_ != no_guard && *t >= first)) continue;
+      first = *t;
+      fired_ = g;
+    }
+    guards_ = there;
+    if (fired_ == no_guard) return;
+    ahead_ = at(first);
+  }
+  /// Where the motion was at a time of the latest step.
+  Instant at(double t) {
+    Instant then = ahead_;
+    then.t = t;
+    then.x = state_at(t);
+    return then;
+  }
+  Guards guards_at(const Instant& at) {
+    ++total_.guard_evaluations;
+    Guards guards = system_.guards_ahead(at);
+    for (int g = 0; g < System::guard_count; ++g) guards[g][0] += floor_[g];
+    return guards;
+  }
+
+  /// Within the longest step [s] a guard turns at most once, whatever the tolerance lets pass.
+  double longest_step(const Instant& now) const {
+    double step = settings_.max_step;
+    if constexpr (requires { system_.longest_step(now.mode); }) step = std::min(step, system_.longest_step(now.mode));
+    const double omega = system_.fastest_input(now.t);
+    return omega > 0.0 ? std::min(step, turn / omega) : step;
+  }
+  static constexpr double turn = 0.25;  ///< angle [rad] that the fastest input may pass within a step
 
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
@@ -164,10 +216,8 @@ class CvodeSolver {
     return state();
   }
 
-  void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
-
   const System& system_;
-  double max_step_;  ///< [s]
+  SolverSettings settings_;
   sundials::Context context_;
   CvodeOwned<N_Vector> y_;
   CvodeOwned<SUNMatrix> matrix_;
@@ -177,6 +227,10 @@ class CvodeSolver {
   Instant ahead_{};       ///< how far CVODE has gone without a guard firing ...
   int fired_ = no_guard;  ///< ... or the guard that fired there
   bool finite_ = true;    ///< every acceleration since the latest restart was a number
+  bool leaves_rest_ = false;                         ///< the first step is still to be made
+  std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
+  Guards guards_{};                                  ///< where CVODE is ...
+  std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   SolverStatistics total_{};
 };

@@ -7,7 +7,7 @@ namespace wormdrive {
 namespace {
 
 constexpr double precision = 0x1p-53;
-constexpr double instant = 1e-11;  // events closer than this are one event [s], as in WormDrive
+constexpr double instant = 1e-11;  // resolution of a guard that is interpolated [s]
 constexpr int deepest = 40;        // halvings of a step, until what is left is below any resolution
 
 /// Value and slope at s, and what the terms of the value add up to without their signs.
@@ -63,8 +63,8 @@ struct Shape {
   }
 };
 
-}  // namespace
-
+/// Number of leading coefficients that vanish next to their successor within an instant: the polynomial has that many
+/// roots at s = 0. All of them where nothing remains.
 std::size_t start_roots(Polynomial c) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const double next = k + 1 < c.size() ? std::abs(c[k + 1]) * static_cast<double>(k + 1) * instant : 0.0;
@@ -73,14 +73,24 @@ std::size_t start_roots(Polynomial c) {
   return c.size();
 }
 
-bool falls_through(Polynomial c, double s, double instant) {
-  double slope = 0.0, bend = 0.0, value = 0.0;  // bend: half the second derivative
+}  // namespace
+
+bool falls_through(Polynomial c, double s, double resolution) {
+  double slope = 0.0, bend = 0.0, value = 0.0, size = 0.0;  // bend: half the second derivative
   for (std::size_t k = c.size(); k-- > 0;) {
     bend = bend * s + slope;
     slope = slope * s + value;
     value = value * s + c[k];
+    size = size * s + std::abs(c[k]);
   }
-  return slope < 0.0 && -slope > 2.0 * instant * std::abs(bend);
+  const double blur = 64.0 * precision * size + std::abs(slope) * resolution;
+  return slope < 0.0 && slope * slope > 4.0 * std::abs(bend) * blur;  // the minimum is slope^2/(4 bend) below zero
+}
+
+RootSearch::Fall RootSearch::fall_from_start(Polynomial guard, double h, std::size_t vanishing) {
+  if (vanishing >= guard.size()) return {};
+  const Polynomial rest = guard.subspan(vanishing);
+  return rest[0] > 0.0 ? Fall{first_root(rest, h), true} : Fall{0.0, true};
 }
 
 RootSearch::Fall RootSearch::start_of_segment(Polynomial guard, double h) {

@@ -5,12 +5,9 @@
 
 namespace wormdrive {
 
-/// Number of leading coefficients that vanish next to their successor within the resolution of an event, as
-/// sign_just_after judges them: the polynomial has that many roots at s = 0. All of them where nothing remains.
-std::size_t start_roots(Polynomial c);
-
-/// Whether a polynomial that has a root at s certainly falls there, and for longer than an instant [s].
-bool falls_through(Polynomial c, double s, double instant);
+/// Whether a polynomial that has a root at s certainly falls there: its next minimum is lower than rounding could make
+/// it, and than it changes within the resolution of time [s].
+bool falls_through(Polynomial c, double s, double resolution);
 
 /// Finds where guards fall through zero within a step, and counts how often a guard had to be evaluated for it.
 class RootSearch {
@@ -21,8 +18,14 @@ class RootSearch {
     bool armed = false;          ///< it is positive somewhere before that, or by the end of the step
   };
 
-  /// The first fall of a guard through zero within h. A guard that is not armed yet counts once it has been positive;
-  /// what it is at the very start, to rounding, does not count.
+  /// The first fall of a guard through zero within h, at the start of a segment: the given number of leading
+  /// coefficients vanishes within its rounding. A guard that falls from there is over at once; one that vanishes
+  /// altogether is not armed.
+  Fall fall_from_start(Polynomial guard, double h, std::size_t vanishing);
+
+  /// The first fall of a guard through zero within h, where the guard is known to an event's resolution of 10 ps only,
+  /// as one that is interpolated. A guard that is not armed yet counts once it has been positive; what it is at the very
+  /// start does not count.
   Fall first_fall(Polynomial guard, double h, bool armed) {
     if (!armed) return start_of_segment(guard, h);
     // An armed guard that starts below zero got there by the rounding between two steps.

@@ -7,6 +7,7 @@
 
 #include "core/crossing.hpp"
 #include "events/halt.hpp"
+#include "events/segment_start.hpp"
 
 namespace wormdrive {
 
@@ -25,13 +26,15 @@ class RestWatch {
 
   RestWatch(const System& system, const Instant& now) : system_(system), now_(now) {}
 
-  /// The first crossing in [now.t, end]; a guard that starts below zero counts once it has been positive.
-  std::optional<Crossing> first_crossing(double end) const {
-    std::array<bool, System::guard_count> armed;
+  /// The first crossing in [now.t, end].
+  std::optional<Crossing> first_crossing(double end) {
     Guards left = guards_at(now_.t);
     for (int g = 0; g < System::guard_count; ++g) {
-      if (left[g][0] <= 0.0 && left[g][1] < 0.0) return Crossing{now_.t, g};  // though rounding put it a hair below
-      armed[g] = left[g][0] >= 0.0;
+      if (left[g][0] > 0.0) continue;
+      const GuardStart start = guard_start(system_, now_, g, left[g]);
+      if (start.falls) return Crossing{now_.t, g};
+      floor_[g] = start.floor;
+      left[g][0] += floor_[g];
     }
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
     if (system_.fastest_input(now_.t) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
@@ -42,9 +45,8 @@ class RestWatch {
       std::optional<Crossing> first;
       for (int g = 0; g < System::guard_count; ++g) {
         const auto guard = [&](double t) { return guards_at(t)[g]; };
-        const auto t = armed[g] ? falling_crossing(guard, a, left[g], b, right[g]) : std::nullopt;
+        const auto t = falling_crossing(guard, a, left[g], b, right[g]);
         if (t && (!first || *t < first->t)) first = Crossing{*t, g};
-        armed[g] = armed[g] || right[g][0] > 0.0;
       }
       if (first) return first;
       a = b;
@@ -59,9 +61,11 @@ class RestWatch {
   Guards guards_at(double t) const {
     Instant then = now_;
     then.t = t;
-    const Guards guards = system_.guards_ahead(then);
-    for (const auto& guard : guards)
-      if (!std::isfinite(guard[0])) throw SolverFault("a guard of the state of rest is not a finite number");
+    Guards guards = system_.guards_ahead(then);
+    for (int g = 0; g < System::guard_count; ++g) {
+      if (!std::isfinite(guards[g][0])) throw SolverFault("a guard of the state of rest is not a finite number");
+      guards[g][0] += floor_[g];
+    }
     return guards;
   }
 
@@ -77,6 +81,7 @@ class RestWatch {
 
   const System& system_;
   Instant now_;
+  std::array<double, System::guard_count> floor_{};  ///< of a guard that starts at zero
 };
 
 }  // namespace wormdrive

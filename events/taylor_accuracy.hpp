@@ -20,7 +20,7 @@ inline double rough_exp2(double y) {
 /// How far a power series is carried, and over which step.
 ///
 /// The tolerances are errors per second of simulated time, so that the error of a run does not depend on into how
-/// many steps samples and inputs cut it.
+/// many steps samples and inputs cut it; a step that is longer than a second has the error of one, as with CVODE.
 class TaylorAccuracy {
   /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
   static constexpr int window = 6;
@@ -31,16 +31,23 @@ class TaylorAccuracy {
   explicit TaylorAccuracy(const SolverSettings& settings)
       : absolute_(std::max(settings.absolute_tolerance, 1e-18)),
         relative_(std::max(settings.relative_tolerance, 1e-16)),
-        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(relative_)), least_order, highest_order)) {}
+        order_(std::clamp(static_cast<int>(2.0 - 0.42 * std::ilogb(std::min(relative_, coarsest))), least_order,
+                          highest_order)) {}
 
   /// Error of the speed [rad/s] that a second may bring.
   template <class V>
   [[gnu::always_inline]] V allowed(const V& speed) const {
     return absolute_ + relative_ * abs(speed);
   }
+  /// What a term of a step of h [s] may add to it, per h.
+  template <class V>
+  [[gnu::always_inline]] V allowed(const V& speed, double h) const {
+    return h > 1.0 ? allowed(speed) * (1.0 / h) : allowed(speed);
+  }
   /// The same for a quantity of which the terms of its series add up to this size.
   double relative() const { return relative_; }
-  /// The order with the least work where the step is free: it grows with the digits that are asked for.
+  /// The order with the least work where the step is free: it grows with the digits that are asked for, and is never
+  /// low, for near a root the guards have to be exact to rounding whatever the tolerance.
   int order() const { return order_; }
 
   /// Whether the last terms of speed and guards are negligible over a step of h.
@@ -50,7 +57,7 @@ class TaylorAccuracy {
     double power = h;
     for (int k = 2; k <= e.order - window; ++k) power *= h;
     for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
-      if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0]))) return false;
+      if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0], h))) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
       if (guard_step(e, static_cast<int>(g), h) < h) return false;
     return true;
@@ -64,7 +71,8 @@ class TaylorAccuracy {
     for (int k = e.order - window + 1; k <= e.order; ++k) {
       // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
       const double size = rough_log2(std::abs(e.omega[k]));
-      log2_step = std::min(log2_step, (allowed_log2 + 4.0 * (e.order - k) - size) / (k - 1));
+      const double room = allowed_log2 + 4.0 * (e.order - k) - size;
+      log2_step = std::min(log2_step, room / (room > 0.0 ? k : k - 1));  // beyond a second the error is that of a step
     }
     h = std::min(h, rough_exp2(log2_step));
     double shortest = h;
@@ -74,6 +82,8 @@ class TaylorAccuracy {
   }
 
  private:
+  static constexpr double coarsest = 1e-13;  ///< tolerance from which on a looser one does not lower the order
+
   /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
   /// the guard may only touch zero, would show as two events.
   template <class Expansion>

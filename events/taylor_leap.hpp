@@ -94,7 +94,7 @@ struct HeldMotionOf {
       restoring = restoring + damping * std::sqrt(rate);
     }
     const V reach = rate * (h * h), error = restoring * restoring * (reach * reach * reach);
-    const V allowed = accuracy.allowed(fastest);
+    const V allowed = accuracy.allowed(fastest, h);
     return {certain, error, reach, allowed * allowed};
   }
 

@@ -144,7 +144,7 @@ class NominalFlow<WormDrive<double, Load>> {
 
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
-    const double allowed = accuracy.allowed(e.omega[0]);
+    const double allowed = accuracy.allowed(e.omega[0], h);
     double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
     bool suffices = false;
     const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {

@@ -5,6 +5,7 @@
 
 #include "events/halt.hpp"
 #include "events/polynomial_root.hpp"
+#include "events/segment_start.hpp"
 #include "events/solver_settings.hpp"
 #include "events/taylor_nominal.hpp"
 #include "events/taylor_series.hpp"
@@ -35,7 +36,7 @@ class TaylorSolver {
   Instant jump(const Instant& now, int guard) {
     if constexpr (NominalFlow<System>::known)
       if (!System::at_rest(now.mode) && guard == System::flank_guard &&
-          falls_through(series_.guard(guard), now.t - begin_.t, system_.instant()))
+          falls_through(series_.guard(guard), now.t - begin_.t, time_resolution(now.t)))
         return {now.t, now.x, System::across_surface(now.mode), now.since};
     return system_.jump(now, guard);
   }
@@ -129,7 +130,10 @@ class TaylorSolver {
     ++count_.evaluations;
     if (!std::isfinite(series_.omega[1]) || !std::isfinite(series_.omega[series_.order]))
       throw SolverFault("the acceleration is not a finite number");
-    if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest();
+    std::array<std::size_t, System::guard_count> vanishing{};
+    for (int g = 0; g < System::guard_count; ++g)
+      if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(now, g);
+    if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest(vanishing[System::speed_guard]);
 
     // The end of the step is a double, and the step ends there exactly.
     end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
@@ -142,7 +146,8 @@ class TaylorSolver {
         armed_[g] = true;
         continue;
       }
-      const RootSearch::Fall fall = search_.first_fall(series_.guard(g), end_ - now.t, armed_[g]);
+      const RootSearch::Fall fall = armed_[g] ? search_.first_fall(series_.guard(g), end_ - now.t, true)
+                                              : search_.fall_from_start(series_.guard(g), end_ - now.t, vanishing[g]);
       armed_[g] = armed_[g] || fall.armed;
       if (!fall.at || (fired_ != no_guard && now.t + *fall.at >= end_)) continue;
       end_ = std::min(now.t + *fall.at, end_);
@@ -156,9 +161,19 @@ class TaylorSolver {
     SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
   }
 
+  /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
+  std::size_t vanishing_at_start(const Instant& now, int guard) const {
+    const Polynomial c = series_.guard(guard);
+    const double size = system_.guard_terms(system_.moment(now), now.mode)[guard], resolution = time_resolution(now.t);
+    if (c[0] > 1e-9 * size && c[0] > std::abs(c[1]) * resolution) return 0;  // rounding is far below
+    constexpr int last = 8;
+    const int vanishing = undecided(guard_series<last>(system_, now)[guard], resolution);
+    return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
+  }
+
   /// Motion from rest: what the start holds of speed and acceleration is rounding, and would point anywhere.
-  void leave_rest() {
-    const std::size_t roots = std::min(start_roots(series_.speed()), static_cast<std::size_t>(series_.order));
+  void leave_rest(std::size_t vanishing) {
+    const std::size_t roots = std::min(vanishing, static_cast<std::size_t>(series_.order));
     for (std::size_t k = 0; k < roots; ++k)
       series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
   }

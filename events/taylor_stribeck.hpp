@@ -160,7 +160,7 @@ class StribeckCurve {
       const double nearing = std::abs(m.lift) * ((v + change) * h) + std::abs(m.skew) * change;
       if (!(-m.flank * distance > nearing)) return 0;
     }
-    const double allowed = accuracy.allowed(v + change) * (1.0 - ratio);
+    const double allowed = accuracy.allowed(v + change, h) * (1.0 - ratio);
     double error = uneven * (ratio * ratio);  // of the acceleration
     for (int terms = 2; terms <= longest; ++terms, error *= ratio)
       if (error * reciprocal[terms + 1] <= allowed) return terms;

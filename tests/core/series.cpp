@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "core/rounded.hpp"
 #include "support.hpp"
 
 namespace wormdrive::test::core_series {
@@ -22,6 +23,14 @@ Flow with(std::initializer_list<double> coefficients) {
   Flow x;
   int k = 0;
   for (double c : coefficients) x[k++] = c;
+  return x;
+}
+
+/// Coefficients with their rounding.
+Series<Rounded, 3> known(std::initializer_list<Rounded> coefficients) {
+  Series<Rounded, 3> x;
+  int k = 0;
+  for (const Rounded& c : coefficients) x[k++] = c;
   return x;
 }
 
@@ -74,29 +83,44 @@ TEST_CASE("series compare by their present value alone") {
   REQUIRE(with({2.0, -9.0}) > with({1.0, 9.0}));
 }
 
-TEST_CASE("the sign just after now is that of the first coefficient that outlasts an instant") {
-  const double instant = 1e-11;
-  REQUIRE(sign_just_after(with({-1e-3, 1.0}), instant) == -1);
-  REQUIRE(sign_just_after(with({0.0, -2.0, 5.0}), instant) == -1);
-  REQUIRE(sign_just_after(with({0.0, 0.0, 3.0}), instant) == 1);
-  REQUIRE(sign_just_after(with({0.0, 0.0, 0.0, -3.0}), instant) == -1);
+TEST_CASE("the sign just after now is that of the first coefficient that is more than rounding") {
+  REQUIRE(sign_just_after(known({{-1e-3, 1e-16}, {1.0, 1e-16}}), 0.0) == -1);
+  REQUIRE(sign_just_after(known({{0.0, 0.0}, {-2.0, 0.0}, {5.0, 0.0}}), 0.0) == -1);
+  REQUIRE(sign_just_after(known({{1e-17, 1e-16}, {-1.0, 1e-16}}), 0.0) == -1);
+  REQUIRE(sign_just_after(known({{-1e-17, 1e-16}, {1.0, 1e-16}}), 0.0) == 1);
+  REQUIRE(sign_just_after(known({{1e-10, 1e-16}, {-1.0, 1e-16}}), 0.0) == 1);
+  // whatever the time scale: a torque of a day, of a millisecond
+  REQUIRE(sign_just_after(known({{1e-12, 1e-16}, {-7e-5, 1e-20}}), 0.0) == 1);
+  REQUIRE(sign_just_after(known({{1e-12, 1e-16}, {-6e3, 1e-12}}), 0.0) == 1);
 }
 
-TEST_CASE("rounding left over from an event does not decide the sign just after it") {
-  const double instant = 1e-11;
-  // a value of 1e-17 that falls at 1 per second is gone after 1e-17 s, long before anything mechanical happens
-  REQUIRE(sign_just_after(with({1e-17, -1.0}), instant) == -1);
-  REQUIRE(sign_just_after(with({-1e-17, 1.0}), instant) == 1);
-  REQUIRE(sign_just_after(with({1e-10, -1.0}), instant) == 1);
-  // a touch: value and rate are rounding, the curvature decides
-  REQUIRE(sign_just_after(with({-1e-24, 1e-16, -4.0}), instant) == -1);
+TEST_CASE("a surface that is touched and not crossed has the sign of its curvature") {
+  // a dip of rate^2/(4 curvature) = 2.5e-17 below zero, less than the rounding of the value
+  REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-8, 1e-16}, {1.0, 1e-16}}), 0.0) == 1);
+  REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-7, 1e-16}, {1.0, 1e-16}}), 0.0) == -1);
 }
 
-TEST_CASE("a series that is zero to its last term has no sign, one with nothing but its last term has that one's") {
-  REQUIRE(sign_just_after(Flow(0.0), 1e-11) == 0);
-  Flow last;
-  last[order] = -1e-30;
-  REQUIRE(sign_just_after(last, 1e-11) == -1);
+TEST_CASE("what a value changes within the resolution of time does not count as its sign") {
+  REQUIRE(sign_just_after(known({{1e-12, 0.0}, {-1.0, 0.0}}), 1e-11) == -1);
+  REQUIRE(sign_just_after(known({{1e-10, 0.0}, {-1.0, 0.0}}), 1e-11) == 1);
+}
+
+TEST_CASE("a series that is rounding to its last term has no sign, one with nothing but its last term has that one's") {
+  REQUIRE(sign_just_after(known({{1e-17, 1e-16}, {-1e-17, 1e-16}}), 0.0) == 0);
+  Series<Rounded, 3> last;
+  last[3] = {-1e-30, 1e-40};
+  REQUIRE(sign_just_after(last, 0.0) == -1);
+}
+
+TEST_CASE("the rounding that a number is said to carry holds the error that it has") {
+  // a difference of nearly equal cosines, at large times: known from the sum-to-product identity
+  for (const double t : {0.3, 1e2, 1e5}) {
+    const double w = 3.0, dw = 1e-9 * w;
+    const Rounded found = cos(Rounded(w) * Rounded(t)) - cos(Rounded(w + dw) * Rounded(t));
+    const double exact = 2.0 * std::sin((w + 0.5 * dw) * t) * std::sin(0.5 * ((w + dw) - w) * t);
+    REQUIRE(std::abs(found.value - exact) <= found.rounding);
+    REQUIRE(found.rounding <= 1e-15 * (1.0 + w * t));
+  }
 }
 
 }  // namespace wormdrive::test::core_series

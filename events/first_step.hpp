@@ -1,0 +1,110 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "events/polynomial_root.hpp"
+#include "events/segment_start.hpp"
+#include "events/series_step.hpp"
+#include "events/solver_settings.hpp"
+#include "events/taylor_accuracy.hpp"
+#include "events/taylor_expansion.hpp"
+#include "events/timetable.hpp"
+
+namespace wormdrive {
+
+/// The first step of a segment that begins with a shaft at speed zero, by power series. The acceleration there may be
+/// rounding: an integrator that starts with it may leave in either direction, and never comes to see its own stop. The
+/// series knows which derivative is the first that counts, and its guards are polynomials.
+template <class System>
+class FirstStep {
+ public:
+  using Instant = typename System::Instant;
+
+  /// From now on, no further than limit [s] and max_step.
+  FirstStep(const System& system, const Instant& now, double limit, double max_step, const SolverSettings& settings)
+      : system_(system), begin_(now), accuracy_(settings) {
+    const auto at = system.template ahead<order + 1, Rounded>(now);
+    const auto flow = System::state_at(at);
+    const auto guards = system.guards(at, now.mode);
+    double h = std::min(limit - now.t, max_step);
+    for (int shaft = 0; shaft < shafts; ++shaft) {
+      Motion& e = motion_[shaft];
+      e.order = order;
+      take(flow[2 * shaft], e.theta);
+      take(flow[2 * shaft + 1], e.omega);
+      for (int g = 0; g < System::guard_count; ++g) take(guards[g], e.guards[g]);
+      h = accuracy_.step(e, h);
+    }
+    h = longest(h, [&](double s) { return holds(s); });
+    end_ = h < limit - now.t ? now.t + h : limit;
+    if (end_ == now.t) end_ = std::nextafter(now.t, limit);
+    find_events(guards);
+  }
+
+  double end() const { return end_; }          ///< [s]
+  int fired() const { return fired_; }         ///< the guard that falls through zero at the end, or no_guard
+  long evaluations() const { return looks_; }  ///< of the derivative
+  /// The motion at a time of the step.
+  Instant at(double t) const {
+    Instant then = begin_;
+    then.t = t;
+    for (int shaft = 0; shaft < shafts; ++shaft) {
+      then.x[2 * shaft] = value(motion_[shaft].angle(), t - begin_.t);
+      then.x[2 * shaft + 1] = value(motion_[shaft].speed(), t - begin_.t);
+    }
+    return then;
+  }
+
+ private:
+  static constexpr int order = 8, shafts = System::state_size / 2;
+  using Motion = Expansion<System::guard_count>;
+
+  /// Coefficients that are more than rounding; a value is what it is.
+  static void take(const Series<Rounded, order + 1>& from, Coefficients& to) {
+    for (int k = 0; k <= order + 1; ++k) to[k] = k > 0 && from[k].vanishes() ? 0.0 : from[k].value;
+  }
+
+  /// Whether the equations at s are those that the series was made from: a table changes its law on the way.
+  bool holds(double s) {
+    ++looks_;
+    const Instant there = at(begin_.t + s);
+    const auto rates = system_.derivative(there.t, there.x, there.mode);
+    for (int shaft = 0; shaft < shafts; ++shaft) {
+      const Coefficients& c = motion_[shaft].omega;
+      double rate = 0.0, size = 0.0, power = 1.0;
+      for (int k = 1; k <= order; ++k, power *= s) {
+        rate += k * c[k] * power;
+        size += std::abs(k * c[k] * power);
+      }
+      const double found = rates[2 * shaft + 1], rounding = 64.0 * std::numeric_limits<double>::epsilon();
+      const double allowed = order * accuracy_.allowed(there.x[2 * shaft + 1]) + accuracy_.relative() * size;
+      if (!(std::abs(found - rate) <= allowed + rounding * (size + std::abs(found)))) return false;
+    }
+    return true;
+  }
+
+  /// Ends the step at the first guard that falls through zero.
+  template <class Guards>
+  void find_events(const Guards& rounded) {
+    for (int g = 0; g < System::guard_count; ++g) {
+      const auto roots = static_cast<std::size_t>(undecided(rounded[g], time_resolution(begin_.t)));
+      const RootSearch::Fall fall = search_.fall_from_start(motion_[0].guard(g), end_ - begin_.t, roots);
+      if (!fall.at || (fired_ != no_guard && begin_.t + *fall.at >= end_)) continue;
+      end_ = std::min(begin_.t + *fall.at, end_);
+      fired_ = g;
+    }
+  }
+
+  const System& system_;
+  Instant begin_;
+  TaylorAccuracy accuracy_;
+  std::array<Motion, shafts> motion_{};
+  double end_ = 0.0;
+  int fired_ = no_guard;
+  long looks_ = 0;
+  RootSearch search_;
+};
+
+}  // namespace wormdrive
