@@ -1,0 +1,56 @@
+#include "near_ties/verdict.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "judge/shadow.hpp"
+
+namespace wormdrive::test::near_ties {
+
+namespace {
+
+bool same_modes(const ProgramRun& a, const ProgramRun& b) {
+  return a.start == b.start &&
+         std::equal(a.changes.begin(), a.changes.end(), b.changes.begin(), b.changes.end(),
+                    [](const Change& x, const Change& y) { return x.before == y.before && x.after == y.after; });
+}
+
+judge::Mode rigid(const Modes& modes) { return {modes[0], modes[1]}; }
+
+std::string contradiction(const Case& tie, const ProgramRun& run) {
+  std::vector<judge::Event> events;
+  for (const Change& change : run.changes) events.push_back({change.t, rigid(change.before), rigid(change.after)});
+  return judge::Shadow(tie.drive, {}).contradiction(rigid(run.start), events);
+}
+
+}  // namespace
+
+Judgement judgement(const Case& tie, bool judged) {
+  std::vector<By> solvers{By::bdf, By::adams};
+  if (!tie.elastic) solvers.push_back(By::taylor);
+  std::vector<ProgramRun> runs;
+  for (const By by : solvers) {
+    runs.push_back(run(tie, by));
+    if (!runs.back().broken.empty()) return {Verdict::silent, fmt::format("{}: {}", name(by), runs.back().broken)};
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (!runs[k].halt.empty()) return {Verdict::halt, fmt::format("{}: {}", name(solvers[k]), runs[k].halt)};
+
+  const bool same = std::all_of(runs.begin(), runs.end(), [&](const ProgramRun& r) { return same_modes(r, runs[0]); });
+  if (tie.elastic) return same ? Judgement{Verdict::agree} : Judgement{Verdict::silent, "elastic: lists differ"};
+  if (same && !judged) return {Verdict::not_judged};
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    try {
+      const std::string found = contradiction(tie, runs[k]);
+      if (!found.empty()) return {Verdict::silent, fmt::format("{}: {}", name(solvers[k]), found)};
+    } catch (const judge::GivesUp&) {
+      if (same) return {Verdict::not_judged};
+      return {Verdict::silent, "lists differ, and the judge gives up"};
+    }
+  }
+  return {same ? Verdict::agree : Verdict::rounding};
+}
+
+}  // namespace wormdrive::test::near_ties
