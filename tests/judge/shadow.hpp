@@ -13,7 +13,7 @@ namespace judge {
 struct Exactness {
   double relative = 1e-9;   ///< error of the speed, as a share of the highest, and of the angle, as one of the way
   double absolute = 1e-11;  ///< [rad/s]
-  double time = 1e-13;      ///< of an event, as a share of its time
+  double time = 5e-13;      ///< of an event, as a share of its time
 };
 
 /// Follows the events that a program reports, in exact arithmetic and in the modes that the program was in, and says

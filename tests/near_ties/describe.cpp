@@ -63,8 +63,12 @@ std::string describe(const Case& tie) {
 
 std::string describe(const ProgramRun& run) {
   std::string text = fmt::format("  ({},{},{})", run.start[0], run.start[1], run.start[2]);
-  for (const Change& change : run.changes)
+  constexpr std::size_t most = 24;
+  for (std::size_t k = 0; k < run.changes.size() && k < most; ++k) {
+    const Change& change = run.changes[k];
     text += fmt::format(" {:.15g}: ({},{},{})", change.t, change.after[0], change.after[1], change.after[2]);
+  }
+  if (run.changes.size() > most) text += fmt::format(" ... {} in all", run.changes.size());
   return text + fmt::format(" ends at {:.12g} rad, {:.6g} rad/s\n", run.theta, run.omega);
 }
 

@@ -25,6 +25,15 @@ struct Maker {
   double phase() { return dice.chance(0.5) ? 0.5 * std::numbers::pi * dice.below(4) : dice.between(-3, 3); }
   int direction() { return dice.chance(0.5) ? 1 : -1; }
   double load() { return scale.load * dice.sign() * (dice.chance(0.3) ? 1.0 : dice.between(0.2, 1.0)); }
+  /// A motor torque that matters [N m]: where C1 = 0 one of the break-in torques is nothing but rounding.
+  double torque(double at_load) const {
+    return std::max(std::abs(break_in(made.drive, 1, at_load)), std::abs(break_in(made.drive, -1, at_load)));
+  }
+  /// A break-in torque, or where it is rounding one that matters.
+  double matters(double to, double at_load) {
+    const double size = torque(at_load);
+    return std::abs(to) > 1e-6 * size ? to : size * dice.sign();
+  }
   bool follows_angle() const {
     const judge::Drive& d = made.drive;
     return !d.teeth || d.Jw * d.i > 0.01 * scale.load * scale.time * scale.time / d.i;
@@ -53,9 +62,11 @@ double some_factor(Dice& dice) {
 }
 
 void torque_touches_break_in(Maker& m) {
-  const double load = m.hold(m.load()), to = break_in(m.drive(), m.direction(), load) * m.beyond;
-  const double level = m.dice.chance(0.5) ? 0.0 : to * m.dice.between(-1, 0.9), amplitude = to - level;
-  m.drive().motor = {constant(level), sinusoid(amplitude, m.frequency(), m.phase())};
+  const int direction = m.direction();
+  const double load = m.hold(m.load()), to = break_in(m.drive(), direction, load), size = m.torque(load);
+  const bool alone = m.dice.chance(0.4) && std::abs(to) > 1e-6 * size;
+  const double level = alone ? 0.0 : to - direction * size * m.dice.between(0.01, 1.5);
+  m.drive().motor = {constant(level), sinusoid((to - level) * m.beyond, m.frequency(), m.phase())};
 }
 
 void load_touches_break_in(Maker& m) {
@@ -66,34 +77,35 @@ void load_touches_break_in(Maker& m) {
 
 void motor_steps_to_break_in(Maker& m) {
   const double load = m.hold(m.load()), to = break_in(m.drive(), m.direction(), load), T = m.scale.time;
-  const double from = to * m.dice.between(-0.5, 0.9), then = to * m.dice.between(-0.5, 2.0);
-  m.drive().motor = {constant(from), step(to * m.beyond - from, T * m.dice.between(0.1, 1)),
+  const double size = m.torque(load), from = size * m.dice.between(-0.5, 0.9), then = size * m.dice.between(-2.0, 2.0);
+  m.drive().motor = {constant(from), step((to - from) * m.beyond, T * m.dice.between(0.1, 1)),
                      step(then - to, T * m.dice.between(1.5, 3))};
 }
 
 void ramp_ends_at_break_in(Maker& m) {
   const double load = m.hold(m.load()), to = break_in(m.drive(), m.direction(), load) * m.beyond, T = m.scale.time;
   const double begin = m.dice.chance(0.5) ? 0.0 : 0.25 * T, end = begin + T * (m.dice.chance(0.5) ? 1.0 : 0.37);
-  const double further = m.dice.between(-1, 1) * to;
+  const double further = m.dice.between(-1, 1) * m.torque(load);
   m.drive().motor = {ramp(to / (end - begin), begin, end), step(further, T * m.dice.between(1.5, 3))};
 }
 
 void starts_on_the_boundary(Maker& m) {
-  const double load = m.hold(m.load()), on = break_in(m.drive(), m.direction(), load) * m.beyond, T = m.scale.time;
-  m.drive().motor = {constant(on)};
+  const double load = m.hold(m.load()), T = m.scale.time, size = m.torque(load);
+  m.drive().motor = {constant(break_in(m.drive(), m.direction(), load) * m.beyond)};
   switch (m.dice.below(3)) {
-    case 0: m.drive().motor.push_back(ramp(on / T * m.dice.sign() * m.dice.decades(1e-12, 1), 0.0, 2.0 * T)); break;
+    case 0: m.drive().motor.push_back(ramp(size / T * m.dice.sign() * m.dice.decades(1e-12, 1), 0.0, 2.0 * T)); break;
     case 1:
       m.drive().motor.push_back(
-          sinusoid(on * m.dice.sign() * m.dice.decades(1e-12, 1), m.frequency(), -std::numbers::pi / 2));
+          sinusoid(size * m.dice.sign() * m.dice.decades(1e-12, 1), m.frequency(), -std::numbers::pi / 2));
       break;
     case 2: break;
   }
-  if (m.dice.chance(0.3)) m.drive().motor.push_back(step(on * m.dice.between(-0.5, 0.5), T));
+  if (m.dice.chance(0.3)) m.drive().motor.push_back(step(size * m.dice.between(-0.5, 0.5), T));
 }
 
 void surface_is_touched(Maker& m) {
   judge::Drive& d = m.drive();
+  if (!d.teeth) return torque_touches_break_in(m);
   const int direction = m.direction();
   d.worm_viscous.reset();
   d.gear_viscous.reset();
@@ -114,7 +126,7 @@ void zero_together(Maker& m) {
 void pulses_on_slow_inputs(Maker& m) {
   const double T = m.scale.time, load = m.load(), small = m.dice.decades(1e-9, 0.3);
   m.drive().load = {constant(load), sinusoid(small * load, m.frequency() * m.dice.decades(1e-3, 1.0), m.phase())};
-  const double level = break_in(m.drive(), m.direction(), load);
+  const double level = m.matters(break_in(m.drive(), m.direction(), load), load);
   m.drive().motor = {constant(level * m.dice.between(-0.5, 0.99))};
   double t = T * m.dice.between(0.05, 0.3);
   for (int k = m.dice.below(3); k >= 0; --k) {
@@ -127,7 +139,7 @@ void pulses_on_slow_inputs(Maker& m) {
 
 void random_inputs(Maker& m) {
   judge::Drive& d = m.drive();
-  const double T = m.scale.time, load = m.hold(m.load()), level = break_in(d, m.direction(), load);
+  const double T = m.scale.time, load = m.hold(m.load()), level = m.matters(break_in(d, m.direction(), load), load);
   d.motor = {constant(level * m.dice.between(-0.5, 1.2)),
              sinusoid(level * m.dice.between(0.1, 3), m.frequency(), m.phase())};
   if (m.dice.chance(0.4)) d.motor.push_back(step(level * m.dice.between(-2, 2), T * m.dice.between(0.1, 2)));

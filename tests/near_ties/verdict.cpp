@@ -19,10 +19,12 @@ bool same_modes(const ProgramRun& a, const ProgramRun& b) {
 
 judge::Mode rigid(const Modes& modes) { return {modes[0], modes[1]}; }
 
-std::string contradiction(const Case& tie, const ProgramRun& run) {
+std::string contradiction(const Case& tie, By by, const ProgramRun& run) {
   std::vector<judge::Event> events;
   for (const Change& change : run.changes) events.push_back({change.t, rigid(change.before), rigid(change.after)});
-  return judge::Shadow(tie.drive, {}).contradiction(rigid(run.start), events);
+  const double slower = std::max(1.0, tie.drive.end), per_second = by == By::taylor ? 10.0 * tolerance * slower : 0.0;
+  const judge::Exactness exactness{.relative = 1e-9 + per_second, .absolute = 1e-11 / slower};
+  return judge::Shadow(tie.drive, exactness).contradiction(rigid(run.start), events);
 }
 
 }  // namespace
@@ -43,7 +45,7 @@ Judgement judgement(const Case& tie, bool judged) {
   if (same && !judged) return {Verdict::not_judged};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     try {
-      const std::string found = contradiction(tie, runs[k]);
+      const std::string found = contradiction(tie, solvers[k], runs[k]);
       if (!found.empty()) return {Verdict::silent, fmt::format("{}: {}", name(solvers[k]), found)};
     } catch (const judge::GivesUp&) {
       if (same) return {Verdict::not_judged};

@@ -1,0 +1,68 @@
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "catch.hpp"
+#include "judge/judge.hpp"
+#include "judge/shadow.hpp"
+#include "near_ties/generator.hpp"
+#include "near_ties/verdict.hpp"
+
+// Drives in which something just touches something else, or misses it by a rounding: every solver finds the same
+// events, and arithmetic in 128 bits contradicts none of them. `near_ties_campaign` runs them by the hundred thousand.
+
+namespace wormdrive::test::property_near_ties {
+
+using namespace near_ties;
+
+TEST_CASE("near ties: 300 random drives at the edge of an event end as they must, by every solver") {
+  std::map<Verdict, int> verdicts;
+  std::string faults;
+  for (std::uint64_t index = 0; index < 300; ++index) {
+    const Case tie = make_case(1, index);
+    const Judgement found = judgement(tie, index % 3 == 0);
+    ++verdicts[found.verdict];
+    if (found.verdict != Verdict::silent && found.verdict != Verdict::halt) continue;
+    faults += "case " + std::to_string(index) + ", " + tie.tie + ": " + found.reason + "\n";
+  }
+  INFO(faults);
+  CHECK(verdicts[Verdict::silent] == 0);
+  CHECK(verdicts[Verdict::halt] == 0);
+  CHECK(verdicts[Verdict::rounding] <= 30);
+}
+
+TEST_CASE(
+    "the judge of near ties finds the events of fig. 9 where the closed reference has them, and follows its own") {
+  judge::Drive drive;
+  drive.lambda = 4 * (std::numbers::pi / 180);
+  drive.phi_n = 20 * (std::numbers::pi / 180);
+  drive.lw = 0.011;
+  drive.lg = 0.045;
+  drive.mu = 0.25;
+  drive.Jw = 2.53e-5;
+  drive.Jg = 7.39e-4;
+  drive.arm = judge::GravityArm{0.0196, 0.0, 0.0};
+  drive.motor = {judge::sinusoid(0.05, 1.5, 90 * (std::numbers::pi / 180))};
+  drive.end = 2.0;
+  judge::Judge<judge::Quad> judge(drive);
+  REQUIRE(judge.run().size() == 12);
+  REQUIRE(judge.events[0].t == 0.0034812139114724669);
+  REQUIRE(judge.events[11].t == 1.9383624501092305);
+  REQUIRE(static_cast<double>(judge.course().theta) == -5.4068889175374455);
+
+  std::vector<judge::Event> events(judge.events.begin(), judge.events.end());
+  REQUIRE(judge::Shadow(drive, {}).contradiction(judge.start, events).empty());
+  const auto complaint = [&](const std::vector<judge::Event>& wrong) {
+    return judge::Shadow(drive, {}).contradiction(judge.start, wrong);
+  };
+  for (std::size_t k = 0; k < events.size(); ++k) {  // one is missed, with the other that it belongs to
+    auto missed = events;
+    missed.resize(k);
+    REQUIRE_FALSE(complaint(missed).empty());
+    auto late = events;
+    late[k].t += 1e-6;
+    REQUIRE_FALSE(complaint(late).empty());
+  }
+}
+
+}  // namespace wormdrive::test::property_near_ties
