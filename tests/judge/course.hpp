@@ -23,8 +23,13 @@ class Course {
   double entered = 0.0;                 ///< from when on the present inputs hold [s]
   Real t = 0, theta, omega, since = 0;  ///< since: when the gear came to rest [s]
 
-  explicit Course(const Drive& drive)
-      : theta(drive.theta), omega(drive.omega), drive_(drive), equations_(drive), exact_(drive) {
+  explicit Course(const Drive& drive, long most_steps = 6000)
+      : theta(drive.theta),
+        omega(drive.omega),
+        drive_(drive),
+        equations_(drive),
+        exact_(drive),
+        most_steps_(most_steps) {
     for (int sigma : {1, -1})
       for (int flank : {1, -1}) {
         auto& moving = moving_[sigma > 0][flank > 0];
@@ -185,15 +190,14 @@ class Course {
     while (rest(step)) step *= Real(0.7);
   }
   void count() {
-    if (++steps_ > most_steps) throw GivesUp("too many steps");
+    if (++steps_ > most_steps_) throw GivesUp("too many steps");
   }
 
-  static constexpr long most_steps = 6000;
   Drive drive_;
   Equations<Real> equations_;
   Equations<Quad> exact_;
   Expression moving_[2][2], resting_[2][2];
-  long steps_ = 0;
+  long steps_ = 0, most_steps_;
 };
 
 }  // namespace judge

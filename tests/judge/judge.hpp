@@ -15,7 +15,9 @@ class Judge {
     Real exact;
   };
 
-  explicit Judge(const Drive& drive) : course_(drive), end_(drive.end) {}
+  /// It gives up after so many steps or 400 events, unless more are allowed.
+  explicit Judge(const Drive& drive, long most_steps = 6000, std::size_t most_events = 400)
+      : course_(drive, most_steps), end_(drive.end), most_events_(most_events) {}
 
   /// Runs to the end. Throws GivesUp after too many steps or events.
   const std::vector<Found>& run() {
@@ -133,11 +135,12 @@ class Judge {
   }
   void note(Mode before) {
     events.push_back({{static_cast<double>(course_.t), before, mode}, course_.t});
-    if (events.size() > 400) throw GivesUp("too many events");
+    if (events.size() > most_events_) throw GivesUp("too many events");
   }
 
   Course<Real> course_;
   double end_;
+  std::size_t most_events_;
 };
 
 }  // namespace judge
