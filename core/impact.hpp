@@ -1,8 +1,11 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include <boost/math/special_functions/log1p.hpp>
 
 #include "core/contact_law.hpp"
+#include "core/crossing.hpp"
 #include "core/mesh.hpp"
 
 namespace wormdrive {
@@ -19,18 +22,35 @@ inline double contact_frequency(const ToothContact<double>& contact, double mass
   return std::sqrt(contact.stiffness() / mass);
 }
 
+/// Of damping that grows with the penetration: c v - ln(1 + c v) is the same before and after [Hunt and Crossley 1975],
+/// whatever stiffness and mass are.
+inline double restitution(const HuntCrossley<double>& law, double, double speed) {
+  const double x = law.damping * speed;
+  if (x < 1e-8) return 1.0 - 2.0 / 3.0 * x;  // to rounding
+  const double before = boost::math::log1pmx(x);
+  const auto more_than_before = [before](double y) { return before - boost::math::log1pmx(-y); };
+  // Teeth part more slowly than they met, and more slowly than 1/c: at that speed the law would no longer push.
+  const double most = std::min(x, std::nextafter(1.0, 0.0)), excess = more_than_before(most);
+  return (excess > 0.0 ? root_between(more_than_before, 0.0, before, most, excess) : most) / x;
+}
+
+/// Of a damper that is limited while the teeth approach. In units of time and speed in which mass, stiffness and
+/// approach are 1, x'' = -2 x up to x = 2 zeta x', and from there on x'' = -x - 2 zeta x' until that is zero, at t:
+/// the speed falls by e^(-zeta t), be the damping less or more than critical.
+inline double restitution(const LimitedDamper<double>& law, double mass, double) {
+  const double zeta = 0.5 * law.damping / (std::sqrt(law.stiffness) * std::sqrt(mass));
+  if (zeta <= 1.0) {
+    const double delta = std::sqrt((1.0 - zeta) * (1.0 + zeta));
+    const double t = delta > 0.0 ? std::atan2(4.0 * zeta * delta, 4.0 * zeta * zeta - 1.0) / delta : 4.0 / 3.0;
+    return std::exp(-zeta * t);
+  }
+  const double share = std::sqrt((1.0 - 1.0 / zeta) * (1.0 + 1.0 / zeta));  // of zeta: what the fast motion has more
+  return std::exp(-std::asinh(4.0 * zeta * share / std::hypot(1.0 / zeta, std::sqrt(8.0))) / share);
+}
+
 /// Speed at which the teeth part over the speed [m/s] at which they met, with no other force on the mass [kg].
 inline double restitution(const ToothContact<double>& contact, double mass, double speed) {
-  const double h = 1e-3 / contact_frequency(contact, mass);
-  double d = 0.0, v = speed;
-  const auto a = [&](double x, double rate) { return -contact.force(x, rate) / mass; };
-  for (;;) {  // Runge-Kutta of order 4
-    const double a1 = a(d, v), v2 = v + h / 2 * a1, a2 = a(d + h / 2 * v, v2), v3 = v + h / 2 * a2,
-                 a3 = a(d + h / 2 * v2, v3), v4 = v + h * a3, a4 = a(d + h * v3, v4);
-    d += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
-    v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    if (v < 0.0 && contact.force(d, v) <= 0.0) return -v / speed;
-  }
+  return std::visit([&](const auto& law) { return restitution(law, mass, speed); }, contact.law);
 }
 
 }  // namespace wormdrive
