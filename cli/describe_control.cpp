@@ -17,6 +17,7 @@ std::string describe(const Condition& c) {
       fmt::format("{:<34} {:>10.4g} {} {:<10.4g} {:<11} {} {:.4g}", c.rule, c.actual, c.at_most ? "<=" : ">=", c.limit,
                   c.unit, c.holds() ? "holds, margin" : "FAILS by", std::abs(c.margin()));
   if (c.holds()) return text;
+  if (!c.of_key) return fmt::format("{}; a larger {} would cover it", text, c.key);
   if (c.at_most) return fmt::format("{}; {} = {:.6g} would cover it", text, c.key, c.actual);
   return fmt::format("{}; {} = {:.6g} would satisfy it", text, c.key, c.limit);
 }

@@ -17,6 +17,7 @@ namespace wormdrive {
 struct Variations {
   double C1{0.0}, C2{0.0}, load{0.0}, inertia{0.0};
   std::optional<double> friction;
+  std::optional<std::array<double, 2>> by_friction{};  ///< never stated: |C1 - C1_hat|, |C2 - C2_hat| that it comes to
 
   static constexpr auto fields() {
     using P = Variations;
@@ -32,13 +33,15 @@ struct Variations {
   }
 };
 
-/// The variations with those of C1 and C2 in place of that of the friction.
+/// The variations with those of C1 and C2 in place of that of the friction; not as shares, for C1 may be 0.
 inline Variations in_terms_of_C(Variations variations, const GearMesh<double>& mesh) {
   if (!variations.friction) return variations;
+  std::array<double, 2>& by = variations.by_friction.emplace();
   for (const double share : {-*variations.friction, *variations.friction}) {
     const double mu = mesh.mu * (1.0 + share);
-    variations.C1 = std::max(variations.C1, std::abs(mesh.C(mu) / mesh.C1() - 1.0));
-    variations.C2 = std::max(variations.C2, std::abs(mesh.C(-mu) / mesh.C2() - 1.0));
+    by[0] = std::max(by[0], std::abs(mesh.C(mu) - mesh.C1()));
+    by[1] =
+        std::max(by[1], mu < mesh.mu_g() ? std::abs(mesh.C(-mu) - mesh.C2()) : std::numeric_limits<double>::infinity());
   }
   variations.friction.reset();
   return variations;
@@ -49,7 +52,7 @@ struct BranchBounds {
   double b_hat;  ///< 1/(Jw i + C Jg), nominal [1/(kg m^2)]
   double d_hat;  ///< nominal, 1/Jg for any C [1/(kg m^2)]
   double beta;   ///< least gain margin over the variations
-  double D;      ///< largest |d - d_hat| [1/(kg m^2)]
+  double D;      ///< largest |d - d_hat|, d as the law that runs has it [1/(kg m^2)]
   double E;      ///< largest |e - e_hat|, e_hat = 0 [rad/s^2]
 };
 
@@ -60,12 +63,16 @@ struct Lemma1 {
   double largest_load;                 ///< largest |tau_l_hat| [N m]
 };
 
-/// Bounds over all corners of the variations: every quantity is monotone in each of them.
+/// Bounds over all corners of the variations, between which every quantity is monotone; infinite where a corner leaves
+/// a branch without inertia.
 ///
-/// The law knows the nominal surface only. If the inertia varies, the true one lies at
-/// u = (Jw i/Jg) tau_l_tilde + (Jw i/Jg - Jw i/Jg_hat) tau_l_hat, and d is (C + Jw i/Jg_hat)/(Jw i + C Jg) where the
-/// paper's, with the true surface, is 1/Jg: D covers both. Without a variation of the inertia M is the paper's, D is 0.
+/// They are those of the law that runs. It knows the nominal surface only, u = tau_m - (Jw i/Jg_hat) tau_l_hat, so that
+/// the drive is theta'' = b u + d tau_l_hat + e with d = (C + Jw i/Jg_hat)/(Jw i + C Jg), and
+/// d - d_hat = (C/Jg_hat) (Jg_hat - Jg)/(Jw i + C Jg). The paper's d, 1/Jg, belongs to a u with the true Jg, which no
+/// controller has. The true surface lies at u = (Jw i/Jg) tau_l_tilde + (Jw i/Jg - Jw i/Jg_hat) tau_l_hat: M covers
+/// both.
 inline Lemma1 lemma1(const NominalModel& nominal, const Variations& variations) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   Lemma1 result{};
   result.largest_load = std::abs(nominal.load_torque) + std::abs(nominal.load_constant);
   const double load_error = variations.load * result.largest_load;
@@ -77,15 +84,14 @@ inline Lemma1 lemma1(const NominalModel& nominal, const Variations& variations) 
     branch.beta = 1.0;
     for (const double c : {-1.0, 1.0})
       for (const double j : {-1.0, 1.0}) {
-        const double Ck = C[k] * (1.0 + c * share[k]), Jg = nominal.Jg * (1.0 + j * variations.inertia);
-        const double inertia = nominal.Jw_i + Ck * Jg;
-        const double ratio = branch.b_hat * inertia;
-        branch.beta =
-            std::max({branch.beta, ratio, ratio > 0.0 ? 1.0 / ratio : std::numeric_limits<double>::infinity()});
-        const double d = variations.inertia > 0.0 ? (Ck + nominal.surface()) / inertia : branch.d_hat;
-        branch.D = std::max({branch.D, std::abs(1.0 / Jg - branch.d_hat), std::abs(d - branch.d_hat)});
-        branch.E = std::max(branch.E, std::abs(Ck * load_error / inertia));
-        const double surface = nominal.Jw_i / Jg;
+        const double Ck =
+            variations.by_friction ? C[k] + c * (*variations.by_friction)[k] : C[k] * (1.0 + c * share[k]);
+        const double Jg = nominal.Jg * (1.0 + j * variations.inertia), inertia = nominal.Jw_i + Ck * Jg;
+        const double ratio = branch.b_hat * inertia, surface = nominal.Jw_i / Jg;
+        const bool moves = inertia > 0.0;
+        branch.beta = std::max({branch.beta, ratio, moves ? 1.0 / ratio : infinity});
+        branch.D = std::max(branch.D, moves ? std::abs(Ck * (nominal.Jg - Jg)) * branch.d_hat / inertia : infinity);
+        branch.E = std::max(branch.E, moves ? std::abs(Ck * load_error / inertia) : infinity);
         result.M =
             std::max(result.M, surface * load_error + std::abs(surface - nominal.surface()) * result.largest_load);
       }

@@ -14,8 +14,9 @@ struct Condition {
   std::string rule;
   double actual, limit;
   std::string unit;
-  std::string key;  ///< what to change if it does not hold: the limit satisfies it
+  std::string key;  ///< what to change if it does not hold: the limit satisfies it, at most the actual value
   bool at_most = false;
+  bool of_key = true;  ///< the values are those of the key
 
   double margin() const { return at_most ? limit - actual : actual - limit; }
   bool holds() const { return margin() >= 0.0; }
@@ -47,16 +48,34 @@ inline std::vector<Condition> conditions(const SlidingParameters& p, const Lemma
   return list;
 }
 
+/// Whether C1 or C2 of a drive lies within its variation: as a share of its estimate, or, where it was stated by the
+/// friction or the estimate is 0, as it is.
+inline Condition condition_on_C(std::size_t k, double actual, double estimate, const Variations& v) {
+  const std::string n = "C" + std::to_string(k + 1);
+  if (!v.by_friction && estimate != 0.0)
+    return {"|" + n + "/" + n + "_hat - 1|",
+            std::abs(actual / estimate - 1.0),
+            k == 0 ? v.C1 : v.C2,
+            "",
+            "controller.variation." + n,
+            true};
+  return {"|" + n + " - " + n + "_hat|",
+          std::abs(actual - estimate),
+          v.by_friction ? (*v.by_friction)[k] : 0.0,
+          "",
+          "controller.variation.friction",
+          true,
+          false};
+}
+
 /// Whether a drive lies within the stated variations of a nominal model. load_error: largest |tau_l - tau_l_hat| [N m].
 inline std::vector<Condition> conditions_on_drive(const NominalModel& nominal, const Variations& v,
                                                   const NominalModel& drive, double load_error) {
-  const auto share = [](double actual, double estimate) {
-    return actual == estimate ? 0.0 : std::abs(actual / estimate - 1.0);
-  };
   const double largest = std::abs(nominal.load_torque) + std::abs(nominal.load_constant);
-  return {{"|C1/C1_hat - 1|", share(drive.C1, nominal.C1), v.C1, "", "controller.variation.C1", true},
-          {"|C2/C2_hat - 1|", share(drive.C2, nominal.C2), v.C2, "", "controller.variation.C2", true},
-          {"|Jg/Jg_hat - 1|", share(drive.Jg, nominal.Jg), v.inertia, "", "controller.variation.gear_inertia", true},
+  return {condition_on_C(0, drive.C1, nominal.C1, v),
+          condition_on_C(1, drive.C2, nominal.C2, v),
+          {"|Jg/Jg_hat - 1|", std::abs(drive.Jg / nominal.Jg - 1.0), v.inertia, "", "controller.variation.gear_inertia",
+           true},
           {"|tau_l - tau_l_hat| / |tau_l_hat|", load_error > 0.0 ? load_error / largest : 0.0, v.load, "",
            "controller.variation.load", true}};
 }

@@ -130,6 +130,17 @@ std::vector<ControllerRefusal> controller_refusals(const Scenario& scenario) {
       list.push_back({"nominal", fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be "
                                              "greater than 0",
                                              name, nominal.inertia(C))});
+  const auto* const sliding = std::get_if<SlidingParameters>(&scenario.control->law);
+  if (sliding && list.empty()) {
+    const SlidingBounds bounds(*sliding, make_lemma1(scenario));
+    for (const std::size_t k : {0, 1})
+      if (std::isinf(bounds.D[k]) || std::isinf(bounds.E[k]))
+        list.push_back({"variation",
+                        fmt::format("controller.variation leaves the branch C{0} without inertia, Jw i + C{0} Jg <= 0, "
+                                    "and no gain withstands that; vary less, or state D{0}_per_kgm2 and "
+                                    "E{0}_rad_per_s2",
+                                    k + 1)});
+  }
   const auto* const pid = std::get_if<PidParameters>(&scenario.control->law);
   if (pid && pid->integral_weight > 0.0 && list.empty() &&
       !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
