@@ -30,12 +30,14 @@ fmi2Status fmi2EnterEventMode(fmi2Component c) {
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo* info) {
   return guarded(c, [&](FmuInstance& instance) {
     instance.with_run([&](auto& run) {
-      const bool changed = run.pass_events();
+      run.pass_events();
       const double next = run.next_event_time();
+      // Rates bend or jump at every event. The standard has no word for that, and an importer that keeps its solver's
+      // history across one goes wrong without a sign of it: it is told to take the states anew.
       *info = {fmi2False,
                fmi2False,
                fmi2False,
-               changed ? fmi2True : fmi2False,
+               fmi2True,
                std::isfinite(next) ? fmi2True : fmi2False,
                std::isfinite(next) ? next : 0.0};
     });

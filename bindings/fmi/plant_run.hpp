@@ -83,9 +83,8 @@ class PlantRun {
   }
   double measured_angle() const { return drive_.measured_angle(now_); }
 
-  /// Passes all events that are due at the present time. Returns whether the state itself changed.
-  bool pass_events() {
-    const auto before = now_.x;
+  /// Passes all events that are due at the present time.
+  void pass_events() {
     fire_guards();
     if (now_.t >= knot_) {
       drive_.enter(now_.t);
@@ -94,7 +93,6 @@ class PlantRun {
     }
     if (jumped_) now_.mode = drive_.settle(now_);
     jumped_ = false;
-    return before != now_.x;
   }
   /// The next time at which the load jumps or bends [s]; infinity without one.
   double next_event_time() const { return knot_; }

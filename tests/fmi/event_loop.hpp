@@ -1,5 +1,6 @@
 #pragma once
-// The event loop of an importing tool, with CVODE for the time between events.
+// The event loop of an importing tool, with CVODE for the time between events, which it restarts where the model tells
+// that the states have changed, and nowhere else.
 #include <algorithm>
 #include <limits>
 
@@ -121,17 +122,21 @@ class EventLoop {
   }
   void pass_event(double t) {
     fmi2EventInfo info{};
-    do model_.call<decltype(fmi2NewDiscreteStates)>("fmi2NewDiscreteStates", &info);
-    while (info.newDiscreteStatesNeeded);
+    bool changed = t == 0.0;  // at the start the states are asked for anyway
+    do {
+      model_.call<decltype(fmi2NewDiscreteStates)>("fmi2NewDiscreteStates", &info);
+      changed = changed || info.valuesOfContinuousStatesChanged;
+    } while (info.newDiscreteStatesNeeded);
     timed_ = info.nextEventTimeDefined ? info.nextEventTime : std::numeric_limits<double>::infinity();
     model_.call<decltype(fmi2EnterContinuousTimeMode)>("fmi2EnterContinuousTimeMode");
-    model_.call<decltype(fmi2GetContinuousStates)>("fmi2GetContinuousStates", N_VGetArrayPointer(x_),
-                                                   model_.fmu().states);
     std::vector<double> z(model_.fmu().indicators);
     model_.call<decltype(fmi2GetEventIndicators)>("fmi2GetEventIndicators", z.data(), z.size());
     zeros += static_cast<int>(std::count(z.begin(), z.end(), 0.0));
-    CVodeReInit(solver_, t, x_);
     t_ = t;
+    if (!changed) return;
+    model_.call<decltype(fmi2GetContinuousStates)>("fmi2GetContinuousStates", N_VGetArrayPointer(x_),
+                                                   model_.fmu().states);
+    CVodeReInit(solver_, t, x_);
   }
   void look() {
     const int motion = model_.integer("motion"), flank = model_.integer("flank");

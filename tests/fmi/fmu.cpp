@@ -116,6 +116,10 @@ TEST_CASE("jumps of the load are events that the FMU announces, jumps of the tor
   agrees(folder / "steps.toml", {}, 2);
 }
 
+TEST_CASE("an importer that restarts its solver only where it is told follows a drive through steps of its torque") {
+  agrees(shipped("measured_worm_drive.toml"), {"run.relative_tolerance=1e-12"}, 5);
+}
+
 TEST_CASE("a parameter that the importer sets is that of the scenario") {
   const Exported with(shipped("fig09_switching.toml"), {"effect.worm_coulomb.torque_Nm=0.001"});
   Instance changed(*with.fmu);
