@@ -24,6 +24,8 @@ struct Sensor {
   static wormdrive::Moment<double> moment(const Instant& now) { return {now.t, now.x[0], now.x[1], 0.0}; }
   static double measured_angle(const Instant& now) { return now.x[0]; }
   static double torque_limit() { return never; }
+  static wormdrive::Effects<double> effects() { return {}; }
+  static void disturb(double) {}
 };
 
 /// The numbers of the sliding controller, and what it believes about the drive.
@@ -56,12 +58,13 @@ struct Replay {
 template <class Loop, class Controller>
 void run_sampled(Loop& loop, double period, Controller&& control) {
   const long samples = std::lround(duration / period);
+  Sensor sensor;
   loop.begin();
   for (long k = 0; k < samples; ++k) {
     const double end = static_cast<double>(k + 1) * period;
     const Sensor::Instant now{static_cast<double>(loop.t()),
                               {static_cast<double>(loop.y()[0]), static_cast<double>(loop.y()[1])}};
-    loop.hold(control.sample(Sensor{}, now), end);
+    loop.hold(control.sample(sensor, now), end);
     loop.advance(end, end);
   }
 }

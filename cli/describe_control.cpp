@@ -88,10 +88,12 @@ nlohmann::json design_as_json(const Scenario& scenario) {
 
 void print_control(const ControlSummary& summary) {
   const Metrics& m = summary.metrics;
-  print_item("tracking",
-             fmt::format("error {:.3g} rad peak to peak, {:.3g} rms, {:.3g} at most; torque {:.3g} N m rms, "
-                         "{:.3g} peak",
-                         m.error_peak_to_peak, m.error_rms, m.error_max, m.torque_rms, m.torque_peak));
+  const std::string torque = fmt::format("torque {:.3g} N m rms, {:.3g} peak", m.torque_rms, m.torque_peak);
+  if (summary.follows)
+    print_item("tracking", fmt::format("error {:.3g} rad peak to peak, {:.3g} rms, {:.3g} at most; {}",
+                                       m.error_peak_to_peak, m.error_rms, m.error_max, torque));
+  else
+    print_item("control", torque);
   print_item("", fmt::format("{:g} reversals, {:g} flank changes, {:.3g} s stuck{}", m.reversals, m.flank_changes,
                              m.time_stuck,
                              summary.lemma ? fmt::format(", {:.3g} s outside the layer", m.time_outside_layer) : ""));
@@ -110,6 +112,7 @@ void print_control(const ControlSummary& summary) {
 nlohmann::json as_json(const ControlSummary& summary) {
   nlohmann::json result;
   for_each_field<Metrics>([&](const auto& field) {
+    if (!summary.has(field.member)) return;
     result["metrics"][std::string(field.name)] = {
         {"value", summary.metrics.*field.member}, {"unit", field.unit.symbol}, {"meaning", field.meaning}};
   });

@@ -117,7 +117,7 @@ ReportPage report_of_run(const ResultFile& file) {
                            lines)};
   ReportPage page;
   if (file.has("controller")) {
-    group.panels.push_back(tracking_error(file));
+    if (scenario.control && !scenario.control->reference.terms.empty()) group.panels.push_back(tracking_error(file));
     const bool sliding = scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law);
     std::vector<std::vector<std::string>> wanted{{"torque", "applied_torque"}};
     if (sliding) wanted.push_back({"sliding_variable"});

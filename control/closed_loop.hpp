@@ -9,6 +9,7 @@
 #include "control/reference.hpp"
 #include "control/sensor.hpp"
 #include "control/speed_estimator.hpp"
+#include "core/series.hpp"
 
 namespace wormdrive {
 
@@ -49,28 +50,45 @@ class ClosedLoop {
   /// Takes the angle that a sample will see later.
   template <class System>
   void latch(const System& system, const typename System::Instant& now) {
-    latched_.push_back(system.measured_angle(now));
+    latched_.push_back(seen(system, now));
   }
 
+  /// The motor torque [N m] to command from now on; what disturbs the shaft from now on is put there.
   template <class System>
-  double sample(const System& system, const typename System::Instant& now) {
+  double sample(System& system, const typename System::Instant& now) {
     const ReferencePoint desired = reference_.at(now.t);
     const auto at = system.moment(now);
-    const double angle = encoder_(latched_.empty() ? system.measured_angle(now) : latched_.front(), k_);
+    const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
     if (!latched_.empty()) latched_.pop_front();
+    const double angle = encoder_(shown.angle, k_);
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
-    const Measurement m{now.t, angle, exact_speed_ ? at.omega_g : difference, k_ == 0 ? 0.0 : period_, desired};
+    const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired};
     const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
     const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
     const double limit = system.torque_limit();
-    const double applied = std::clamp(torque + disturbance, -limit, limit);
-    listener_(ControlRecord{at.theta_g, m, decided, applied});
+    const double applied = std::clamp(torque, -limit, limit);
+    system.disturb(disturbance);
+    listener_(ControlRecord{at.theta_g, m, decided, applied, disturbance});
     return applied;
   }
 
  private:
+  /// What the sensor sees of the gear; of the speed only where that is asked for.
+  struct Seen {
+    double angle, speed;
+  };
+  template <class System>
+  Seen seen(const System& system, const typename System::Instant& now) const {
+    if (!exact_speed_) return {system.measured_angle(now), 0.0};
+    const auto at = system.moment(now);
+    Series<double, 1> angle(at.theta_g);
+    angle[1] = at.omega_g;
+    const Series<double, 1> measured = system.effects().measured_angle(angle);
+    return {measured[0], measured[1]};
+  }
+
   Control control_;
   Reference reference_;
   Encoder encoder_;
@@ -80,7 +98,7 @@ class ClosedLoop {
   double period_;
   bool delayed_;
   Listener listener_;
-  std::deque<double> latched_;  ///< of the samples to come, where they see an older angle [rad]
+  std::deque<Seen> latched_;  ///< for the samples to come, where they see what was
   std::uint64_t k_ = 0;
   double pending_ = 0.0;
 };

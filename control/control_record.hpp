@@ -9,7 +9,8 @@ struct ControlRecordOf {
   V gear_angle;  ///< the true one [rad]
   MeasurementOf<V> measured;
   ControlSignalsOf<V> decided;
-  V applied;  ///< motor torque held from this sample on: delayed, disturbed, limited [N m]
+  V applied;      ///< command that the motor has from this sample on: delayed, limited [N m]
+  V disturbance;  ///< random torque on the worm's shaft, likewise [N m]
 };
 using ControlRecord = ControlRecordOf<double>;
 

@@ -13,6 +13,9 @@ namespace wormdrive {
 struct ControlSummary {
   Metrics metrics;
   std::optional<Lemma1Monitor> lemma;  ///< of a sliding controller
+  bool follows = true;                 ///< a reference; else there is no tracking error
+
+  bool has(double Metrics::*metric) const { return follows || !is_of_tracking(metric); }
 };
 
 /// Half width of a controller's boundary layer [rad/s], infinity for one without.
@@ -39,7 +42,7 @@ struct ControlWatch {
     meter.sample(record);
     if (lemma) lemma->sample(record);
   }
-  ControlSummary summary() const { return {meter.result(), lemma}; }
+  ControlSummary summary() const { return {.metrics = meter.result(), .lemma = lemma}; }
 };
 
 }  // namespace wormdrive

@@ -9,7 +9,8 @@
 
 namespace wormdrive {
 
-/// A random torque on the worm, held between samples: white, or coloured by a first-order filter.
+/// A random torque on the worm's shaft, held between samples: white, or coloured by a first-order filter. It acts
+/// beside the motor: no limit, gain, delay or lag of the actuator touches it.
 struct DisturbanceSettings {
   double deviation{0.0};      ///< standard deviation [N m]; 0: none
   double time_constant{0.0};  ///< of the colouring [s]; 0: white

@@ -28,13 +28,13 @@ class LaneKernel {
         batch.estimate_is_aligned ? gear.cosine : sine_and_cosine(batch, r, theta_now + x.load_angle_offset).cosine;
     const MeasurementOf<V> m{sample.t, theta_now, x.speed(theta_now), sample.period, sample.desired};
     const ControlSignalsOf<V> decided = x.law(m, x.load_torque * estimated + x.load_constant);
-    const ControlRecordOf<V> record{theta_now, m, decided, decided.torque + 0.0};  // no disturbance adds to it
+    const ControlRecordOf<V> record{theta_now, m, decided, decided.torque, 0.0};
     if (sample.counts) x.sums.add(record);
     if (const unsigned loud = set_bits(!x.quiet(record)) & batch.alive[r]) [[unlikely]]
       note(batch, r, loud, record);
 
     V theta = theta_now, omega = x.omega;
-    const HeldTorquesOf<V> held = x.drive.under(record.applied);
+    const HeldTorquesOf<V> held = x.drive.under(record.applied + 0.0);  // the motor adds its signal, none
     const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
     const auto known = x.drive.held.goes_on(omega, held, arm) &
                        x.drive.held.template leap<true, false>(theta, omega, sample.step, held, arm, batch.accuracy);
@@ -87,7 +87,8 @@ class LaneKernel {
                  {theta.of[k],
                   {m.t, theta.of[k], speed.of[k], m.period, m.desired},
                   {torque.of[k], s.of[k], u.of[k], compensation.of[k]},
-                  applied.of[k]});
+                  applied.of[k],
+                  0.0});
     }
   }
   [[gnu::noinline]] static void go_on(const LaneBatch& batch, const LaneSample& sample, int r, unsigned lanes,

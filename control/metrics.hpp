@@ -51,6 +51,11 @@ struct Metrics {
   }
 };
 
+/// Whether a metric is one of the tracking error, which there is with a reference only.
+inline bool is_of_tracking(double Metrics::*metric) {
+  return metric == &Metrics::error_peak_to_peak || metric == &Metrics::error_rms || metric == &Metrics::error_max;
+}
+
 /// What metrics need of the samples, of one trial or of several at once.
 template <class V>
 struct SampleSums {

@@ -16,7 +16,7 @@ struct SensorSettings {
   double noise{0.0};   ///< standard deviation [rad]
   double seed{1};
   double filter_cutoff{0.0};  ///< of the one-pole low-pass behind the difference [Hz]; 0: none
-  bool exact_speed = false;   ///< the true speed instead of the filtered difference
+  bool exact_speed = false;   ///< of the angle that the sensor sees, instead of the filtered difference
 
   static constexpr auto fields() {
     using P = SensorSettings;

@@ -60,6 +60,7 @@ class CompliantDrive {
   void enter(double t) { rigid_.enter(t); }  // inputs are those of the rigid drive
   void rewind() { rigid_.rewind(); }
   bool command(double t, double tau_m) { return rigid_.command(t, tau_m); }
+  void disturb(double torque) { rigid_.disturb(torque); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input(double t) const { return rigid_.fastest_input(t); }
   /// The longest step [s] within which a guard of a shaft at rest, which the state does not show, turns at most once.

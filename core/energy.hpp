@@ -7,7 +7,7 @@ namespace wormdrive {
 
 /// Where the power of a drive goes [W]; motor + load = loss + change of the kinetic energy, for a gear that closes.
 struct Power {
-  double motor;  ///< tau_m w_w
+  double motor;  ///< tau_m w_w, with what disturbs the worm's shaft
   double load;   ///< tau_l w_g
   double loss;   ///< friction of the mesh, mu Wn |sliding speed|, and of the bearings; rigid teeth never give it back
 };
@@ -23,7 +23,7 @@ Power power(const WormDrive<double, Load>& drive, const typename WormDrive<doubl
   const double mesh = drive.mesh().has_teeth ? drive.friction(at, motion) * o.normal_force *
                                                    std::abs(drive.mesh().sliding_speed(drive.mesh().i * at.omega_g))
                                              : 0.0;
-  return {o.tau_m * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
+  return {(o.tau_m + drive.disturbance()) * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
 }
 
 /// Kinetic energy (Jw theta_w'^2 + Jg theta_g'^2) / 2 [J].

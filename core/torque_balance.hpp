@@ -53,10 +53,17 @@ class TorqueBalance {
   /// When the motor's present piece has arrived [s], with derivatives.
   const T& motor_arrival() const { return motor_.arrival(); }
   /// Forgets the inputs of the past, for a new run from its start.
-  void rewind() { motor_.rewind(); }
+  void rewind() {
+    motor_.rewind();
+    disturbance_ = 0.0;
+  }
   /// Holds a motor torque [N m] from t on, in addition to the motor's signal; whether the next knot may be another one
   /// now. The caller settles the mode.
   bool command(double t, double tau_m) { return motor_.command(t, tau_m); }
+  /// Disturbs the worm's shaft with a torque [N m] from now on, whatever the motor does. The caller settles the mode.
+  void disturb(double torque) { disturbance_ = torque; }
+  /// What disturbs the worm's shaft now [N m].
+  const double& disturbance() const { return disturbance_; }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
   /// First time after t at which an input jumps or bends.
@@ -122,7 +129,8 @@ class TorqueBalance {
 
   template <class S>
   SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
-    return {input.worm + effects_.worm_torque(at, motion), input.gear + effects_.gear_torque(at, motion)};
+    return {(input.worm + disturbance_) + effects_.worm_torque(at, motion),
+            input.gear + effects_.gear_torque(at, motion)};
   }
   /// m = motion * flank * mu.
   template <class S>
@@ -156,6 +164,7 @@ class TorqueBalance {
   Load load_;
   Effects<T> effects_;
   MotorInput<T> motor_;
+  double disturbance_ = 0.0;
   T Jw_i_{}, Jg_{};
   bool friction_changes_ = false;  ///< else C is that of the mesh alone
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g

@@ -14,6 +14,7 @@ class Course {
   struct Stop {
     Cause cause;
     Instant before, after;  ///< left and right limit, at one time
+    double disturbance{};   ///< of the worm's shaft from here on [N m]
 
     /// Only looked at: nothing changes at a report and at the end.
     bool passed() const { return cause.reason == Reason::report || cause.reason == Reason::end; }
@@ -23,8 +24,9 @@ class Course {
   /// begin: what the run is started with.
   explicit Course(const Instant& begin) : left_(begin) {}
 
-  void operator()(const System&, const Instant& now, const Cause& cause) {
+  void operator()(const System& system, const Instant& now, const Cause& cause) {
     Stop stop{cause, now, now};
+    if constexpr (requires { system.disturbance(); }) stop.disturbance = system.disturbance();
     if (open_) stop.before = left_;
     if (open_ || stop.passed()) stops_.push_back(stop);
     open_ = !open_ && !stop.passed();

@@ -45,6 +45,7 @@ auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
       t = drive.motor_arrival();
       break;
     case Reason::sample:
+      drive.disturb(stop.disturbance);
       drive.command(now.t, stop.cause.torque);
       t = drive.motor_arrival();
       break;

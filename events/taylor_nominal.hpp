@@ -40,7 +40,10 @@ class NominalFlow<WormDrive<double, Load>> {
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
   explicit NominalFlow(const System& system)
-      : motor_(system.motor_piece()), load_(system.load()), surface_(system.surface()) {
+      : motor_(system.motor_piece()),
+        disturbance_(system.disturbance()),
+        load_(system.load()),
+        surface_(system.surface()) {
     if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
     double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
@@ -136,6 +139,7 @@ class NominalFlow<WormDrive<double, Load>> {
     if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
     const int last = accuracy.order();
     input(motor_, now.t, last, worm_torque_);
+    worm_torque_[0] += disturbance_;
     if constexpr (swings) {
       arm_.begin(arm_at(now.x[0]));
     } else {
@@ -204,7 +208,7 @@ class NominalFlow<WormDrive<double, Load>> {
       return is_constant(motor_) && is_constant(load_.piece);
   }
   HeldTorques held_torques(const Equation& m) const {
-    HeldTorques held = m.driven.under(motor_.constant);
+    HeldTorques held = m.driven.under(motor_.constant + disturbance_);
     if constexpr (!swings) {
       held.push += load_.piece.constant * m.per_gear_torque;
       held.beyond -= load_.piece.constant * surface_;
@@ -268,6 +272,7 @@ class NominalFlow<WormDrive<double, Load>> {
   }
 
   const Piece& motor_;
+  const double& disturbance_;  ///< of the worm's shaft, beside the motor [N m]
   const Load& load_;
   double surface_;
   bool covers_ = true;

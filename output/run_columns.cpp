@@ -116,8 +116,10 @@ const std::vector<RunColumn<ControlRecord>>& controller_columns() {
       {{"compensation", "N m", "part of the torque that is break-in compensation"},
        [](const C& c) { return c.decided.compensation; }},
       {{"torque", "N m", "motor torque that the controller decided"}, [](const C& c) { return c.decided.torque; }},
-      {{"applied_torque", "N m", "motor torque held from this sample on: delayed, disturbed, limited"},
-       [](const C& c) { return c.applied; }}};
+      {{"applied_torque", "N m", "command that the motor has from this sample on: delayed, limited"},
+       [](const C& c) { return c.applied; }},
+      {{"disturbance_torque", "N m", "random torque on the worm's shaft from this sample on"},
+       [](const C& c) { return c.disturbance; }}};
   return columns;
 }
 

@@ -40,8 +40,9 @@ void RunFile::append(const std::vector<ControlRecord>& samples) {
 
 void RunFile::describe(const ControlSummary& summary) {
   const hid_t group = controller_->group();
-  for_each_field<Metrics>(
-      [&](const auto& field) { write_attribute(group, std::string(field.name), summary.metrics.*field.member); });
+  for_each_field<Metrics>([&](const auto& field) {
+    if (summary.has(field.member)) write_attribute(group, std::string(field.name), summary.metrics.*field.member);
+  });
   if (!summary.lemma) return;
   write_attribute(group, "layer_reached", summary.lemma->reached());
   for (const Violation& v : summary.lemma->violations()) {

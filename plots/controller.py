@@ -3,7 +3,7 @@
 import numpy as np
 
 import style
-from result import NotAResult, column, columns, group, units
+from result import NotAResult, attribute, column, columns, group, text, units
 
 
 def samples(result):
@@ -12,6 +12,12 @@ def samples(result):
         return None
     table = group(result, "controller")
     return table if column(table, "time").size else None
+
+
+def follows(result):
+    """Returns whether a controlled run has a reference, without which there is no tracking error."""
+    lines = text(attribute(result, "scenario")).splitlines()
+    return any(line.startswith(("[reference]", "[[reference]]")) for line in lines)
 
 
 def draw_reference(panel, table, factor):

@@ -168,7 +168,7 @@ def draw(result):
         other, label = load, f"load {word}"
 
     figure = style.new_figure(text(attribute(result, "title")))
-    samples = controller.samples(result)
+    samples = controller.samples(result) if controller.follows(result) else None
     heights = [1.0, 1.25, 1.25] + ([1.0] if elastic else []) + ([0.9] if samples else [])
     if len(heights) > 3:
         figure.set_figheight(2.55 * len(heights))  # so that more panels stay readable

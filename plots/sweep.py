@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+import controller
 import style
 from result import NotAResult, attribute, column, columns, dataset, group, text, units
 
@@ -213,7 +214,7 @@ class Course(NamedTuple):
     units: str  # of the angle
     title: str
     angle: tuple  # time and gear angle
-    error: tuple  # time and tracking error; nothing without a controller
+    error: tuple  # time and tracking error; nothing without a reference
 
 
 def read_course(result):
@@ -221,7 +222,7 @@ def read_course(result):
     trajectory = group(result, "trajectory")
     time, angle = columns(trajectory, "time", "gear_angle")
     error = ()
-    if "controller" in result:
+    if "controller" in result and controller.follows(result):
         table = result["controller"]
         at, seen, wanted = columns(table, "time", "measured_angle", "reference_angle")
         error = at, seen - wanted

@@ -1,5 +1,7 @@
 #include "scenarios/read_control.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "scenarios/read_reference.hpp"
@@ -36,6 +38,7 @@ class ControlReader {
       sensor.read_fields(control.sensor);
       require_whole(sensor, "counts", control.sensor.counts);
       require_whole(sensor, "seed", control.sensor.seed);
+      refuse_spoilt_speed(sensor, control.sensor);
     });
     if (root_.has("disturbance"))
       root_.section("disturbance", [&](TableReader& disturbance) {
@@ -46,6 +49,16 @@ class ControlReader {
   }
 
  private:
+  /// An exact speed is none that was made of counts, noise or a filtered difference.
+  static void refuse_spoilt_speed(TableReader& table, const SensorSettings& sensor) {
+    if (!sensor.exact_speed) return;
+    for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
+                                     std::pair{"speed_filter_Hz", sensor.filter_cutoff}})
+      if (value > 0.0)
+        table.fault(key, fmt::format("sensor.{} = {:g} has no part in speed = \"exact\"; leave it out, or take speed = "
+                                     "\"difference\"",
+                                     key, value));
+  }
   void read_controller(TableReader& table, ControlScenario& control) {
     table.read_fields(control.sampling);
     check_sampling(table, control.sampling);

@@ -12,8 +12,8 @@ template <class Drive>
 class Replay : public Drive {
  public:
   struct Held {
-    double t;       ///< from when on [s]
-    double torque;  ///< [N m]
+    double t;                    ///< from when on [s]
+    double torque, disturbance;  ///< of the motor, and beside it [N m]
   };
   Replay(const Drive& drive, std::vector<Held> held) : Drive(drive), held_(std::move(held)) {}
 
@@ -35,8 +35,10 @@ class Replay : public Drive {
  private:
   void take_up(double t) {
     Drive::enter(t);
-    for (; issued_ < held_.size() && held_[issued_].t <= t; ++issued_)
+    for (; issued_ < held_.size() && held_[issued_].t <= t; ++issued_) {
+      Drive::disturb(held_[issued_].disturbance);
       Drive::command(held_[issued_].t, held_[issued_].torque);
+    }
     entered_ = t;
   }
   auto after(double t) const {

@@ -92,7 +92,7 @@ class DriveRun {
     const auto listen = [&](const ControlRecord& sample) {
       watch.sample(sample);
       if (listeners_.samples) samples_.push_back(sample);
-      if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied});
+      if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied, sample.disturbance});
     };
     std::visit(
         [&](const auto& law) {
@@ -105,6 +105,7 @@ class DriveRun {
         },
         control.law);
     summary_.control = watch.summary();
+    summary_.control->follows = !control.reference.terms.empty();
   }
 
   void hand_over() {

@@ -57,8 +57,10 @@ struct RecordedController {
   std::size_t next = 0;
 
   template <class System>
-  double sample(const System&, const typename System::Instant&) {
-    return samples.at(next++).applied;
+  double sample(System& system, const typename System::Instant&) {
+    const ControlRecord& then = samples.at(next++);
+    system.disturb(then.disturbance);
+    return then.applied;
   }
 };
 

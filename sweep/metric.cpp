@@ -8,8 +8,9 @@
 namespace wormdrive {
 namespace {
 
-void add_tracking(std::vector<Metric>& list) {
+void add_tracking(std::vector<Metric>& list, bool follows) {
   for_each_field<Metrics>([&](const auto& field) {
+    if (!follows && is_of_tracking(field.member)) return;
     list.push_back({std::string(field.name), field.unit, std::string(field.meaning),
                     [member = field.member](const Outcome& o) { return o.run.control->metrics.*member; }});
   });
@@ -35,7 +36,7 @@ void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
 
 std::vector<Metric> metrics_of(const Scenario& scenario) {
   std::vector<Metric> list;
-  if (scenario.control) add_tracking(list);
+  if (scenario.control) add_tracking(list, !scenario.control->reference.terms.empty());
   if (scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law)) add_lemma1(list, scenario);
   for (const EventKind kind : event_kinds)
     if (kind <= EventKind::flank_change || has_elastic_teeth(scenario.effects))

@@ -52,8 +52,9 @@ bool RunResult::elastic() const { return has_elastic_teeth(scenario_->effects); 
 std::map<std::string, double> RunResult::metrics() const {
   std::map<std::string, double> all;
   if (!summary_.control) return all;
-  for_each_field<Metrics>(
-      [&](const auto& field) { all[std::string(field.name)] = summary_.control->metrics.*field.member; });
+  for_each_field<Metrics>([&](const auto& field) {
+    if (summary_.control->has(field.member)) all[std::string(field.name)] = summary_.control->metrics.*field.member;
+  });
   if (!summary_.control->lemma) return all;
   all["layer_reached"] = summary_.control->lemma->reached();
   for (const Violation& v : summary_.control->lemma->violations())

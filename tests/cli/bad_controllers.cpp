@@ -71,6 +71,9 @@ TEST_CASE("keys of a controller that are unknown, missing or out of their limits
        "s.toml:17:1: error: the nominal model violates eq. 17: Jw i + C1 Jg = -0.003655 kg m^2 must be greater than 0"},
       {"friction and C1", but("[reference]", "[controller.variation]\nfriction = 0.1\nC1 = 0.1\n[reference]"),
        "s.toml:18:12: error: controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"},
+      {"a branch without inertia", but("[reference]", "[controller.variation]\nC1 = 1000\n[reference]"),
+       "s.toml:17:1: error: controller.variation leaves the branch C1 without inertia, Jw i + C1 Jg <= 0, and no gain withstands that; vary less, or "
+       "state D1_per_kgm2 and E1_rad_per_s2"},
       {"PID without weights", but(sliding, "kind = \"pid\"\nsample_time_s = 1e-3\n"),
        "s.toml:11:1: error: [controller] lacks 'integral_weight' (weight of the integral of e, squared)\n"
        "s.toml:11:1: error: [controller] lacks 'angle_weight' (weight of e squared)\n"
@@ -103,6 +106,12 @@ TEST_CASE("faults of references, sensors, disturbances and windows are told") {
        "s.toml:24:16: error: reference[1].frequency_Hz = 0 Hz must be greater than 0 Hz"},
       {"unknown speed", but("[sensor]", "[sensor]\nspeed = \"true\""),
        "s.toml:22:9: error: sensor.speed = \"true\" must be one of \"difference\", \"exact\""},
+      {"an exact speed with counts", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\ncounts = 4096"),
+       "s.toml:23:10: error: sensor.counts = 4096 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
+      {"an exact speed with noise", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\nnoise_rad = 1e-5"),
+       "s.toml:23:13: error: sensor.noise_rad = 1e-05 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
+      {"an exact speed with a filter", but("[sensor]\nspeed_filter_Hz", "[sensor]\nspeed = \"exact\"\nspeed_filter_Hz"),
+       "s.toml:23:19: error: sensor.speed_filter_Hz = 200 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
       {"half a count", but("[sensor]", "[sensor]\ncounts = 16.5"), "s.toml:22:10: error: sensor.counts = 16.5 must be a whole number"},
       {"no deviation", but("[sensor]", "[disturbance]\nseed = 3\n[sensor]"), "s.toml:21:1: error: [disturbance] lacks 'deviation_Nm' (standard deviation)"},
       {"a window beyond the end", but("[sensor]", "[metrics]\nfrom_s = 1\n[sensor]"),

@@ -161,6 +161,7 @@ TEST_CASE("where C1 is 0 a variation of the friction still has its bounds, and o
   const auto list = conditions_on_drive(believed, v, drive, 0.0);
   REQUIRE(named(list, "|C1 - C1_hat|").holds());
   REQUIRE(named(list, "|C1 - C1_hat|").key == "controller.variation.friction");
+  REQUIRE(!named(list, "|C1 - C1_hat|").of_key);
   REQUIRE(!named(conditions_on_drive(believed, printed, drive, 0.0), "|C1 - C1_hat|").holds());
   REQUIRE(named(conditions_on_drive(believed, printed, believed, 0.0), "|C1 - C1_hat|").holds());
 }
