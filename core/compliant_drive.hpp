@@ -27,7 +27,6 @@ class CompliantDrive {
   using Mode = CompliantMode;
 
   static constexpr int guard_count = 6;
-  static constexpr int contact_guards = 0, worm_guards = 2, gear_guards = 4;  ///< two for each
 
   /// Time [s], state and mode: all that changes while a drive runs.
   struct Instant {
@@ -68,8 +67,6 @@ class CompliantDrive {
     const double omega = mode.worm == Motion::stuck || mode.gear == Motion::stuck ? rigid_.fastest_input() : 0.0;
     return omega > 0.0 ? 0.05 / omega : std::numeric_limits<double>::infinity();
   }
-
-  // ---- continuous motion --------------------------------------------------------------------------------------
 
   template <class S>
   Moment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {
@@ -202,16 +199,7 @@ class CompliantDrive {
     return guards(ahead<1>(now), now.mode);
   }
 
-  static std::string_view guard_name(Mode mode, int guard) {
-    if (guard < worm_guards) {
-      if (mode.contact != Flank::none) return "normal force";
-      return guard == contact_guards ? "left gap" : "right gap";
-    }
-    const bool worm = guard < gear_guards, first = guard % 2 == 0;
-    if (mode[worm ? Shaft::worm : Shaft::gear] != Motion::stuck) return worm ? "worm speed" : "gear speed";
-    if (worm) return first ? "forward break-in of the worm" : "backward break-in of the worm";
-    return first ? "forward break-in of the gear" : "backward break-in of the gear";
-  }
+  static std::string_view guard_name(Mode mode, int guard) { return name_of_guard(mode, guard); }
 
   /// The state after a guard has fired. The crossing itself is trusted: its condition is not tested again.
   Instant jump(Instant now, int guard) const {

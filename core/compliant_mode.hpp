@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "core/mode.hpp"
 
 namespace wormdrive {
@@ -19,5 +21,19 @@ struct CompliantMode {
   constexpr operator Mode() const { return {worm, contact}; }  // NOLINT(google-explicit-constructor): for reports
   friend constexpr bool operator==(const CompliantMode&, const CompliantMode&) = default;
 };
+
+inline constexpr int contact_guards = 0, worm_guards = 2, gear_guards = 4;  ///< first of two for each
+
+/// What a guard of the compliant drive watches in a mode.
+constexpr std::string_view name_of_guard(CompliantMode mode, int guard) {
+  if (guard < worm_guards) {
+    if (mode.contact != Flank::none) return "normal force";
+    return guard == contact_guards ? "left gap" : "right gap";
+  }
+  const bool worm = guard < gear_guards, first = guard % 2 == 0;
+  if (mode[worm ? Shaft::worm : Shaft::gear] != Motion::stuck) return worm ? "worm speed" : "gear speed";
+  if (worm) return first ? "forward break-in of the worm" : "backward break-in of the worm";
+  return first ? "forward break-in of the gear" : "backward break-in of the gear";
+}
 
 }  // namespace wormdrive

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/compliant_drive.hpp"
-#include "core/sized.hpp"
+#include "core/rounded.hpp"
 #include "core/statics.hpp"
 
 namespace wormdrive {
@@ -11,9 +11,8 @@ namespace wormdrive {
 /// What acts on the gear [N m]; 0 where that is no more than the rounding of the drive's torques.
 template <class Load>
 double load_on_gear(const WormDrive<double, Load>& drive, double t, double theta_g, double omega_g, Motion motion) {
-  const auto tau = drive.side_torques(drive.template moment<Sized>(t, theta_g, omega_g), motion);
-  const double size = tau.gear.size + drive.mesh().i * tau.worm.size;
-  return std::abs(tau.gear.value) > rounding * size ? tau.gear.value : 0.0;
+  const auto tau = drive.side_torques(drive.template moment<Rounded>(t, theta_g, omega_g), motion);
+  return std::abs(tau.gear.value) > tau.gear.rounding + drive.mesh().i * tau.worm.rounding ? tau.gear.value : 0.0;
 }
 
 /// Wn [N] with which the teeth carry a load on the gear [N m] while the worm slides. Where friction drags the gear

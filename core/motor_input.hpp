@@ -115,7 +115,7 @@ class MotorInput {
 
   /// Takes up the piece of the signal that was commanded then.
   void freeze(Piece piece, double commanded) {
-    piece.constant += held_;
+    piece.add(held_);
     limit_knot_ = never;
     if (!std::isinf(value_of(limit_))) {
       LimitedPiece cut = limited(piece, value_of(limit_), commanded);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/portable.hpp"
+#include "core/rounded.hpp"
 
 namespace wormdrive {
 
@@ -19,12 +20,20 @@ struct Piece {
   double constant = 0.0;
   double slope = 0.0;
   std::vector<Cosine> cosines;
+  double rounding = 0.0;  ///< of the constant: of terms that cancel each other it is left
+
+  /// Adds a constant.
+  void add(double term) {
+    constant += term;
+    rounding += Rounded::unit * (std::abs(term) + std::abs(constant));
+  }
 
   template <class S>
   S operator()(const S& t) const {
     using portable::cos;
     S value = constant + slope * (t - start);
     for (const Cosine& c : cosines) value += c.amplitude * cos(c.omega * t + c.phase);
+    if constexpr (requires { widen(value, rounding); }) widen(value, rounding);
     return value;
   }
 

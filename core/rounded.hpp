@@ -23,6 +23,9 @@ struct Rounded {
   requires requires(const T& x) { value_of(x); }
   Rounded(const T& x) : Rounded(rounded(value_of(x), 0.0)) {}  // NOLINT(google-explicit-constructor): a scalar
 
+  /// What one operation rounds, as a share of its result.
+  static constexpr double unit = 0.5 * std::numeric_limits<double>::epsilon();
+
   bool vanishes() const { return !(std::abs(value) > rounding); }
 
   Rounded& operator+=(const Rounded& b) { return *this = *this + b; }
@@ -53,14 +56,19 @@ struct Rounded {
   }
 
  private:
-  static constexpr double unit = 0.5 * std::numeric_limits<double>::epsilon();
-
   /// The result of an operation, rounded once more.
   static Rounded rounded(double value, double rounding) { return {value, rounding + unit * std::abs(value)}; }
   static Rounded of_function(double value, double slope, const Rounded& x) {
     return rounded(value, (std::abs(slope) + x.rounding) * x.rounding + unit * std::abs(value));
   }
 };
+
+/// Adds a rounding that a value has from elsewhere.
+inline void widen(Rounded& x, double rounding) { x.rounding += rounding; }
+template <int N>
+void widen(Series<Rounded, N>& x, double rounding) {
+  widen(x[0], rounding);
+}
 
 /// How well the time of an event at t is known [s]: root finders stop within a few roundings of it.
 inline double time_resolution(double t) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }

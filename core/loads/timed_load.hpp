@@ -1,7 +1,6 @@
 #pragma once
 #include "core/moment.hpp"
 #include "core/signal.hpp"
-#include "core/sized.hpp"
 
 namespace wormdrive {
 
@@ -19,12 +18,6 @@ struct TimedLoad {
   template <class S>
   S torque(const Moment<S>& at) const {
     return piece(at.t);
-  }
-  /// The same term by term: of terms that cancel each other rounding is left.
-  Sized torque(const Moment<Sized>& at) const {
-    Sized sum;
-    for (const SignalTerm& term : signal.terms) sum += Signal{{term}}.piece(at.t.value)(at.t);
-    return sum;
   }
 };
 

@@ -17,7 +17,7 @@ struct Constant {
   static constexpr auto fields() {
     return std::tuple{Field{&Constant::torque, "torque", unit::newton_metre, bounds::any, "torque"}};
   }
-  void add_to(Piece& piece, double) const { piece.constant += torque; }
+  void add_to(Piece& piece, double) const { piece.add(torque); }
   double next_knot(double) const { return std::numeric_limits<double>::infinity(); }
 };
 

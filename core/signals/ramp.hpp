@@ -26,10 +26,10 @@ struct Ramp {
   void add_to(Piece& piece, double t) const {
     if (t < start) return;
     if (t >= end) {
-      if (end > start) piece.constant += rate * (end - start);
+      if (end > start) piece.add(rate * (end - start));
       return;
     }
-    piece.constant += rate * (t - start);
+    piece.add(rate * (t - start));
     piece.slope += rate;
   }
   double next_knot(double t) const {

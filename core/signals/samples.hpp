@@ -22,14 +22,14 @@ struct Samples {
   void add_to(Piece& piece, double t) const {
     const std::size_t passed = samples_passed(t);
     if (passed == 0 || passed == times.size()) {
-      piece.constant += passed == 0 ? values.front() : values.back();
+      piece.add(passed == 0 ? values.front() : values.back());
       return;
     }
     const std::size_t k = passed - 1;
-    piece.constant += values[k];
+    piece.add(values[k]);
     if (interpolation == Interpolation::hold) return;
     const double slope = (values[k + 1] - values[k]) / (times[k + 1] - times[k]);
-    piece.constant += slope * (t - times[k]);
+    piece.add(slope * (t - times[k]));
     piece.slope += slope;
   }
   double next_knot(double t) const {

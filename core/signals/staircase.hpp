@@ -27,7 +27,7 @@ struct Staircase {
         Field{&P::start, "start", unit::second, bounds::any, "time of the first step", Presence::optional},
         Field{&P::steps, "steps", unit::none, bounds::not_negative, "number of steps, then held", Presence::optional}};
   }
-  void add_to(Piece& piece, double t) const { piece.constant += rise * taken(t); }
+  void add_to(Piece& piece, double t) const { piece.add(rise * taken(t)); }
   double next_knot(double t) const {
     const double k = taken(t);
     return k < steps ? start + k * interval : std::numeric_limits<double>::infinity();

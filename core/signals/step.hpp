@@ -21,7 +21,7 @@ struct Step {
                       Field{&P::time, "time", unit::second, bounds::any, "time of the step"}};
   }
   void add_to(Piece& piece, double t) const {
-    if (t >= time) piece.constant += torque;
+    if (t >= time) piece.add(torque);
   }
   double next_knot(double t) const { return t < time ? time : std::numeric_limits<double>::infinity(); }
 };
