@@ -190,6 +190,12 @@ class WormDrive : public TorqueBalance<T, Load> {
     if (!mesh().has_teeth) return Flank::none;
     return beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
+  /// On the surface itself, the flank just after.
+  template <int N>
+  Flank flank_at(const Series<Rounded, N>& beyond) const {
+    if (!mesh().has_teeth) return Flank::none;
+    return sign_just_after(beyond, 0.0) > 0 ? Flank::right : Flank::left;
+  }
 
   /// Whether the gear starts from rest in this direction. An acceleration that vanishes within its rounding starts
   /// nothing: ties mean stick, and the guard of rest finds the moment at which they end.
@@ -216,7 +222,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
   Flank flank_after_crossing(const Instant& now) const {
     auto beyond = beyond_surface(ahead<order, Rounded>(now), now.mode.motion);
-    beyond[0].value = 0.0;  // as was found
+    beyond[0] = {0.0, beyond[0].rounding + 2.0 * std::abs(beyond[0].value)};  // as was found, and how well
     return flank_just_after(beyond, now.t, across_surface(now.mode).flank);
   }
   /// The flank that carries the load just after t; the other argument where nothing decides.

@@ -94,4 +94,24 @@ TEST_CASE("the closest graze of the speed is its smallest minimum above zero") {
   REQUIRE(std::abs(speed.distance - left) <= 1e-9);
 }
 
+TEST_CASE("the audit counts every time that a guard came and went without an event") {
+  // speed = start - swing cos(2 pi t) from t = 0.25 on: below zero around t = 1, 2, ... 5, in a record without a stop
+  const MeshParameters<double> p = table1();
+  const Mode mode{Motion::forward, Flank::left};
+  const Branch in(p, mode);
+  const double held = 0.03, A = 1e-3, omega = 2.0 * std::numbers::pi, swing = A / (in.M * omega), start = 0.5 * swing;
+  const Signal motor{
+      {Constant{-in.C * held}, Sinusoid{.amplitude = A, .frequency = 1.0, .phase = -0.5 * std::numbers::pi}}};
+  auto system = drive(p, constant(held), motor);
+  struct Trace {
+    struct Entry {
+      decltype(system)::Instant now;
+      long steps;
+    };
+    std::vector<Entry> entries;
+  };
+  const Trace trace{{{{0.25, {0.0, start}, mode, {}}, 0}, {{5.25, {0.0, start}, mode, {}}, 100}}};
+  REQUIRE(Audit(system).examine(trace).missed() == 5);
+}
+
 }  // namespace wormdrive::test::events_audit
