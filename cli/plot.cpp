@@ -66,7 +66,7 @@ int draw(const PlotOptions& options) {
 }
 
 int draw_all(const std::string& file, const std::string& folder, int at_a_time) {
-  return run_script({file, "-o", folder, "--part", "all", "--at-a-time", std::to_string(at_a_time)});
+  return run_script({file, "-o", folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time)});
 }
 
 }  // namespace wormdrive

@@ -10,6 +10,7 @@
 
 #include "cli/report_kinds.hpp"
 #include "diagnosis/diagnosis_json.hpp"
+#include "output/classic_locale.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
@@ -21,6 +22,7 @@ using Cell = std::variant<std::string, double>;
 json read_findings(const ResultFile& file) {
   const std::string path = (std::filesystem::path(file.path()).parent_path() / "diagnosis.json").string();
   std::ifstream text(path);
+  const ClassicLocale read_so;
   const json findings = json::parse(text, nullptr, false);
   if (findings.is_discarded()) refuse({path}, "cannot be read; wormdrive diagnose writes it beside diagnosis.h5");
   return findings;

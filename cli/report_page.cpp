@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/report_assets.hpp"
 #include "cli/thinning.hpp"
+#include "scenarios/number_text.hpp"
 
 namespace wormdrive {
 namespace {
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Eight digits are more than a screen shows; NaN has no number in JSON.
 Json shortened(double value) {
-  return std::isfinite(value) ? Json(std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr)) : Json(nullptr);
+  return std::isfinite(value) ? Json(number_in(fmt::format("{:.8g}", value)).value_or(value)) : Json(nullptr);
 }
 Json chosen(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   Json list = Json::array();

@@ -35,7 +35,7 @@ inline std::vector<Condition> conditions(const SlidingParameters& p, const Lemma
   const SlidingBounds bounds(p, lemma);
   std::vector<Condition> list;
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::string n = std::to_string(k + 1);
+    const std::string n = k == 0 ? "1" : "2";
     const BranchBounds& branch = lemma.branch[k];
     const double beta = k == 0 ? p.beta1 : p.beta2;
     list.push_back({"beta" + n + " >= 2", beta, 2.0, "", "controller.beta" + n});

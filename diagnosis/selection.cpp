@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "diagnosis/bounces.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/intervals.hpp"
@@ -43,7 +45,7 @@ void CauseSearch::select(const Start& start, const Start* other) {
   s_.base = s_.model = start.base;
   s_.screening = start.screening;
   for (int round = 0; round < most_causes_; ++round) {
-    tell("trying suspects, round " + std::to_string(round + 1));
+    tell(fmt::format("trying suspects, round {}", round + 1));
     const bool first = round == 0;
     std::vector<Tried> tried =
         first ? try_suspects(start, other) : try_suspects({s_.model, screen(by_, s_.model, all_)}, nullptr);

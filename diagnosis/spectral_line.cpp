@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
 #include <unsupported/Eigen/FFT>
 
 namespace wormdrive {
@@ -48,7 +49,7 @@ ScoreTest spectral_line(const Evaluation& by, const Hypothesis& h, std::size_t r
     }
   }
   test.what.gain = strongest;
-  test.what.axis = name + " at " + std::to_string(frequency).substr(0, 5) + " Hz";
+  test.what.axis = fmt::format("{} at {:.5} Hz", name, fmt::format("{:f}", frequency));
   test.what.evidence =
       variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
   return test;

@@ -1,10 +1,8 @@
 #include "scenarios/csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -12,6 +10,7 @@
 
 #include "scenarios/document.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/number_text.hpp"
 
 namespace wormdrive {
 namespace {
@@ -23,11 +22,18 @@ std::string trimmed(std::string cell) {
   return cell;
 }
 
-std::vector<std::string> split(const std::string& line) {
+/// Takes what stands before the next mark off a text, and the mark with it.
+std::string_view take(std::string_view& text, char mark) {
+  const std::string_view part = text.substr(0, text.find(mark));
+  text.remove_prefix(std::min(part.size() + 1, text.size()));
+  return part;
+}
+
+std::vector<std::string> split(std::string_view line) {
   std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(trimmed(cell));
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
+  const bool ends_empty = line.ends_with(',');
+  while (!line.empty()) cells.push_back(trimmed(std::string(take(line, ','))));
+  if (ends_empty) cells.emplace_back();
   return cells;
 }
 
@@ -35,16 +41,6 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  ///< spreadsheets 
 
 /// Cells stand below the header, which is line 1.
 std::uint32_t line_of(std::size_t row) { return static_cast<std::uint32_t>(row + 2); }
-
-/// A cell as a finite number, with a sign if need be; no other text may stand in it.
-std::optional<double> number(const std::string& cell) {
-  const bool plus = cell.size() > 1 && cell[0] == '+' && cell[1] != '-';  // from_chars knows no plus sign
-  const char* const end = cell.data() + cell.size();
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(cell.data() + (plus ? 1 : 0), end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 }  // namespace
 
@@ -54,14 +50,15 @@ Csv read_csv(const std::string& path) {
   if (const auto nul = std::find(text.begin(), text.end(), '\0'); nul != text.end())
     refuse({path, static_cast<std::uint32_t>(1 + std::count(text.begin(), nul, '\n'))},
            "a NUL byte; a CSV file is plain text");
-  std::istringstream lines(text);
+  std::string_view lines(text);
   Csv csv{path, {}, {}};
-  std::string line;
-  if (!std::getline(lines, line) || trimmed(line).empty()) refuse({path, 1}, "no header line with column names");
-  csv.names = split(line);
+  const std::string header(take(lines, '\n'));
+  if (trimmed(header).empty()) refuse({path, 1}, "no header line with column names");
+  csv.names = split(header);
   csv.columns.resize(csv.names.size());
   std::uint32_t empty_line = 0;  // tolerated at the end, where editors leave them
-  for (std::uint32_t at = 2; std::getline(lines, line); ++at) {
+  for (std::uint32_t at = 2; !lines.empty(); ++at) {
+    const std::string line(take(lines, '\n'));
     if (trimmed(line).empty()) {
       if (empty_line == 0) empty_line = at;
       continue;
@@ -85,7 +82,7 @@ const std::vector<std::string>& Csv::texts(const std::string& name) const {
 std::vector<double> Csv::numbers(const std::string& name) const {
   std::vector<double> values;
   for (const std::string& cell : texts(name)) {
-    const std::optional<double> value = number(cell);
+    const std::optional<double> value = number_in(cell);
     if (!value) refuse({path, line_of(values.size())}, fmt::format("{} = '{}' is not a finite number", name, cell));
     values.push_back(*value);
   }

@@ -1,12 +1,11 @@
 #include "scenarios/document.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -30,13 +29,15 @@ void refuse_nul(std::string_view text, const std::string& name) {
 std::string_view hint(std::string_view text, const Location& where) {
   for (std::uint32_t line = 1; line < where.line; ++line)
     text = text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
-  const auto is = [&](std::size_t column, int (*what)(int)) {  // counted from 1, as in where
-    return column >= 1 && column <= text.size() && what(static_cast<unsigned char>(text[column - 1])) != 0;
+  const auto is = [&](std::size_t column, bool (*what)(char)) {  // counted from 1, as in where
+    return column >= 1 && column <= text.size() && what(text[column - 1]);
   };
-  const auto comma = [](int c) -> int { return c == ','; };
-  if (is(where.column, comma) && is(where.column - 1, std::isdigit) && is(where.column + 1, std::isdigit))
+  const auto comma = [](char c) { return c == ','; };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (is(where.column, comma) && is(where.column - 1, digit) && is(where.column + 1, digit))
     return "; decimals take a point, as in 0.25";
-  return is(where.column, std::isalpha) ? "; a word needs quotes, as in kind = \"constant\"" : "";
+  return is(where.column, letter) ? "; a word needs quotes, as in kind = \"constant\"" : "";
 }
 
 toml::table parse(std::string_view text, const std::string& name) {
@@ -56,10 +57,8 @@ std::string read_text(const std::string& path) {
     refuse({path}, "cannot be read: it is a directory");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
   if (!file) refuse({path}, fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO)));
-  return text.str();
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {

@@ -1,13 +1,14 @@
 #include "scenarios/write_scenario.hpp"
 
 #include <cmath>
-#include <cstdlib>
+#include <locale>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "scenarios/keys.hpp"
+#include "scenarios/number_text.hpp"
 
 namespace wormdrive {
 namespace {
@@ -28,7 +29,7 @@ struct Statement {
 Statement exactly(double si, const std::vector<Spelling>& accepted) {
   for (const Spelling& s : accepted)
     for (const std::string& text : {as_float(fmt::format("{:.15g}", si / s.unit.si)), number(si / s.unit.si)})
-      if (std::strtod(text.c_str(), nullptr) * s.unit.si == si) return {s.key, text};
+      if (number_in(text).value_or(0.0) * s.unit.si == si) return {s.key, text};
   return {accepted.back().key, number(si)};
 }
 
@@ -39,6 +40,7 @@ class Writer {
   void table(const std::string& header) { text_ += fmt::format("\n{}\n", header); }
   void text(const std::string& key, const std::string& value) {
     std::ostringstream quoted;  // toml++ knows how to quote
+    quoted.imbue(std::locale::classic());
     quoted << toml::node_view<const toml::node>(toml::value<std::string>(value));
     text_ += fmt::format("{} = {}\n", key, quoted.str());
   }

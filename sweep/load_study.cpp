@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <locale>
 #include <map>
 #include <sstream>
 
@@ -206,6 +207,7 @@ void flatten(const toml::node& node, const std::string& path, std::map<std::stri
     for (std::size_t k = 0; k < array->size(); ++k) flatten(*array->get(k), fmt::format("{}[{}]", path, k), into);
   } else {
     std::ostringstream value;
+    value.imbue(std::locale::classic());
     node.visit([&](const auto& leaf) { value << leaf; });
     into[path] = value.str();
   }

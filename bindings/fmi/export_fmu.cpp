@@ -3,8 +3,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
-#include <sstream>
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -76,8 +76,7 @@ class Zip {
 std::string read_library() {
   for (const char* path : {WORMDRIVE_FMU_INSTALLED, WORMDRIVE_FMU_BUILT}) {
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (file && text << file.rdbuf()) return text.str();
+    if (file) return {std::istreambuf_iterator<char>(file), {}};
   }
   throw OutputFault(fmt::format("cannot make an FMU: neither {} nor {} can be read; install wormdrive again",
                                 WORMDRIVE_FMU_INSTALLED, WORMDRIVE_FMU_BUILT));

@@ -1,7 +1,7 @@
 // What FMI 2.0 has for every kind of FMU: making, initialising and freeing an instance, its variables, kept states.
 #include <fstream>
+#include <iterator>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 
 #include "bindings/fmi/boundary.hpp"
@@ -39,11 +39,10 @@ std::string path_of(std::string_view uri) {
 Scenario read_plant(std::string_view resources, std::string_view guid) {
   const std::string path = path_of(resources) + "/plant.json";
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!(file && text << file.rdbuf())) throw std::runtime_error("cannot read " + path);
-  if (guid_of(text.str()) != guid)
-    throw std::runtime_error("the GUID " + std::string(guid) + " is not that of " + path);
-  return plant_from_json(text.str());
+  if (!file) throw std::runtime_error("cannot read " + path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (guid_of(text) != guid) throw std::runtime_error("the GUID " + std::string(guid) + " is not that of " + path);
+  return plant_from_json(text);
 }
 
 template <class Value, class Get>

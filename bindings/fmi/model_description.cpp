@@ -1,5 +1,6 @@
 #include "bindings/fmi/model_description.hpp"
 
+#include <locale>
 #include <map>
 #include <set>
 #include <sstream>
@@ -66,7 +67,7 @@ class DescriptionWriter {
     attribute(model, "generationTool", build_description());
     attribute(model, "generationDateAndTime", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
     attribute(model, "variableNamingConvention", "structured");
-    attribute(model, "numberOfEventIndicators", std::to_string(ports_.indicators.size()));
+    attribute(model, "numberOfEventIndicators", fmt::format("{}", ports_.indicators.size()));
     Tree& exchange = child(model, "ModelExchange");
     attribute(exchange, "modelIdentifier", std::string(model_identifier));
     attribute(exchange, "canGetAndSetFMUstate", "true");
@@ -83,6 +84,7 @@ class DescriptionWriter {
     model.add_child("ModelVariables", variables);
     write_structure(child(model, "ModelStructure"));
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     write_xml(text, root, boost::property_tree::xml_writer_settings<std::string>(' ', 2));
     return text.str();
   }
@@ -91,7 +93,7 @@ class DescriptionWriter {
   Tree& variable(Tree& list, const std::string& name, unsigned reference, const std::string& description) {
     Tree& one = child(list, "ScalarVariable");
     attribute(one, "name", name);
-    attribute(one, "valueReference", std::to_string(reference));
+    attribute(one, "valueReference", fmt::format("{}", reference));
     attribute(one, "description", description);
     index_[name] = ++count_;
     return one;
@@ -105,7 +107,7 @@ class DescriptionWriter {
     attribute(one, "initial", "calculated");
     Tree& type = child(one, "Real");
     state_units(type, rotary_units);
-    if (!derivative_of.empty()) attribute(type, "derivative", std::to_string(index_.at(derivative_of)));
+    if (!derivative_of.empty()) attribute(type, "derivative", fmt::format("{}", index_.at(derivative_of)));
   }
   void state_units(Tree& type, const std::string& rotary) {
     const std::string units_here =
@@ -182,7 +184,7 @@ class DescriptionWriter {
     attribute(unit, "name", name);
     Tree& base = child(unit, "BaseUnit");
     for (const auto& [symbol, power] : {std::pair{"kg", e.kg}, {"m", e.m}, {"s", e.s}, {"rad", e.rad}})
-      if (power != 0) attribute(base, symbol, std::to_string(power));
+      if (power != 0) attribute(base, symbol, fmt::format("{}", power));
   }
 
   void write_structure(Tree& structure) {
@@ -195,7 +197,8 @@ class DescriptionWriter {
     if (elastic_) outputs.push_back("gear_motion");
     const auto list = [&](const std::string& group, const std::vector<std::string>& names) {
       Tree& at = child(structure, group);
-      for (const std::string& name : names) attribute(child(at, "Unknown"), "index", std::to_string(index_.at(name)));
+      for (const std::string& name : names)
+        attribute(child(at, "Unknown"), "index", fmt::format("{}", index_.at(name)));
     };
     list("Outputs", outputs);
     list("Derivatives", rates);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bindings/fmi/plant_parameters.hpp"
+#include "output/classic_locale.hpp"
 #include "scenarios/variant_kinds.hpp"
 
 namespace wormdrive {
@@ -120,6 +121,7 @@ std::string plant_to_json(const Scenario& scenario) {
 }
 
 Scenario plant_from_json(const std::string& text) {
+  const ClassicLocale read_so;
   Json plant = Json::parse(text);
   Scenario scenario;
   scenario.axis = plant.at("axis") == "linear" ? Axis::linear : Axis::rotary;

@@ -1,4 +1,6 @@
 // An FMU in an importer that knows the standard only: the same run as `wormdrive run`, and an orderly life.
+#include <cstdlib>
+#include <locale>
 #include <malloc.h>
 
 #include "catch.hpp"
@@ -11,6 +13,10 @@ using namespace wormdrive;
 using namespace wormdrive::test;
 
 namespace {
+
+/// An importer with the locale of its user, which tests/decimal_comma.py makes.
+[[maybe_unused]] const std::locale before = std::getenv("LOCPATH") ? std::locale::global(std::locale(""))
+                                                                   : std::locale();
 
 /// A scenario exported by the program, and unpacked.
 struct Exported {

@@ -1,10 +1,12 @@
 """The Python package: the same numbers and words as the program, arrays that own themselves, threads, signals, leaks.
 
-Run by ctest with PYTHONPATH, WORMDRIVE_SCENARIOS, WORMDRIVE_PROGRAM and, for the malformed scenarios, WORMDRIVE_TESTS.
+Run by ctest with PYTHONPATH, WORMDRIVE_SCENARIOS, WORMDRIVE_PROGRAM and, for the malformed scenarios, WORMDRIVE_TESTS;
+once as it is and once more by tests/decimal_comma.py, for the module takes the locale of the user here.
 """
 
 import gc
 import json
+import locale
 import os
 import signal
 import subprocess
@@ -19,6 +21,7 @@ import numpy as np
 
 import wormdrive
 
+locale.setlocale(locale.LC_ALL, "")
 SCENARIOS = Path(os.environ["WORMDRIVE_SCENARIOS"])
 PROGRAM = os.environ.get("WORMDRIVE_PROGRAM")
 FIG09 = SCENARIOS / "fig09_switching.toml"
