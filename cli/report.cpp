@@ -53,7 +53,7 @@ int report_command(const ReportOptions& options) {
   refuse_to_overwrite(output, path.string());
 
   ReportPage page = page_of(file);
-  const Scenario scenario = load_scenario(path.string(), {}, Purpose::look);
+  const Scenario scenario = load_scenario(path.string(), {}, Purpose::show);
   page.title = file.attribute("/", "title");
   page.tables.push_back(table_of("Parameters", parameters(scenario)));
   if (const auto list = derived(scenario); !list.empty()) page.tables.push_back(table_of("What follows", list));

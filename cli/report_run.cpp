@@ -104,7 +104,7 @@ ReportTable control_table(const ResultFile& file) {
 ReportPage report_of_run(const ResultFile& file) {
   if (!file.has("trajectory") || !file.has("events") || file.column("trajectory/time").empty())
     refuse({file.path()}, "holds no run");
-  const Scenario scenario = load_scenario(file.path(), {}, Purpose::look);
+  const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   using enum ReportPanel::Style;
   ReportGroup group{"", "time", "s",
                     panels(file, "trajectory",

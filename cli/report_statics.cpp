@@ -6,7 +6,7 @@
 namespace wormdrive {
 
 ReportPage report_of_statics(const ResultFile& file) {
-  const Scenario scenario = load_scenario(file.path(), {}, Purpose::look);
+  const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   const std::string table = "statics";
   const std::vector<double> load = file.column(table + "/load_torque");
   ReportPanel map{load, {}, ReportPanel::Style::lines, true};

@@ -108,7 +108,7 @@ ReportTable curve_table(const ReportPanel& curve, const std::string& speed_unit)
 ReportPage report_of_steady(const ResultFile& file) {
   if (!file.has("model")) refuse({file.path()}, "holds no curve");
   ReportPage page;
-  page.summary = describe_mesh(load_scenario(file.path(), {}, Purpose::look));
+  page.summary = describe_mesh(load_scenario(file.path(), {}, Purpose::show));
   ReportGroup group{
       "", file.attribute("model/worm_speed", "long_name"), file.attribute("model/worm_speed", "units"), {}};
   if (!file.has("records")) {

@@ -54,7 +54,7 @@ inline GearMesh<double> make_mesh(const Scenario& scenario, Motion motion = Moti
   });
 }
 
-/// Inertia of the gear side with the load's own and what effects add [kg m^2].
+/// Inertia of the gear side with the load's own and what effects add [kg m^2]; without teeth all that moves.
 inline double total_gear_inertia(const Scenario& scenario) {
   return with_drive(scenario, [](const auto& drive) { return drive.Jg(); });
 }

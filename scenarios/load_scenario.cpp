@@ -78,12 +78,13 @@ class ScenarioReader {
   }
 
   void read_run(Purpose purpose) {
-    if (purpose == Purpose::look && !root_.has("run")) return;
+    if (purpose != Purpose::run && !root_.has("run")) return;
     root_.section("run", [&](TableReader& run) {
       run.read_fields(scenario_.run);
       if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
         scenario_.run.solver = SolverKind::taylor;
-      if (purpose == Purpose::run && scenario_.run.solver == SolverKind::taylor && has_elastic_teeth(scenario_.effects))
+      if (purpose != Purpose::show && scenario_.run.solver == SolverKind::taylor &&
+          has_elastic_teeth(scenario_.effects))
         run.fault(
             "solver",
             "run.solver = \"taylor\" follows rigid teeth only, and effect.tooth_compliance makes them elastic; set "

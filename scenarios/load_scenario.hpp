@@ -6,8 +6,9 @@
 
 namespace wormdrive {
 
-/// What a scenario is read for: statics and checks also take gears that no equation of motion covers.
-enum class Purpose { look, run };
+/// What a scenario is read for: to show a result nothing is judged that the run has been through; statics, checks and
+/// diagnoses also take gears that no equation of motion covers, and need no [run].
+enum class Purpose { show, look, run };
 
 /// Reads a scenario from a TOML file, or from a result file that carries one, with overrides "table.key=value".
 /// Throws InputFault with every fault at once, one line each with file, line and column.

@@ -20,7 +20,7 @@ void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
       reader.finish();
       if (on) effect = parameters;
     });
-    if (purpose == Purpose::look || !root.faults().empty()) return;
+    if (purpose == Purpose::show || !root.faults().empty()) return;
     for (const EffectRefusal& refusal : effect_refusals(scenario)) effects.fault(refusal.id, refusal.what);
   });
 }

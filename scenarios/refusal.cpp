@@ -7,6 +7,7 @@
 
 #include "core/elastic_teeth.hpp"
 #include "scenarios/build_control.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -17,16 +18,30 @@ template <class Effect>
 std::string refusal(const Effect&, const Scenario&) {
   return "";
 }
+
+/// An effect that takes off more inertia than there is beside it [kg m^2, or kg].
+std::string too_little(const std::string& where, double beside, double effect, Axis axis) {
+  if (effect >= 0.0 || beside + effect > 0.0) return "";
+  const Spelling s = spellings("inertia", unit::kilogram_square_metre, axis).front();
+  return fmt::format("leaves no {} {}: {:.6g} + {:.6g} {}", in_words_of(axis, "inertia"), where, beside, effect,
+                     s.unit.symbol);
+}
+/// What moves on the gear side beside an effect, the load's own inertia included; without teeth it moves with the rest.
+template <class Effect>
+std::string too_little_on_the_gear(const Effect& effect, Scenario scenario) {
+  std::get<std::optional<Effect>>(scenario.effects.list).reset();
+  const std::string where = stated_mesh(scenario).has_teeth ? "on the gear side" : "that moves";
+  return too_little(where, total_gear_inertia(scenario), effect.inertia, scenario.axis);
+}
 std::string refusal(const WormInertia<double>& effect, const Scenario& scenario) {
   const GearMesh<double> mesh = stated_mesh(scenario);
-  const bool enough = mesh.has_teeth ? mesh.Jw + effect.inertia > 0.0 : effect.inertia >= 0.0;
-  return enough ? "" : fmt::format("leaves no inertia on the worm side: {} + {} kg m^2", mesh.Jw, effect.inertia);
+  return mesh.has_teeth ? too_little("on the worm side", mesh.Jw, effect.inertia, scenario.axis)
+                        : too_little_on_the_gear(effect, scenario);
 }
 std::string refusal(const GearInertia<double>& effect, const Scenario& scenario) {
-  const double Jg = stated_mesh(scenario).Jg;
-  if (Jg + effect.inertia > 0.0) return "";
-  return fmt::format("leaves no inertia on the gear side: {} + {} kg m^2", Jg, effect.inertia);
+  return too_little_on_the_gear(effect, scenario);
 }
+
 std::string refusal(const BearingAsymmetry<double>& effect, const Scenario& scenario) {
   const auto& dry = std::get<std::optional<WormCoulomb<double>>>(scenario.effects.list);
   const auto& viscous = std::get<std::optional<WormViscous<double>>>(scenario.effects.list);
@@ -149,9 +164,13 @@ std::vector<ControllerRefusal> controller_refusals(const Scenario& scenario) {
   return list;
 }
 
-std::optional<std::string> why_it_cannot_run(const Scenario& scenario) {
+std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {
   if (const auto effects = effect_refusals(scenario); !effects.empty()) return effects.front().what;
-  if (auto why = why_it_cannot_move(scenario)) return why;
+  return why_it_cannot_move(scenario);
+}
+
+std::optional<std::string> why_it_cannot_run(const Scenario& scenario) {
+  if (auto why = why_the_drive_cannot_run(scenario)) return why;
   if (const auto controller = controller_refusals(scenario); !controller.empty()) return controller.front().what;
   return std::nullopt;
 }

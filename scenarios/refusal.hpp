@@ -24,6 +24,9 @@ struct ControllerRefusal {
 };
 std::vector<ControllerRefusal> controller_refusals(const Scenario& scenario);
 
+/// The first reason that lies in the drive: an effect or a friction that cannot be.
+std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario);
+
 /// The first of all these reasons.
 std::optional<std::string> why_it_cannot_run(const Scenario& scenario);
 

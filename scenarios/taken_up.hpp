@@ -19,6 +19,10 @@ Effects<double> take_up(Effects<double> effects, GearMesh<double>& mesh, Load& l
   auto& [list] = effects;
   if (!std::get<std::optional<Agma<double>>>(list))  // which comes first and knows no friction of the mesh's own
     take(std::get<std::optional<MeshFriction<double>>>(list), [&](const auto& teeth) { mesh.mu += teeth.change; });
+  if (!mesh.has_teeth) {  // and one inertia
+    take(std::get<std::optional<WormInertia<double>>>(list), [&](const auto& more) { mesh.Jg += more.inertia; });
+    take(std::get<std::optional<GearInertia<double>>>(list), [&](const auto& more) { mesh.Jg += more.inertia; });
+  }
   if constexpr (std::is_same_v<Load, GravityLoad>) {
     take(std::get<std::optional<LoadMagnitude<double>>>(list),
          [&](const auto& magnitude) { load.amplitude += magnitude.share * load.amplitude; });

@@ -20,7 +20,7 @@ namespace {
 void FmuInstance::begin() {
   stale_ = false;
   state_.run.reset();
-  if (const auto why = why_it_cannot_move(set_)) throw std::invalid_argument(*why);
+  if (const auto why = why_the_drive_cannot_run(set_)) throw std::invalid_argument(*why);
   with_drive(set_, [&]<class Drive>(Drive& drive) {
     using Elastic = decltype(CompliantDrive(drive, tooth_contact(set_.effects)));
     if (has_elastic_teeth(set_.effects))

@@ -20,8 +20,8 @@ template <class Load>
 auto indicator_scales(const WormDrive<double, Load>& drive, const typename WormDrive<double, Load>::Instant& now) {
   const auto rest = drive.guards(drive.moment(now), Mode{});
   const double a = std::max(std::abs(rest[0]), std::abs(rest[1])), acceleration = a > 0.0 && std::isfinite(a) ? a : 1.0;
-  return std::array{std::sqrt(acceleration), acceleration * drive.mesh().Jw * drive.mesh().i, acceleration,
-                    acceleration};
+  const double surface = drive.mesh().has_teeth ? acceleration * drive.mesh().Jw * drive.mesh().i : 1.0;
+  return std::array{std::sqrt(acceleration), surface, acceleration, acceleration};
 }
 template <class Load>
 auto indicator_scales(const CompliantDrive<double, Load>& drive,

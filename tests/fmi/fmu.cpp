@@ -1,6 +1,7 @@
 // An FMU in an importer that knows the standard only: the same run as `wormdrive run`, and an orderly life.
 #include <cstdlib>
 #include <locale>
+
 #include <malloc.h>
 
 #include "catch.hpp"
@@ -15,8 +16,8 @@ using namespace wormdrive::test;
 namespace {
 
 /// An importer with the locale of its user, which tests/decimal_comma.py makes.
-[[maybe_unused]] const std::locale before = std::getenv("LOCPATH") ? std::locale::global(std::locale(""))
-                                                                   : std::locale();
+[[maybe_unused]] const std::locale before =
+    std::getenv("LOCPATH") ? std::locale::global(std::locale("")) : std::locale();
 
 /// A scenario exported by the program, and unpacked.
 struct Exported {
@@ -102,6 +103,17 @@ TEST_CASE("an FMU takes its effects along") {
           "effect.load_spring.stiffness_Nm_per_rad=0.01", "effect.load_spring.angle_deg=0",
           "effect.gear_viscous.coefficient_Nms_per_rad=1e-4"},
          8);
+}
+
+TEST_CASE("an FMU of one mass counts what its effects take off it, and refuses what they leave nothing of") {
+  const std::vector<std::string> lighter{"effect.worm_inertia.mass_kg=-0.5", "effect.gear_inertia.mass_kg=-20",
+                                         "effect.worm_coulomb.force_N=25"};
+  agrees(shipped("measured_servo_axis.toml"), lighter, 1);
+  const Exported exported(shipped("measured_servo_axis.toml"), lighter);
+  Instance instance(*exported.fmu);
+  instance.set("effect.gear_inertia.mass_kg", -95.0);
+  CHECK_THROWS_WITH(instance.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode"),
+                    "effect.worm_inertia leaves no mass that moves: 0.1089 + -0.5 kg");
 }
 
 TEST_CASE("an FMU of elastic teeth makes every impact") {

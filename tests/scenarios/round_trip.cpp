@@ -126,7 +126,7 @@ Scenario full(Filler& filler, const LoadParameters& load) {
 void require_round_trip(const Scenario& scenario) {
   const std::string text = to_toml(scenario);
   INFO(text);
-  const Scenario read = parse_scenario(text, "text", {}, Purpose::look);
+  const Scenario read = parse_scenario(text, "text", {}, Purpose::show);  // all effects at once cannot be
   REQUIRE(Bits(read).text() == Bits(scenario).text());
   REQUIRE(to_toml(read) == text);
 }

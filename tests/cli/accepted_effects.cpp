@@ -1,0 +1,138 @@
+#include <random>
+
+#include <fmt/format.h>
+
+#include "cli/bad_input.hpp"
+#include "core/effects.hpp"
+#include "scenarios/keys.hpp"
+
+// What a scenario may state is one rule for every command, whether the drive has teeth or is one mass.
+
+namespace wormdrive::test::cli_accepted_effects {
+
+namespace {
+
+const std::string sledge = R"(title = "A sledge"
+[mesh]
+kind = "none"
+axis = "linear"
+mass_kg = 2
+[motor.torque]
+kind = "constant"
+force_N = 3.5
+[run]
+duration_s = 0.01
+)";
+const std::string wheel =
+    "title = \"A wheel\"\n[mesh]\nkind = \"none\"\ninertia_kgm2 = 2\n"
+    "[motor.torque]\nkind = \"constant\"\ntorque_Nm = 3.5\n[run]\nduration_s = 0.01\n";
+
+/// A value about as large as the sledge's mass, within the bounds of its field or just outside of them.
+double draw(const Bounds& bounds, std::mt19937& random) {
+  const double value = std::uniform_real_distribution(-2.5, 2.5)(random);
+  return std::uniform_int_distribution(0, 9)(random) == 0 ? value : std::clamp(value, bounds.low, bounds.high);
+}
+
+/// A few effects with random values, as tables of a scenario.
+std::string random_effects(Axis axis, std::mt19937& random) {
+  std::string text;
+  Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
+    const bool inertia = Effect::id == "worm_inertia" || Effect::id == "gear_inertia";
+    if (std::uniform_int_distribution(0, inertia ? 1 : 12)(random) != 0) return;
+    text += fmt::format("[effect.{}]\n", Effect::id);
+    for_each_field<Effect>([&](const auto& field) {
+      const Spelling s = spellings(field.name, field.unit, axis).front();
+      const double value = draw(field.bounds, random);
+      text += fmt::format("{} = {}\n", s.key, field.name == "exponent" || field.name == "tail" ? 2.0 : value);
+    });
+  });
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what check accepts of random effects on a linear axis, run and fmu accept, and what it refuses, they refuse") {
+  std::mt19937 random(7);
+  const Folder folder;
+  int accepted = 0, refused = 0;
+  for (int k = 0; k < 60; ++k) {
+    const bool linear = k % 3 != 0;
+    const std::string text = (linear ? sledge : wheel) + random_effects(linear ? Axis::linear : Axis::rotary, random);
+    folder.write("s.toml", text);
+    const Outcome check = folder.run({"check", "s.toml", "-q"}), run = folder.run({"run", "s.toml", "-q"});
+    INFO(text << check.err << run.err);
+    CHECK(check.exit == run.exit);
+    CHECK(check.err == run.err);
+    CHECK((check.exit == 0 || check.exit == 2));
+    if (check.exit == 2) CHECK(folder.run({"steady", "s.toml", "-q"}).err == check.err);
+    (check.exit == 0 ? accepted : refused) += 1;
+  }
+  CHECK(accepted >= 10);
+  CHECK(refused >= 10);
+}
+
+TEST_CASE("without teeth inertias count against all that moves, wherever an effect puts them") {
+  const Folder folder;
+  const auto with = [](const std::string& on_worm, const std::string& on_gear) {
+    return sledge + "[effect.worm_inertia]\nmass_kg = " + on_worm + "\n[effect.gear_inertia]\nmass_kg = " + on_gear +
+           "\n";
+  };
+  for (const auto& [worm, gear] : {std::pair{"-0.5", "0"}, {"-3", "1.5"}, {"1", "-2.5"}, {"-1", "-0.5"}}) {
+    folder.write("s.toml", with(worm, gear));
+    const Outcome run = folder.run({"run", "s.toml", "-q"});
+    INFO(worm << " " << gear << "\n" << run.err);
+    REQUIRE(run.exit == 0);
+    const double mass = 2.0 + std::stod(worm) + std::stod(gear);
+    const Hdf5Handle file = open_hdf5(folder / "s.h5");
+    CHECK(std::abs(read_column(file, "trajectory/gear_acceleration").back() - 3.5 / mass) <= 1e-12);
+  }
+  std::filesystem::remove(folder / "s.h5");
+  refuse_all(folder, {
+                         {"all of it", with("-2", "0"),
+                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 2 + -2 kg"},
+                         {"more than all", with("1", "-3"),
+                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 3 + -3 kg"},
+                         {"both", with("-1.5", "-1"),
+                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 1 + -1.5 kg\n"
+                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 0.5 + -1 kg"},
+                         {"a wheel", wheel + "[effect.worm_inertia]\ninertia_kgm2 = -2.5\n",
+                          "s.toml:10:1: error: effect.worm_inertia leaves no inertia that moves: 2 + -2.5 kg m^2"},
+                     });
+}
+
+TEST_CASE("on the gear the load's own inertia counts along with what the mesh states") {
+  const Folder folder;
+  const std::string arm = edited(good_scenario, "kind = \"constant\"\ntorque_Nm = 0.02",
+                                 "kind = \"gravity_arm\"\nmass_kg = 0.5\narm_m = 0.1");
+  folder.write("s.toml", arm + "[effect.gear_inertia]\ninertia_kgm2 = -2e-3\n");
+  for (const char* const command : {"check", "run", "steady", "statics"})
+    CHECK(folder.run({command, "s.toml", "-q"}).exit == 0);
+  std::filesystem::remove(folder / "s.h5");
+  refuse_all(folder,
+             {{"more than load and gear", arm + "[effect.gear_inertia]\ninertia_kgm2 = -6e-3\n",
+               "s.toml:20:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.005739 + -0.006 kg "
+               "m^2"}});
+}
+
+TEST_CASE("an effect that cannot be is refused by every command that reads the scenario") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario + "[effect.backlash]\ngap_deg = 0.1\n");
+  folder.write("b.csv", "load_torque_Nm,motor_torque_Nm\n0.2,0.01\n");
+  const Outcome run = folder.run({"run", "s.toml"});
+  CHECK(run.exit == 2);
+  CHECK(run.err.starts_with("s.toml:19:1: error: effect.backlash needs teeth that yield where they meet; "));
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"check", "s.toml"},
+                                             {"statics", "s.toml"},
+                                             {"steady", "s.toml"},
+                                             {"fmu", "s.toml"},
+                                             {"diagnose", "s.toml", "b.csv", "-o", "out"}}) {
+    const Outcome other = folder.run(words);
+    INFO(words.front());
+    CHECK(other.exit == 2);
+    CHECK(other.err == run.err);
+  }
+}
+
+}  // namespace wormdrive::test::cli_accepted_effects
