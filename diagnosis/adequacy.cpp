@@ -33,7 +33,7 @@ Abscissae abscissae(const Evaluation& by, const Hypothesis& h, const Magnitudes&
     if (r.data.load) loaded.load = *r.data.load;
     with_drive(loaded, [&](auto& drive) {
       for (std::size_t k = 0; k < r.samples(); ++k) {
-        const double t = static_cast<double>(k) * r.data.period;
+        const double t = r.data.time(k);
         auto load = drive.load();
         load.enter(t);
         const double tau =

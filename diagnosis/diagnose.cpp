@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -27,16 +28,25 @@ namespace wormdrive {
 
 namespace {
 
+/// Which blocks are held out, and every sum, hangs on the order of the recordings: it is that of what they hold, in
+/// whatever order they are given.
+std::vector<Recording> in_their_own_order(std::vector<Recording> recordings) {
+  const auto content = [](const Recording& r) {
+    return std::tie(r.period, r.start, r.motor_torque, r.gear_angle, r.worm_angle);
+  };
+  std::stable_sort(recordings.begin(), recordings.end(),
+                   [&](const Recording& a, const Recording& b) { return content(a) < content(b); });
+  return recordings;
+}
+
 std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, double ratio) {
-  constexpr double shortest = 2.0;  // [s], four blocks
-  constexpr std::size_t fewest = 400;
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
   std::vector<PreparedRecording> all;
   std::size_t blocks = 0;
   for (const Recording& r : recordings) {
-    if (r.samples() < fewest || static_cast<double>(r.samples()) * r.period < shortest)
+    if (r.samples() < least_samples || static_cast<double>(r.samples()) * r.period < least_duration - 1e-9)
       throw std::invalid_argument(
-          fmt::format("a diagnosis needs recordings of at least {} s and {} samples", shortest, fewest));
+          fmt::format("a diagnosis needs recordings of at least {} s and {} samples", least_duration, least_samples));
     all.push_back(prepared(r, {}, blocks, ratio));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
@@ -177,8 +187,8 @@ void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vecto
 
 }  // namespace
 
-Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& recordings,
-                   const DiagnosisSettings& settings) {
+Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given, const DiagnosisSettings& settings) {
+  const std::vector<Recording> recordings = in_their_own_order(given);
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };

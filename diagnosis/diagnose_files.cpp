@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -52,6 +53,9 @@ Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& f
         refuse({file}, fmt::format("record {} stands still; its torque is that of no motion", record.name));
       records.push_back(record);
     }
+  std::sort(records.begin(), records.end(), [](const SpeedTorqueRecord& a, const SpeedTorqueRecord& b) {
+    return std::tie(a.worm_speed, a.motor_torque, a.name) < std::tie(b.worm_speed, b.motor_torque, b.name);
+  });  // so that the order of the files makes no difference
   constexpr std::size_t fewest = 8;
   if (records.size() < fewest)
     refuse({files.front()}, fmt::format("{} records at constant speed; a diagnosis needs at least {}, in both "
@@ -69,6 +73,9 @@ Diagnosis of_break_ins(const Scenario& scenario, const std::vector<std::string>&
   std::vector<BreakIn> table;
   for (const std::string& file : files)
     for (const BreakIn& row : read_break_in_table(file, scenario)) table.push_back(row);
+  std::sort(table.begin(), table.end(), [](const BreakIn& a, const BreakIn& b) {
+    return std::tie(a.load_torque, a.motor_torque) < std::tie(b.load_torque, b.motor_torque);
+  });
   const TorquePoints points = break_in_points(table, scenario);
   Diagnosis diagnosis = diagnose(scenario, points, std::nullopt, settings);
   diagnosis.identified = identified_constants(points, scenario);

@@ -10,7 +10,9 @@
 #include "core/elastic_teeth.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/fit.hpp"
+#include "events/halt.hpp"
 #include "scenarios/build_control.hpp"
+#include "scenarios/refusal.hpp"
 #include "scenarios/run_scenario.hpp"
 
 namespace wormdrive {
@@ -99,6 +101,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
     run.run.relative_tolerance = 1e-9;
     told.control = run.control;
     told.run = run.run;
+    if (why_it_cannot_run(told) || why_it_cannot_run(run)) continue;
     try {
       // signatures are those about what is stated
       const PreparedRecording recording = prepared(simulated(told), {}, 0);
@@ -122,7 +125,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
       if (has_elastic_teeth(run.effects)) run.run.solver = SolverKind::cvode;
       best.scenario = run;
       best.reason = fmt::format("{}: a {} {:.2g} times smaller could be named", v.what, members.front().effect, margin);
-    } catch (const std::exception&) {
+    } catch (const Halt&) {
       continue;  // a drive that cannot follow this motion needs another one
     }
   }

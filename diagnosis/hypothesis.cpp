@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/build.hpp"
+
 namespace wormdrive {
 
 Effects<double> extended(const Hypothesis& h) {
@@ -104,6 +106,15 @@ std::vector<double> sensitivity(const Evaluation& by, const Hypothesis& h, std::
     return whitened_and_clipped(by, h, std::move(column));
   }
   return std::vector<double>(h.innovations.size(), 0.0);
+}
+
+double inertia_on_worm(const Evaluation& by, const Hypothesis& h, std::size_t recording) {
+  const std::optional<LoadParameters>& own = by.layout().recordings[recording].data.load;
+  Scenario scenario = by.scenario();
+  if (own) scenario.load = *own;
+  return with_drive(scenario, extended(h), Signal{}, [](const auto& drive) {
+    return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
+  });
 }
 
 }  // namespace wormdrive

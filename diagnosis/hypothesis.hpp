@@ -51,4 +51,7 @@ std::vector<double> sensitivity(const Evaluation& by, const Hypothesis& h, std::
 /// Whitened innovations of a model less those of a hypothesis, with the noise model of the latter, clipped likewise.
 std::vector<double> difference(const Evaluation& by, const Hypothesis& h, const std::vector<double>& innovations);
 
+/// Inertia that the motor moves in a recording, counted at the gear as a torque on the worm, Jw i + C(0) Jg [kg m^2].
+double inertia_on_worm(const Evaluation& by, const Hypothesis& h, std::size_t recording);
+
 }  // namespace wormdrive

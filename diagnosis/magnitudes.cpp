@@ -53,8 +53,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     with_drive(loaded, [&](auto& drive) {
       drive.enter(0.0);
       for (std::size_t k = 0; k < r.samples(); k += 50) {
-        const double tau =
-            drive.load().torque(drive.moment(static_cast<double>(k) * r.data.period, r.data.gear_angle[k], 0.0));
+        const double tau = drive.load().torque(drive.moment(r.data.time(k), r.data.gear_angle[k], 0.0));
         m.load_torque = std::max(m.load_torque, std::abs(tau));
       }
     });

@@ -126,9 +126,17 @@ void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionEr
 
 }  // namespace
 
-NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
-  const PreparedRecording& r = by.layout().recordings.front();
-  const std::span<const double> e = by.layout().of(by.layout().leading(0), std::span(h.innovations));
+namespace {
+
+/// Noise of one recording, and of how many samples it is known.
+struct RecordedNoise {
+  NoiseSizes sizes{};
+  double samples = 0.0;
+};
+
+RecordedNoise recorded_noise(const Evaluation& by, const Hypothesis& h, std::size_t recording) {
+  const PreparedRecording& r = by.layout().recordings[recording];
+  const std::span<const double> e = by.layout().of(by.layout().leading(recording), std::span(h.innovations));
   std::vector<double> sizes;
   for (std::size_t k = 0; k < r.samples(); ++k)
     if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(e[k]));
@@ -137,16 +145,25 @@ NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
   constexpr double normal_median = 0.6745;
   const double innovation = sizes[sizes.size() / 2] / normal_median;
   const double K = observer_gains(h.noise, r.data.period).angle;  // = P/(P + 1)
-  NoiseSizes noise;
-  noise.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
-  Scenario extended_scenario = by.scenario();
-  extended_scenario.effects = extended(h);
-  const double per_torque = with_drive(extended_scenario, [](const auto& drive) {
-    return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
-  });
-  noise.torque =
-      std::hypot(h.noise.white, h.noise.coloured) * noise.angle * per_torque / (r.data.period * r.data.period);
+  RecordedNoise noise{{}, static_cast<double>(sizes.size())};
+  noise.sizes.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
+  noise.sizes.torque = std::hypot(h.noise.white, h.noise.coloured) * noise.sizes.angle *
+                       inertia_on_worm(by, h, recording) / (r.data.period * r.data.period);
   return noise;
+}
+
+}  // namespace
+
+NoiseSizes noise_sizes(const Evaluation& by, const Hypothesis& h) {
+  double samples = 0.0, angles = 0.0, torques = 0.0;
+  for (std::size_t r = 0; r < by.layout().recordings.size(); ++r) {
+    const RecordedNoise one = recorded_noise(by, h, r);
+    samples += one.samples;
+    angles += one.samples * one.sizes.angle * one.sizes.angle;
+    torques += one.samples * one.sizes.torque * one.sizes.torque;
+  }
+  if (samples == 0.0) return {};
+  return {std::sqrt(angles / samples), std::sqrt(torques / samples)};
 }
 
 double error_ahead(const Evaluation& by, const Hypothesis& h, double horizon) {
@@ -197,7 +214,7 @@ std::vector<PredictionExample> prediction_examples(const Evaluation& by, const H
       example.horizon = horizon;
       for (std::size_t k = 0; k < std::min(a.errors.size(), b.errors.size()); ++k) {
         const double measured = data.gear_angle[a.begin + 1 + k];
-        example.time.push_back(data.start + static_cast<double>(a.begin + 1 + k) * data.period);
+        example.time.push_back(data.start + data.time(a.begin + 1 + k));
         example.measured.push_back(measured);
         example.before.push_back(measured + a.errors[k]);
         example.after.push_back(measured + b.errors[k]);

@@ -25,7 +25,8 @@ std::vector<PredictionError> prediction_errors(const Evaluation& by, const Hypot
 std::vector<PredictionExample> prediction_examples(const Evaluation& by, const Hypothesis& before,
                                                    const Hypothesis& after);
 
-/// Standard deviations that a fit found: of the sensor [rad] and of the torque of the process [N m].
+/// Standard deviations that a fit found: of the sensor [rad] and of the torque of the process [N m]; of several
+/// recordings the mean squares over all samples while moving.
 struct NoiseSizes {
   double angle{}, torque{};
 };

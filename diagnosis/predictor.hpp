@@ -90,7 +90,7 @@ class Predictor {
   }
 
  private:
-  double time(std::size_t k) const { return static_cast<double>(k) * recording_.data.period; }
+  double time(std::size_t k) const { return recording_.data.time(k); }
 
   State start(double speed) {
     rewind(0);
@@ -113,7 +113,7 @@ class Predictor {
     const std::size_t memory = std::min<std::size_t>(k, static_cast<std::size_t>(0.1 / recording_.data.period));
     drive().enter(time(k - memory));
     for (std::size_t j = k - memory; j < k; ++j) {
-      const double t = time(j), end = t + recording_.data.period;
+      const double t = time(j), end = time(j + 1);
       drive().command(t, command(j, 0.0));
       for (double knot = drive().next_knot(t); knot < end; knot = drive().next_knot(knot)) drive().enter(knot);
     }

@@ -13,8 +13,8 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Slope of the least-squares line through half_width samples on either side.
-std::vector<double> slopes(const std::vector<double>& y, double period, long half_width) {
+/// Slope of the least-squares line through half_width samples on either side, whose steps are even among themselves.
+std::vector<double> slopes(const std::vector<double>& y, const Recording& recording, long half_width) {
   const long n = static_cast<long>(y.size());
   const long w = std::min(half_width, (n - 1) / 2);
   std::vector<double> slope(y.size(), 0.0);
@@ -26,7 +26,11 @@ std::vector<double> slopes(const std::vector<double>& y, double period, long hal
     double sum = 0.0;
     const double here = y[static_cast<std::size_t>(middle)];  // what stands has no slope, not one of rounding
     for (long j = -w; j <= w; ++j) sum += static_cast<double>(j) * (y[static_cast<std::size_t>(middle + j)] - here);
-    slope[static_cast<std::size_t>(k)] = sum / (squares * period);
+    const auto first = static_cast<std::size_t>(middle - w), last = static_cast<std::size_t>(middle + w);
+    const double step = recording.times.empty()
+                            ? recording.period
+                            : (recording.times[last] - recording.times[first]) / static_cast<double>(2 * w);
+    slope[static_cast<std::size_t>(k)] = sum / (squares * step);
   }
   return slope;
 }
@@ -53,7 +57,7 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
   const double Ts = recording.period;
   p.worm_angle = worm_at_gear(recording, ratio);
   p.worm_resolution = recording.worm_resolution / ratio;
-  p.speed = slopes(recording.gear_angle, Ts, std::max(4L, std::lround(rules.slope_half_width / Ts)));
+  p.speed = slopes(recording.gear_angle, recording, std::max(4L, std::lround(rules.slope_half_width / Ts)));
   p.rms_speed = root_mean_square(p.speed);
   p.rms_torque = root_mean_square(recording.motor_torque);
   for (const double u : recording.motor_torque) p.largest_torque = std::max(p.largest_torque, std::abs(u));

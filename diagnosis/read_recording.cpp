@@ -18,6 +18,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   recording.name = std::filesystem::path(path).filename().string();
   recording.start = time.start;
   recording.period = time.period;
+  recording.times = std::move(time.times);
   recording.remarks = std::move(time.remarks);
   recording.valid.assign(table.time.values.size(), 1);
   const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);

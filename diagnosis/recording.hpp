@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,11 +9,15 @@
 
 namespace wormdrive {
 
-/// A recording of a drive, evenly sampled, in SI; plain data.
+inline constexpr std::size_t least_samples = 1000;  ///< of a recording that can be diagnosed
+inline constexpr double least_duration = 3.0;       ///< [s]: six blocks of half a second, two of them held out
+
+/// A recording of a drive in SI, sampled in steps that are even or drift slowly; plain data.
 struct Recording {
   std::string name;                  ///< the file's, or what the caller calls it
   double start{};                    ///< time of the first sample [s]
-  double period{};                   ///< between two samples [s]
+  double period{};                   ///< between two samples, on average [s]
+  std::vector<double> times{};       ///< of the samples since the first, where their steps drift [s]; else empty
   std::vector<double> motor_torque;  ///< as commanded, held from its sample to the next [N m]
   std::vector<double> gear_angle;    ///< [rad]
   std::vector<double> worm_angle;    ///< [rad]; empty without an encoder on the worm
@@ -23,6 +28,8 @@ struct Recording {
   std::vector<std::string> remarks{};    ///< what was found and mended, one sentence each
 
   std::size_t samples() const { return gear_angle.size(); }
+  /// Of a sample, since the first [s].
+  double time(std::size_t k) const { return times.empty() ? static_cast<double>(k) * period : times[k]; }
   bool has_worm_encoder() const { return !worm_angle.empty(); }
 };
 

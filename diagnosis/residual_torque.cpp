@@ -10,23 +10,23 @@ namespace wormdrive {
 
 namespace {
 
-/// Residual torque of every sample of one recording [N m].
-std::vector<double> torques(const Evaluation& by, const Hypothesis& h, std::size_t recording) {
-  Scenario scenario = by.scenario();
-  scenario.effects = extended(h);
-  const PreparedRecording& r = by.layout().recordings[recording];
-  const double Ts = r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
-  const double per_acceleration = with_drive(
-      scenario, [](const auto& drive) { return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg(); });
-  std::vector<FilteredStates> states;
-  std::vector<double> all(r.samples(), 0.0);
-  if (!by.innovations(extended(h), h.noise, {}, &states)) return all;
+/// Residual torques of every sample of one recording after the other [N m].
+std::vector<std::vector<double>> torques(const Evaluation& by, const Hypothesis& h) {
   constexpr double most_scales = 6.0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const std::size_t q = by.layout().leading(recording).begin + k;
-    const double limit = most_scales * h.noise_model.groups[by.layout().group[q]].scale;
-    const double e = std::clamp(h.innovations[q], -limit, limit);
-    all[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
+  std::vector<FilteredStates> states;
+  const bool goes_on = by.innovations(extended(h), h.noise, {}, &states).has_value();
+  std::vector<std::vector<double>> all;
+  for (std::size_t recording = 0; recording < by.layout().recordings.size(); ++recording) {
+    const PreparedRecording& r = by.layout().recordings[recording];
+    const double Ts = r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
+    const double per_acceleration = inertia_on_worm(by, h, recording);
+    std::vector<double>& torque = all.emplace_back(r.samples(), 0.0);
+    for (std::size_t k = 0; goes_on && k < torque.size(); ++k) {
+      const std::size_t q = by.layout().leading(recording).begin + k;
+      const double limit = most_scales * h.noise_model.groups[by.layout().group[q]].scale;
+      const double e = std::clamp(h.innovations[q], -limit, limit);
+      torque[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
+    }
   }
   return all;
 }
@@ -36,9 +36,10 @@ std::vector<double> torques(const Evaluation& by, const Hypothesis& h, std::size
 ResidualTorque residual_torque(const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
   constexpr double mean_over = 0.025;  // [s]
   ResidualTorque map;
+  const std::vector<std::vector<double>> all_then = torques(by, before), all_now = torques(by, after);
   for (std::size_t r = 0; r < by.layout().recordings.size(); ++r) {
     const PreparedRecording& recording = by.layout().recordings[r];
-    const std::vector<double> then = torques(by, before, r), now = torques(by, after, r);
+    const std::vector<double>&then = all_then[r], &now = all_now[r];
     Scenario loaded = by.scenario();
     if (recording.data.load) loaded.load = *recording.data.load;
     const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(mean_over / recording.data.period)));
@@ -53,7 +54,7 @@ ResidualTorque residual_torque(const Evaluation& by, const Hypothesis& before, c
         }
         if (!whole) continue;
         const std::size_t middle = begin + bin / 2;
-        const double t = static_cast<double>(middle) * recording.data.period;
+        const double t = recording.data.time(middle);
         const double angle = recording.data.gear_angle[middle];
         auto load = drive.load();
         load.enter(t);

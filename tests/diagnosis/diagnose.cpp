@@ -146,7 +146,7 @@ TEST_CASE("recordings that cannot be diagnosed are refused") {
   REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "nothing moves in the recording");
   still.motor_torque.resize(300);
   still.gear_angle.resize(300);
-  REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "a diagnosis needs recordings of at least 2 s and 400 samples");
+  REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "a diagnosis needs recordings of at least 3 s and 1000 samples");
 }
 
 }  // namespace wormdrive::test::diagnosis_diagnose
