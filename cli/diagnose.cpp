@@ -10,11 +10,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/shell_words.hpp"
 #include "diagnosis/certificate.hpp"
 #include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "sweep/threads.hpp"
 
@@ -59,11 +61,11 @@ void print_ranking(const Diagnosis& d) {
 void print_gain(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction) {
     const bool torque = std::isnan(e.horizon);
-    print_item("gain",
-               fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} m{} (95 %: {:.3g} to {:.3g}){}",
-                           torque ? std::string("error of the torque") : fmt::format("error {:g} s ahead", e.horizon),
-                           1e3 * e.before, 1e3 * e.after, e.unit.symbol, 1e3 * e.after_low, 1e3 * e.after_high,
-                           std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
+    print_item("gain", fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} m{} (95 %: {:.3g} to {:.3g}){}",
+                                   torque ? "error of the " + in_words_of(d.extended.axis, "torque")
+                                          : fmt::format("error {:g} s ahead", e.horizon),
+                                   1e3 * e.before, 1e3 * e.after, e.unit.symbol, 1e3 * e.after_low, 1e3 * e.after_high,
+                                   std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
   }
 }
 
@@ -144,7 +146,8 @@ int diagnose_command(const DiagnoseOptions& options) {
                    [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk)
-    print_item("wrote", fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), folder.path()));
+    print_item("wrote",
+               fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), shell_path(folder.path())));
   return 0;
 }
 

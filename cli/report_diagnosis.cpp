@@ -115,9 +115,14 @@ void add_evidence(ReportPage& page, const json& findings) {
       });
   add(page, {"Constants that the data state", {{"constant"}}, {}}, findings.at("identified"),
       [](const json& c) { return std::vector<Cell>{estimate(c)}; });
-  add(page, {"What is left", {{"over"}, {"evidence [standard deviations]", true}, {"rms [N m]", true}}, {}},
-      findings.at("adequacy"), [](const json& r) {
-        return std::vector<Cell>{text(r.at("axis")), number(r.at("evidence")), number(r.at("torque_Nm"))};
+  const bool linear = findings.at("noise").contains("force_N");
+  add(page,
+      {"What is left",
+       {{"over"}, {"evidence [standard deviations]", true}, {linear ? "rms [N]" : "rms [N m]", true}},
+       {}},
+      findings.at("adequacy"), [&](const json& r) {
+        return std::vector<Cell>{text(r.at("axis")), number(r.at("evidence")),
+                                 number(r.at(linear ? "force_N" : "torque_Nm"))};
       });
   add(page,
       {"What these data can show",
@@ -146,16 +151,13 @@ bool rises(const std::vector<double>& time) {
 }
 
 std::vector<ReportPanel> residual_panels(const ResultFile& file, const std::vector<double>& over) {
-  const auto series = [&](const std::string& name, const std::string& meaning) {
+  const auto series = [&](const std::string& name) {
     const std::string at = "residual/" + name;
-    return ReportSeries{name, file.attribute(at, "units"), meaning.empty() ? file.attribute(at, "long_name") : meaning,
-                        file.column(at)};
+    return ReportSeries{name, file.attribute(at, "units"), file.attribute(at, "long_name"), file.column(at)};
   };
-  std::vector<ReportPanel> panels{{over,
-                                   {series("before", "torque that the stated model lacks"),
-                                    series("after", "torque that the extended model lacks")}}};
+  std::vector<ReportPanel> panels{{over, {series("before"), series("after")}}};
   for (const std::string name : {"gear_speed", "gear_angle", "load_torque"})
-    if (ReportSeries one = series(name, "");
+    if (ReportSeries one = series(name);
         std::any_of(one.values.begin(), one.values.end(), [](double x) { return !std::isnan(x); }))
       panels.push_back({over, {std::move(one)}});
   return panels;
@@ -173,13 +175,14 @@ std::vector<ReportBand> held_out_bands(const ResultFile& file, const std::vector
 }
 
 struct Predictions {
+  std::string units, what;
   std::vector<double> horizon, example, time, measured, before, after;
 };
 
 /// The error of predictions of one horizon over time, one stretch after the other with a gap between them.
 ReportPanel prediction_panel(const Predictions& p, double horizon) {
-  const std::string what = fmt::format("error of the angle predicted {:g} s ahead", horizon);
-  ReportPanel panel{{}, {{"before", "rad", what + ", stated model", {}}, {"after", "rad", "extended model", {}}}};
+  const std::string what = fmt::format("error of the {} predicted {:g} s ahead, stated model", p.what, horizon);
+  ReportPanel panel{{}, {{"before", p.units, what, {}}, {"after", p.units, "extended model", {}}}};
   std::map<double, double> start;  // of each stretch
   for (std::size_t k = 0; k < p.time.size(); ++k) start.try_emplace(p.example[k], p.time[k]);
   std::vector<std::size_t> rows;
@@ -200,8 +203,15 @@ ReportPanel prediction_panel(const Predictions& p, double horizon) {
 void add_predictions(const ResultFile& file, ReportGroup& group) {
   if (!file.has("examples")) return;
   const auto column = [&](const std::string& name) { return file.column("examples/" + name); };
-  const Predictions p{column("horizon"),  column("example"), column("time"),
-                      column("measured"), column("before"),  column("after")};
+  const std::string units = file.attribute("examples/measured", "units");
+  const Predictions p{units,
+                      units == "m" ? "position" : "angle",
+                      column("horizon"),
+                      column("example"),
+                      column("time"),
+                      column("measured"),
+                      column("before"),
+                      column("after")};
   for (const double horizon : std::set<double>(p.horizon.begin(), p.horizon.end())) {
     ReportPanel panel = prediction_panel(p, horizon);
     if (rises(panel.over)) group.panels.insert(group.panels.begin(), std::move(panel));
@@ -219,14 +229,22 @@ void add_torques(const ResultFile& file, ReportPage& page) {
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return over[a] < over[b]; });
   ReportPanel panel{{}, {}, ReportPanel::Style::points};
+  const auto described = [&](const std::string& name, const char* what) {
+    return file.attribute("torques/" + name, what);
+  };
   for (const std::string name : {"measured", "before", "after"}) {
-    ReportSeries series{name, "N m", "motor torque, " + name, {}};
+    ReportSeries series{name, described(name, "units"), described(name, "long_name"), {}};
     const std::vector<double> values = column(name);
     for (const std::size_t k : order) series.values.push_back(values[k]);
     panel.series.push_back(std::move(series));
   }
   for (const std::size_t k : order) panel.over.push_back(over[k]);
-  page.groups.push_back({"Torques", moves ? "worm speed" : "load torque", moves ? "rad/s" : "N m", {std::move(panel)}});
+  const std::string x = moves ? "worm_speed" : "load_torque";
+  const std::string meaning = described(x, "long_name");
+  page.groups.push_back({described("measured", "units") == "N" ? "Forces" : "Torques",
+                         meaning.substr(0, meaning.find(',')),
+                         described(x, "units"),
+                         {std::move(panel)}});
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ ReportPanel sorted(const ReportPanel& panel) {
 /// The torque of the model, with a gap at standstill, where it is an interval.
 ReportPanel curve(const ResultFile& file) {
   ReportPanel panel{file.column("model/worm_speed"),
-                    {column_of(file, "model/motor_torque", "motor torque of the model")}};
+                    {column_of(file, "model/motor_torque", file.attribute("model/motor_torque", "long_name"))}};
   panel.over.push_back(0.0);
   panel.series[0].values.push_back(NAN);
   return panel;
@@ -94,9 +94,10 @@ ReportTable record_table(const ResultFile& file) {
 
 ReportTable curve_table(const ReportPanel& curve, const std::string& speed_unit) {
   const ReportSeries& torque = curve.series.front();
+  const std::string motor = torque.units == "N" ? "motor force" : "motor torque";
   ReportTable table{
-      "Motor torque at constant speed",
-      {{fmt::format("speed [{}]", speed_unit), true}, {fmt::format("motor torque [{}]", torque.units), true}},
+      fmt::format("M{} at constant speed", motor.substr(1)),
+      {{fmt::format("speed [{}]", speed_unit), true}, {fmt::format("{} [{}]", motor, torque.units), true}},
       {}};
   for (const std::size_t k : even_rows(curve.over.size(), 11))
     if (!std::isnan(torque.values[k])) table.rows.push_back({curve.over[k], torque.values[k]});
@@ -114,8 +115,9 @@ ReportPage report_of_steady(const ResultFile& file) {
   if (!file.has("records")) {
     group.panels.push_back(sorted(curve(file)));
     page.tables.push_back(curve_table(group.panels.front(), group.units));
-    page.verdict =
-        "The motor torque that keeps the drive at a speed; at standstill friction takes any within an interval.";
+    page.verdict = fmt::format(
+        "The motor {} that keeps the drive at a speed; at standstill friction takes any within an interval.",
+        group.units == "m/s" ? "force" : "torque");
   } else {
     group.panels = {measured_and_model(file), difference(file)};
     page.tables.push_back(record_table(file));

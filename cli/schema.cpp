@@ -181,6 +181,17 @@ Json effects(Axis axis) {
   return all.json();
 }
 
+/// What the columns of recordings are called.
+Json recorded_names(Axis axis) {
+  Table table(axis, "what the columns of recordings are called, where they have other names than usual");
+  for (const RecordedColumn& column : recorded_columns) {
+    Json name = any_text("its column in the files");
+    name["minLength"] = 1;
+    table.with(spellings(column.name, column.unit, axis).front().key, name);
+  }
+  return table.json();
+}
+
 Json controller() {
   std::vector<Json> kinds;
   const Axis axis = Axis::rotary;
@@ -212,6 +223,8 @@ Json tables(Axis axis) {
                        .with("solver", choice({"cvode", "taylor"}, "taylor is fast and follows rigid teeth only"))
                        .with("method", choice({"bdf", "adams"}, "of cvode"))
                        .json());
+  root.with("tolerance", Table(axis, "how well stated numbers are known").fields<Tolerances>().json());
+  root.with("data", recorded_names(axis));
   if (axis == Axis::rotary) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));

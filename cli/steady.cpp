@@ -6,6 +6,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/shell_words.hpp"
+#include "diagnosis/recorded_table.hpp"
 #include "diagnosis/speed_torque_records.hpp"
 #include "output/table.hpp"
 #include "scenarios/faults.hpp"
@@ -31,10 +33,12 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-Comparison compare(const Scenario& scenario, std::vector<SpeedTorqueRecord> records) {
+Comparison compare(const Scenario& scenario, const std::string& data, std::vector<SpeedTorqueRecord> records) {
   Comparison comparison{std::move(records), {}, 0.0, 0.0};
   std::vector<double> errors, torques;
   for (const SpeedTorqueRecord& record : comparison.records) {
+    if (record.worm_speed == 0.0)
+      refuse({data}, fmt::format("record {} stands still; its torque is that of no motion", record.name));
     comparison.model.push_back(steady_torque(scenario, record.worm_speed));
     errors.push_back(record.motor_torque - comparison.model.back());
     torques.push_back(record.motor_torque);
@@ -64,9 +68,10 @@ void write(const std::string& output, const Scenario& scenario, const Curve& cur
            const std::optional<Comparison>& comparison, const ScenarioOptions& options) {
   PartFile file(output);
   write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
-  GrowingTable(file.file(), "model",
-               {{"worm_speed", units_on(scenario.axis, "rad/s"), "worm speed"},
-                {"motor_torque", units_on(scenario.axis, "N m"), "motor torque of the model"}})
+  GrowingTable(
+      file.file(), "model",
+      {{"worm_speed", units_on(scenario.axis, "rad/s"), in_words_of(scenario.axis, "worm speed")},
+       {"motor_torque", units_on(scenario.axis, "N m"), in_words_of(scenario.axis, "motor torque of the model")}})
       .append({curve.speed, curve.torque});
   if (comparison) {
     write_attribute(file.file(), "rms_error", comparison->rms_error);
@@ -129,13 +134,13 @@ void print_curve(const Curve& curve, Axis axis) {
     fmt::print("  {:>20.6g} {:>20.6g}\n", curve.speed[k], curve.torque[k]);
 }
 
-void print_comparison(const Comparison& comparison, const std::string& data) {
+void print_comparison(const Comparison& comparison, const std::string& data, const std::string& torque) {
   for (const SpeedTorqueRecord& record : comparison.records)
     for (const ImplausibleSample& s : record.left_out)
       print_item("left out",
-                 fmt::format("{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations "
+                 fmt::format("{}:{}: record {}: {} = {:g} is {:.0f} robust standard deviations "
                              "from its record's median (limit {:.0f})",
-                             data, s.line, record.name, s.torque, s.deviations, implausible_deviations));
+                             data, s.line, record.name, torque, s.torque, s.deviations, implausible_deviations));
   print_item("compared",
              fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m", 1e3 * comparison.rms_error,
                          comparison.records.size(), 1e3 * comparison.rms_torque));
@@ -149,7 +154,8 @@ int steady_command(const SteadyOptions& options) {
   if (scenario.axis == Axis::linear && !options.data.empty())
     refuse({options.data}, "records are torques over worm speeds; mesh.axis = \"linear\" has none");
   std::optional<Comparison> comparison;
-  if (!options.data.empty()) comparison = compare(scenario, read_speed_torque_records(options.data));
+  if (!options.data.empty())
+    comparison = compare(scenario, options.data, read_speed_torque_records(options.data, scenario));
   double max_speed = 100.0;
   if (comparison) {
     max_speed = 0.0;
@@ -170,11 +176,11 @@ int steady_command(const SteadyOptions& options) {
   if (scenario.axis == Axis::rotary)
     print_item("load", fmt::format("{:g} N m, that of the initial angle at time 0", rest_at_start(scenario).load));
   if (comparison)
-    print_comparison(*comparison, options.data);
+    print_comparison(*comparison, options.data, recorded_name("motor_torque", scenario));
   else
     print_curve(curve, scenario.axis);
   if (!options.output.empty())
-    print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
+    print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
 }
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/steady.hpp"
+#include "diagnosis/recorded_table.hpp"
 #include "diagnosis/student_t.hpp"
 #include "scenarios/build.hpp"
-#include "scenarios/csv.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
@@ -74,8 +74,8 @@ Estimate slope(const std::string& name, const std::vector<double>& load, const s
 
 std::vector<BreakIn> read_break_in_table(const std::string& path, const Scenario& scenario) {
   const Csv csv = read_csv(path);
-  const std::vector<double> load = csv.numbers(column_name(scenario.columns, "load_torque_Nm"));
-  const std::vector<double> motor = csv.numbers(column_name(scenario.columns, "motor_torque_Nm"));
+  const std::vector<double> load = recorded_values(csv, "load_torque", scenario, true).values,
+                            motor = recorded_values(csv, "motor_torque", scenario, true).values;
   if (load.size() < fewest)
     refuse({path}, fmt::format("{} break-in torques; at least {} are needed, in both directions", load.size(), fewest));
   std::vector<BreakIn> table;

@@ -11,10 +11,13 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/point_diagnosis.hpp"
 #include "diagnosis/read_recording.hpp"
+#include "diagnosis/recorded_table.hpp"
 #include "diagnosis/steady_points.hpp"
 #include "output/hdf5.hpp"
 #include "scenarios/csv.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
+#include "scenarios/refusal.hpp"
 
 namespace wormdrive {
 namespace {
@@ -22,24 +25,26 @@ namespace {
 DataKind kind_of(const std::string& file, const Scenario& scenario) {
   if (is_hdf5(file)) return DataKind::recording;
   const std::vector<std::string> names = read_csv(file).names;
-  const auto has = [&](std::string_view usual) {
-    return std::find(names.begin(), names.end(), column_name(scenario.columns, usual)) != names.end();
+  const auto called = [&](std::string_view name) { return recorded_name(name, scenario); };
+  const auto has = [&](std::string_view name) {
+    return std::find(names.begin(), names.end(), called(name)) != names.end();
   };
-  if (has("record") && has("worm_speed_rad_per_s")) return DataKind::speed_torque_records;
-  if (has("time_s")) return DataKind::recording;
-  if (has("load_torque_Nm") && has("motor_torque_Nm")) return DataKind::break_in_table;
+  if (has("record") && has("worm_speed")) return DataKind::speed_torque_records;
+  if (has("time")) return DataKind::recording;
+  if (has("load_torque") && has("motor_torque")) return DataKind::break_in_table;
+  const std::string torque = called("motor_torque");
   refuse({file, 1},
-         fmt::format("the columns {} make neither a recording (time_s, motor_torque_Nm, gear_angle_rad) nor records at "
-                     "constant speed (record, worm_speed_rad_per_s, motor_torque_Nm) nor a break-in table "
-                     "(load_torque_Nm, motor_torque_Nm); [data] in the scenario tells other names",
-                     fmt::join(names, ", ")));
+         fmt::format("the columns {} make neither a recording ({}, {}, {}) nor records at constant speed ({}, {}, {}) "
+                     "nor a break-in table ({}, {}); [data] in the scenario tells other names",
+                     fmt::join(names, ", "), called("time"), torque, called("gear_angle"), called("record"),
+                     called("worm_speed"), torque, called("load_torque"), torque));
 }
 
-std::string left_out(const std::string& file, const SpeedTorqueRecord& record, const ImplausibleSample& sample) {
+std::string left_out(const std::string& file, const SpeedTorqueRecord& record, const ImplausibleSample& sample,
+                     const Scenario& scenario) {
   return fmt::format(
-      "{}:{}: record {}: motor_torque_Nm = {:g} is {:.0f} robust standard deviations from its record's median; left "
-      "out",
-      file, sample.line, record.name, sample.torque, sample.deviations);
+      "{}:{}: record {}: {} = {:g} is {:.0f} robust standard deviations from its record's median; left out", file,
+      sample.line, record.name, recorded_name("motor_torque", scenario), sample.torque, sample.deviations);
 }
 
 Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& files,
@@ -47,10 +52,12 @@ Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& f
   std::vector<SpeedTorqueRecord> records;
   std::vector<std::string> remarks;
   for (const std::string& file : files)
-    for (const SpeedTorqueRecord& record : read_speed_torque_records(file)) {
-      for (const ImplausibleSample& sample : record.left_out) remarks.push_back(left_out(file, record, sample));
+    for (const SpeedTorqueRecord& record : read_speed_torque_records(file, scenario)) {
+      for (const ImplausibleSample& sample : record.left_out)
+        remarks.push_back(left_out(file, record, sample, scenario));
       if (record.worm_speed == 0.0)
-        refuse({file}, fmt::format("record {} stands still; its torque is that of no motion", record.name));
+        refuse({file}, fmt::format("record {} stands still; its {} is that of no motion", record.name,
+                                   in_words_of(scenario.axis, "torque")));
       records.push_back(record);
     }
   std::sort(records.begin(), records.end(), [](const SpeedTorqueRecord& a, const SpeedTorqueRecord& b) {
@@ -85,6 +92,24 @@ Diagnosis of_break_ins(const Scenario& scenario, const std::vector<std::string>&
   return diagnosis;
 }
 
+Diagnosis of_recordings(const Scenario& scenario, const std::vector<std::string>& files,
+                        const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads) {
+  std::vector<Recording> recordings;
+  std::vector<std::string> remarks;
+  for (const std::string& file : files) {
+    recordings.push_back(read_recording(file, scenario));
+    if (const auto load = loads.find(file); load != loads.end()) recordings.back().load = load->second;
+    for (const std::string& remark : recordings.back().remarks) remarks.push_back(file + ": " + remark);
+  }
+  try {
+    Diagnosis diagnosis = diagnose(scenario, recordings, settings);
+    diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks.begin(), remarks.end());
+    return diagnosis;
+  } catch (const std::invalid_argument& fault) {
+    refuse({files.front()}, fault.what());
+  }
+}
+
 }  // namespace
 
 std::string name(DataKind kind) {
@@ -107,25 +132,17 @@ DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& sce
 
 Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
                          const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads) {
-  switch (kind) {
-    case DataKind::speed_torque_records: return of_records(scenario, files, settings);
-    case DataKind::break_in_table: return of_break_ins(scenario, files, settings);
-    case DataKind::recording: break;
-  }
-  std::vector<Recording> recordings;
-  std::vector<std::string> remarks;
-  for (const std::string& file : files) {
-    recordings.push_back(read_recording(file, scenario));
-    if (const auto load = loads.find(file); load != loads.end()) recordings.back().load = load->second;
-    for (const std::string& remark : recordings.back().remarks) remarks.push_back(file + ": " + remark);
-  }
-  try {
-    Diagnosis diagnosis = diagnose(scenario, recordings, settings);
-    diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks.begin(), remarks.end());
-    return diagnosis;
-  } catch (const std::invalid_argument& fault) {
-    refuse({files.front()}, fault.what());
-  }
+  Diagnosis diagnosis = [&] {
+    switch (kind) {
+      case DataKind::speed_torque_records: return of_records(scenario, files, settings);
+      case DataKind::break_in_table: return of_break_ins(scenario, files, settings);
+      case DataKind::recording: return of_recordings(scenario, files, settings, loads);
+    }
+    return Diagnosis{};
+  }();
+  if (const auto why = why_the_drive_cannot_run(diagnosis.extended))
+    diagnosis.remarks.push_back("the extended scenario cannot be run: " + *why);
+  return diagnosis;
 }
 
 }  // namespace wormdrive

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "output/table.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -24,30 +24,30 @@ ColumnDescription flag(const std::string& name, const std::string& long_name) {
   return {name, "", long_name, "no yes", {0, 1}};
 }
 
-void write_residual(hid_t file, const ResidualTorque& r) {
+void write_residual(hid_t file, const ResidualTorque& r, Axis axis) {
   const std::size_t rows = r.after.size();
   GrowingTable(file, "residual",
-               {{"time", "s", "time, of recordings one after another"},
-                {"gear_angle", "rad", "gear angle"},
-                {"gear_speed", "rad/s", "gear speed"},
-                {"load_torque", "N m", "load torque"},
-                {"worm_phase", "rad", "angle of the worm within its turn"},
-                {"before", "N m", "torque that the scenario lacks"},
-                {"after", "N m", "torque that the extended scenario lacks"},
-                flag("held_out", "not used for the fit")})
+               on_axis(axis, {{"time", "s", "time, of recordings one after another"},
+                              {"gear_angle", "rad", "gear angle"},
+                              {"gear_speed", "rad/s", "gear speed"},
+                              {"load_torque", "N m", "load torque"},
+                              {"worm_phase", "rad", "angle of the worm within its turn"},
+                              {"before", "N m", "torque that the scenario lacks"},
+                              {"after", "N m", "torque that the extended scenario lacks"},
+                              flag("held_out", "not used for the fit")}))
       .append({filled(r.time, rows), filled(r.gear_angle, rows), filled(r.gear_speed, rows),
                filled(r.load_torque, rows), filled(r.worm_phase, rows), filled(r.before, rows), r.after,
                filled(as_doubles(r.held_out), rows)});
 }
 
-void write_examples(hid_t file, const std::vector<PredictionExample>& examples) {
+void write_examples(hid_t file, const std::vector<PredictionExample>& examples, Axis axis) {
   GrowingTable table(file, "examples",
-                     {{"time", "s", "time"},
-                      {"example", "1", "number of the stretch"},
-                      {"horizon", "s", "how far it is predicted ahead"},
-                      {"measured", "rad", "gear angle as measured"},
-                      {"before", "rad", "gear angle as the scenario predicts it"},
-                      {"after", "rad", "gear angle as the extended scenario predicts it"}});
+                     on_axis(axis, {{"time", "s", "time"},
+                                    {"example", "1", "number of the stretch"},
+                                    {"horizon", "s", "how far it is predicted ahead"},
+                                    {"measured", "rad", "gear angle as measured"},
+                                    {"before", "rad", "gear angle as the scenario predicts it"},
+                                    {"after", "rad", "gear angle as the extended scenario predicts it"}}));
   for (std::size_t k = 0; k < examples.size(); ++k) {
     const PredictionExample& e = examples[k];
     const std::size_t rows = e.time.size();
@@ -56,13 +56,14 @@ void write_examples(hid_t file, const std::vector<PredictionExample>& examples) 
   }
 }
 
-void write_torques(hid_t file, const PredictedTorques& t) {
-  GrowingTable table(file, "torques",
-                     {{"worm_speed", "rad/s", "worm speed, 0 at break-in"},
-                      {"load_torque", "N m", "load torque"},
-                      {"measured", "N m", "motor torque as measured"},
-                      {"before", "N m", "motor torque as the scenario predicts it"},
-                      {"after", "N m", "motor torque as the extended scenario predicts it by a fit without it"}});
+void write_torques(hid_t file, const PredictedTorques& t, Axis axis) {
+  GrowingTable table(
+      file, "torques",
+      on_axis(axis, {{"worm_speed", "rad/s", "worm speed, 0 at break-in"},
+                     {"load_torque", "N m", "load torque"},
+                     {"measured", "N m", "motor torque as measured"},
+                     {"before", "N m", "motor torque as the scenario predicts it"},
+                     {"after", "N m", "motor torque as the extended scenario predicts it by a fit without it"}}));
   table.append({t.worm_speed, t.load_torque, t.measured, t.before, t.after});
   write_texts(table.group(), "point", "name of the record or direction of the break-in", t.names);
 }
@@ -133,13 +134,21 @@ void write_certificate(hid_t file, const std::vector<Visibility>& certificate) {
 
 }  // namespace
 
+std::vector<ColumnDescription> on_axis(Axis axis, std::vector<ColumnDescription> columns) {
+  for (ColumnDescription& column : columns) {
+    column.units = units_on(axis, column.units);
+    column.long_name = in_words_of(axis, column.long_name);
+  }
+  return columns;
+}
+
 void write_diagnosis(const std::string& path, const Diagnosis& diagnosis, const Provenance& provenance) {
   PartFile file(path);
   write_provenance(file.file(), provenance);
   write_attribute(file.file(), "sentence", diagnosis.sentence);
-  write_residual(file.file(), diagnosis.residual);
-  write_examples(file.file(), diagnosis.examples);
-  write_torques(file.file(), diagnosis.torques);
+  write_residual(file.file(), diagnosis.residual, diagnosis.extended.axis);
+  write_examples(file.file(), diagnosis.examples, diagnosis.extended.axis);
+  write_torques(file.file(), diagnosis.torques, diagnosis.extended.axis);
   write_prediction(file.file(), diagnosis.prediction);
   write_ranking(file.file(), diagnosis.ranking);
   write_certificate(file.file(), diagnosis.certificate);

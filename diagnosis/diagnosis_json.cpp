@@ -6,6 +6,7 @@
 
 #include "diagnosis/certificate.hpp"
 #include "output/part_file.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -57,9 +58,17 @@ json as_json(const Visibility& v) {
           {"likeness", number(v.likeness)}};
 }
 
-json as_json(const Remainder& r) {
-  return {
-      {"axis", r.axis}, {"evidence", number(r.evidence)}, {"torque_Nm", number(r.torque)}, {"gain", number(r.gain)}};
+/// A key with its unit as it is on an axis: "torque_Nm" or "force_N".
+std::string key(std::string_view name, const Unit& unit, Axis axis) { return spellings(name, unit, axis).front().key; }
+
+json remainders(const Diagnosis& d) {
+  json all = json::array();
+  for (const Remainder& r : d.remainders)
+    all.push_back({{"axis", r.axis},
+                   {"evidence", number(r.evidence)},
+                   {key("torque", unit::newton_metre, d.extended.axis), number(r.torque)},
+                   {"gain", number(r.gain)}});
+  return all;
 }
 
 template <class List>
@@ -93,8 +102,10 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
           {"identified", list_of(d.identified)},
           {"certificate", list_of(d.certificate)},
           {"unobservable", unobservable(d.certificate)},
-          {"adequacy", list_of(d.remainders)},
-          {"noise", {{"torque_Nm", number(d.noise_torque)}, {"angle_rad", number(d.noise_angle)}}},
+          {"adequacy", remainders(d)},
+          {"noise",
+           {{key("torque", unit::newton_metre, d.extended.axis), number(d.noise_torque)},
+            {key("angle", unit::radian, d.extended.axis), number(d.noise_angle)}}},
           {"experiment", d.experiment ? json(d.experiment_reason) : json(nullptr)},
           {"remarks", d.remarks},
           {"settings", {{"seed", d.seed}, {"passes", d.passes}}},

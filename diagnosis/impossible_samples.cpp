@@ -79,12 +79,12 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
       const double before = from < look ? 0.0 : speed(from - look, from - 1);
       const double after = to + look > y.size() ? 0.0 : speed(to, to + look - 1);
       if (std::max(before, after) > sudden)
-        refuse(table.where(from),
-               fmt::format(
-                   "{} stands at {:.6g} from {:.4g} s to {:.4g} s and moves at {:.2g} rad/s just {}: the encoder {}",
-                   angle.name, angle.in_file(y[from]), table.time.values[from], table.time.values[to - 1],
-                   std::max(before, after), before > after ? "before" : "after",
-                   y[from] == *low || y[from] == *high ? "is at the end of its range" : "was stuck"));
+        refuse(
+            table.where(from),
+            fmt::format("{} stands at {:.6g} from {:.4g} s to {:.4g} s and moves at {:.2g} {} just {}: the encoder {}",
+                        angle.name, angle.in_file(y[from]), table.time.values[from], table.time.values[to - 1],
+                        std::max(before, after), units_on(table.axis, "rad/s"), before > after ? "before" : "after",
+                        y[from] == *low || y[from] == *high ? "is at the end of its range" : "was stuck"));
     }
     from = to;
   }

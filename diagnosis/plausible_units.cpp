@@ -12,6 +12,7 @@
 #include "diagnosis/impossible_samples.hpp"
 #include "diagnosis/needed_torque.hpp"
 #include "diagnosis/robust.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -78,10 +79,12 @@ struct Reading {
 std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenario) {
   const Values &u = table.torque.values, &y = table.angle.values;
   const std::string &torque = table.torque.name, &angle = table.angle.name;
-  std::vector<Reading> all{{fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u},
-                           {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y},
-                           {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0)},
-                           {fmt::format("{} fits the drive when it is read in mN m", torque), times(u, 1e-3), y}};
+  std::vector<Reading> all{
+      {fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u},
+      {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y},
+      {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0)},
+      {fmt::format("{} fits the drive when it is read in m{}", torque, units_on(scenario.axis, "N m")), times(u, 1e-3),
+       y}};
   if (scenario.axis == Axis::linear) return all;
   constexpr double pi = std::numbers::pi;
   all.push_back({fmt::format("{} fits the drive when it is read in degrees", angle), u, times(y, pi / 180.0)});
@@ -127,13 +130,16 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
 }  // namespace
 
 void refuse_implausible_units(const RecordedTable& table, double period, const Scenario& scenario) {
-  refuse_rest(table, table.torque, "a torque that never changes shows nothing of the drive");
-  refuse_rest(table, table.angle, "the gear never moved, or its encoder was stuck");
+  refuse_rest(table, table.torque,
+              in_words_of(scenario.axis, "a torque that never changes shows nothing of the drive"));
+  refuse_rest(table, table.angle,
+              scenario.axis == Axis::linear ? "nothing ever moved, or its encoder was stuck"
+                                            : "the gear never moved, or its encoder was stuck");
   const double step = resolution(table.angle.values);
   if (span(table.angle.values) < 20.0 * step)
     refuse(table.where(),
-           fmt::format("{} moves by {:.3g} rad, less than 20 steps of its encoder: too little to learn from",
-                       table.angle.name, span(table.angle.values)));
+           fmt::format("{} moves by {:.3g} {}, less than 20 steps of its encoder: too little to learn from",
+                       table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
   refuse_other_speed(table, period, scenario);
   const Judge judge(scenario, table.time.values.front(), period);
   const Fit as_is = judge.fit(table.torque.values, table.angle.values);
@@ -144,9 +150,10 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
     if (!best || missed < best->first) best = {missed, reading.says};
   }
   if (best && best->first < 0.35 && best->first < 0.5 * as_is.missed)
-    refuse(table.where(),
-           fmt::format("{}, not as it stands ({:.0f} % of the torque unaccounted for, {:.0f} % as it stands)",
-                       best->second, 100.0 * best->first, 100.0 * std::min(as_is.missed, 99.0)));
+    refuse(
+        table.where(),
+        fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->second,
+                    100.0 * best->first, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is.missed, 99.0)));
 }
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {

@@ -12,6 +12,8 @@
 #include "control/random.hpp"
 #include "diagnosis/point_report.hpp"
 #include "diagnosis/student_t.hpp"
+#include "diagnosis/units_on_axis.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -72,7 +74,7 @@ std::vector<double> held_out_torques(const PointFitter& fitter, const FittedMode
   return torques;
 }
 
-PredictionError prediction_error(const PredictedTorques& torques, std::uint64_t seed) {
+PredictionError prediction_error(const PredictedTorques& torques, Axis axis, std::uint64_t seed) {
   const auto squares = [&](const std::vector<double>& predicted) {
     std::vector<double> list;
     for (std::size_t k = 0; k < predicted.size(); ++k) list.push_back(std::pow(torques.measured[k] - predicted[k], 2));
@@ -83,7 +85,7 @@ PredictionError prediction_error(const PredictedTorques& torques, std::uint64_t 
   };
   PredictionError error;
   error.horizon = error.floor = std::numeric_limits<double>::quiet_NaN();
-  error.unit = unit::newton_metre;
+  error.unit = spellings("torque", unit::newton_metre, axis).front().unit;
   error.before = rms(squares(torques.before));
   const std::vector<double> after = squares(torques.after);
   error.after = rms(after);
@@ -132,7 +134,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
                points.torque,
                held_out_torques(fitter, found.before),
                held_out_torques(fitter, found.after)};
-  d.prediction = {prediction_error(d.torques, settings.seed)};
+  d.prediction = {prediction_error(d.torques, scenario.axis, settings.seed)};
   for (std::size_t k = 0; k < points.size(); ++k) {
     d.residual.before.push_back(points.torque[k] - d.torques.before[k]);
     d.residual.after.push_back(points.torque[k] - d.torques.after[k]);
@@ -145,6 +147,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   d.remainders = point_remainders(points, d.residual.after);
   d.extended = scenario;
   d.noise_torque = found.after.all.scale * *std::max_element(points.deviation.begin(), points.deviation.end());
+  put_units_on_axis(d, scenario.axis);
   judge_points(d, found, candidates);
   if (!d.causes.empty()) d.extended.effects = fitter.with(found.after.model, found.after.all.values);
   if (more && !d.equivalents.empty()) propose_other_load(d, scenario, *more, candidates, found);

@@ -145,12 +145,12 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     for (const std::size_t k : members) d.equivalents.emplace_back(candidates[k].effect);
   const PredictionError& error = d.prediction.front();
   const std::string gain =
-      fmt::format(" The error of torques that a fit has not seen falls from {:.3g} to {:.3g} mN m.", 1e3 * error.before,
-                  1e3 * error.after);
-  const std::string left = d.remainders.empty()
-                               ? ""
-                               : fmt::format(" {:.2g} mN m rms over the {} remain unexplained.",
-                                             1e3 * d.remainders.front().torque, d.remainders.front().axis);
+      fmt::format(" The error of {}s that a fit has not seen falls from {:.3g} to {:.3g} m{}.",
+                  in_words_of(d.extended.axis, "torque"), 1e3 * error.before, 1e3 * error.after, error.unit.symbol);
+  const std::string left = d.remainders.empty() ? ""
+                                                : fmt::format(" {:.2g} m{} rms over the {} remain unexplained.",
+                                                              1e3 * d.remainders.front().torque, error.unit.symbol,
+                                                              d.remainders.front().axis);
   if (d.causes.empty()) {
     d.verdict = d.remainders.empty() ? Verdict::adequate : Verdict::unexplained;
     d.sentence = d.remainders.empty() ? "The simulation has all that these data show."
@@ -171,7 +171,7 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
   std::vector<std::string> names, classed;
   for (const EstimatedEffect& cause : d.causes) {
     const bool member = std::find(d.equivalents.begin(), d.equivalents.end(), cause.effect) != d.equivalents.end();
-    (member ? classed : names).push_back(phrase(cause));
+    (member ? classed : names).push_back(phrase(cause, d.extended.axis));
   }
   d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
   if (classed.size() == 1) names.push_back(classed.front());
@@ -201,10 +201,10 @@ void propose_other_load(Diagnosis& d, const Scenario& scenario, const TorquePoin
   d.experiment->load = Signal{{Constant{more.load_torque.back()}}};
   d.experiment->title = scenario.title + ", another load to tell effects apart";
   d.experiment_reason = fmt::format(
-      "Record the same points under a load of {:.3g} N m as well, and diagnose both together: friction of the teeth "
+      "Record the same points under a load of {:.3g} {} as well, and diagnose both together: friction of the teeth "
       "grows with the load, bearing friction does not (the likest two of the class share {:.1f} % of their signature "
       "now, {:.1f} % then).",
-      more.load_torque.back(), 100.0 * before, 100.0 * after);
+      more.load_torque.back(), d.prediction.front().unit.symbol, 100.0 * before, 100.0 * after);
 }
 
 }  // namespace wormdrive

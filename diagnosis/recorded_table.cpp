@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "output/hdf5.hpp"
-#include "scenarios/csv.hpp"
 #include "scenarios/keys.hpp"
 
 namespace wormdrive {
@@ -31,36 +30,19 @@ std::string missing(const std::string& sought, const std::string& usual, const C
   return text + fmt::format("; [data] {} = \"{}\" in the scenario would say which it is", usual, meant);
 }
 
-RecordedValues csv_column(const Csv& csv, std::string_view name, const Scenario& scenario, bool required) {
-  const std::vector<Spelling> known = column_spellings(name, scenario);
-  const std::string usual = known.front().key;
-  const std::string sought = column_name(scenario.columns, usual);
-  const auto has = [&](const std::string& column) {
-    return std::find(csv.names.begin(), csv.names.end(), column) != csv.names.end();
-  };
-  RecordedValues column{sought, known.front().unit.si, {}};
-  if (sought == usual)
-    for (const Spelling& spelling : known)
-      if (!has(column.name) && has(spelling.key)) column = {spelling.key, spelling.unit.si, {}};
-  if (!has(column.name)) {
-    if (required || sought != usual) refuse({csv.path, 1}, missing(sought, usual, csv));
-    return column;
-  }
-  column.values = csv.numbers(column.name);
-  for (double& value : column.values) value *= column.unit;
-  return column;
-}
-
 RecordedTable from_csv(const std::string& path, const Scenario& scenario) {
   const Csv csv = read_csv(path);
-  const auto column = [&](std::string_view name, bool required) { return csv_column(csv, name, scenario, required); };
+  const auto column = [&](std::string_view name, bool required) {
+    return recorded_values(csv, name, scenario, required);
+  };
   return {path,
           true,
           column("time", true),
           column("motor_torque", true),
           column("gear_angle", true),
           column("worm_angle", false),
-          column("gear_speed", false)};
+          column("gear_speed", false),
+          scenario.axis};
 }
 
 /// The rows of a run without a controller that lie on the even grid of its report interval; of the two rows of an event
@@ -88,7 +70,7 @@ void keep_even_rows(RecordedTable& table) {
   }
 }
 
-RecordedTable from_run(const std::string& path) {
+RecordedTable from_run(const std::string& path, Axis axis) {
   const Hdf5Handle file = open_hdf5(path);
   const auto has = [&](const char* name) { return H5Lexists(file, name, H5P_DEFAULT) > 0; };
   const auto column = [&](const std::string& name) { return RecordedValues{name, 1.0, read_column(file, name)}; };
@@ -96,6 +78,7 @@ RecordedTable from_run(const std::string& path) {
   RecordedTable table;
   table.path = path;
   table.has_lines = false;
+  table.axis = axis;
   if (has("/controller")) {
     table.time = column("/controller/time");
     table.torque = column("/controller/torque");
@@ -112,6 +95,30 @@ RecordedTable from_run(const std::string& path) {
 
 }  // namespace
 
+std::string recorded_name(std::string_view name, const Scenario& scenario) {
+  return column_name(scenario.columns, column_spellings(name, scenario).front().key);
+}
+
+RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scenario& scenario, bool required) {
+  const std::vector<Spelling> known = column_spellings(name, scenario);
+  const std::string usual = known.front().key;
+  const std::string sought = recorded_name(name, scenario);
+  const auto has = [&](const std::string& column) {
+    return std::find(csv.names.begin(), csv.names.end(), column) != csv.names.end();
+  };
+  RecordedValues column{sought, known.front().unit.si, {}};
+  if (sought == usual)
+    for (const Spelling& spelling : known)
+      if (!has(column.name) && has(spelling.key)) column = {spelling.key, spelling.unit.si, {}};
+  if (!has(column.name)) {
+    if (required || sought != usual) refuse({csv.path, 1}, missing(sought, usual, csv));
+    return column;
+  }
+  column.values = csv.numbers(column.name);
+  for (double& value : column.values) value *= column.unit;
+  return column;
+}
+
 Location RecordedTable::where(std::size_t sample) const {
   return {path, has_lines ? static_cast<std::uint32_t>(sample + 2) : 0};
 }
@@ -119,7 +126,7 @@ Location RecordedTable::where(std::size_t sample) const {
 RecordedTable read_recorded_table(const std::string& path, const Scenario& scenario) {
   if (!is_hdf5(path)) return from_csv(path, scenario);
   try {
-    return from_run(path);
+    return from_run(path, scenario.axis);
   } catch (const OutputFault& fault) {
     refuse({path}, fault.what());
   }

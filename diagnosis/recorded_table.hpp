@@ -1,7 +1,9 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "scenarios/csv.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -17,12 +19,20 @@ struct RecordedValues {
   double in_file(double si) const { return si / unit; }
 };
 
+/// What a column of measured data is called in the files of a scenario, "motor_torque_Nm" if it says nothing else.
+std::string recorded_name(std::string_view name, const Scenario& scenario);
+
+/// A column of measured data in SI, by its name without the unit; empty where it may be absent and is. Throws
+/// InputFault.
+RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scenario& scenario, bool required);
+
 /// The columns of a recording, each as long as the time's.
 struct RecordedTable {
   std::string path;
   bool has_lines = true;  ///< a CSV file, sample k stands in line k + 2
   RecordedValues time, torque, angle;
   RecordedValues worm_angle, speed;  ///< may be empty
+  Axis axis = Axis::rotary;
 
   Location where(std::size_t sample) const;
   Location where() const { return {path}; }

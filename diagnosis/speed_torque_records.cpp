@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/recorded_table.hpp"
 #include "diagnosis/robust.hpp"
-#include "scenarios/csv.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
@@ -49,10 +49,11 @@ SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& 
 
 }  // namespace
 
-std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path) {
+std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario) {
   const Csv csv = read_csv(path);
-  const std::vector<std::string>& names = csv.texts("record");
-  const std::vector<double> speeds = csv.numbers("worm_speed_rad_per_s"), torques = csv.numbers("motor_torque_Nm");
+  const std::vector<std::string>& names = csv.texts(recorded_name("record", scenario));
+  const std::vector<double> speeds = recorded_values(csv, "worm_speed", scenario, true).values,
+                            torques = recorded_values(csv, "motor_torque", scenario, true).values;
   if (names.empty()) refuse({path}, "there are no samples below the header line");
   std::vector<std::string> order;
   for (const std::string& name : names)

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scenario.hpp"
+
 namespace wormdrive {
 
 /// A sample that no measurement can have given, with its distance from the record's median in robust standard
@@ -24,8 +26,8 @@ struct SpeedTorqueRecord {
 /// Robust standard deviations (1.4826 MAD) beyond which a sample is left out.
 inline constexpr double implausible_deviations = 20.0;
 
-/// Reads a CSV with the columns record, worm_speed_rad_per_s and motor_torque_Nm; records in the order of the file.
-/// Throws InputFault for a file that cannot be read so.
-std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path);
+/// Reads a CSV with the columns record, worm_speed_rad_per_s and motor_torque_Nm, or what the scenario calls them;
+/// records in the order of the file. Throws InputFault for a file that cannot be read so.
+std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario = {});
 
 }  // namespace wormdrive

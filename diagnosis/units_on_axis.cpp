@@ -14,6 +14,8 @@ void put_units_on_axis(Diagnosis& d, Axis axis) {
   for (EstimatedEffect& moved : d.calibration) convert_all(moved);
   for (Candidate& candidate : d.ranking) convert_all(candidate.effect);
   for (Visibility& v : d.certificate) convert(v.field, v.unit);
+  for (Remainder& r : d.remainders)
+    if (const std::size_t at = r.axis.find("angle"); at != std::string::npos) r.axis.replace(at, 5, "position");
 }
 
 }  // namespace wormdrive

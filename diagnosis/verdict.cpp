@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/prediction_error.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 
@@ -72,11 +73,11 @@ bool bounces(const Diagnosis& d) {
   return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
 }
 
-std::string phrase(const EstimatedEffect& effect) {
+std::string phrase(const EstimatedEffect& effect, Axis axis) {
   std::string text = in_words(effect.effect) + ":";
   for (const Estimate& p : effect.parameters) {
     if (&p != &effect.parameters.front()) text += ",";
-    text += fmt::format(" {} {:.4g}", in_words(p.field), p.value / p.unit.si);
+    text += fmt::format(" {} {:.4g}", in_words_of(axis, in_words(p.field)), p.value / p.unit.si);
     if (p.standard_error > 0.0) text += fmt::format(" +- {:.2g}", p.standard_error / p.unit.si);
     if (!p.unit.suffix.empty()) text += fmt::format(" {}", p.unit.symbol);
   }
@@ -138,7 +139,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Suspect>&
   }
 
   std::vector<std::string> phrases;
-  for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause));
+  for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause, d.extended.axis));
   d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
   d.sentence = (d.remainders.empty() ? "What the simulation lacks is " : "What the simulation lacks is in part ") +
                joined(phrases, "and") + ".";

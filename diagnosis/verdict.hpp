@@ -16,6 +16,6 @@ const PredictionError* told(const Diagnosis& diagnosis);
 bool bounces(const Diagnosis& diagnosis);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
-std::string phrase(const EstimatedEffect& effect);
+std::string phrase(const EstimatedEffect& effect, Axis axis);
 
 }  // namespace wormdrive

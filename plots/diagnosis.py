@@ -5,7 +5,7 @@ import textwrap
 import numpy as np
 
 import style
-from result import attribute, columns, dataset, group, text
+from result import attribute, columns, dataset, group, text, units
 
 BEFORE, AFTER = style.VERMILLION, style.BLUE
 MOST_EXAMPLES = 9  # stretches that fit into one picture
@@ -52,10 +52,11 @@ def rms(values):
 def draw_torques(result, table):
     """Returns measured and predicted torques over speed or load, and the errors below."""
     speed, load, measured, before, after = columns(table, "worm_speed", "load_torque", "measured", "before", "after")
-    moving = np.any(speed != 0.0)
-    x, label = (speed, "worm speed [rad/s]") if moving else (load, "load torque [N m]")
-    factor, unit = style.scale("N m", measured)
-    figure = new_figure(result, "torques that no fit has seen")
+    moving, si = np.any(speed != 0.0), units(table, "measured")
+    word, speed_name = ("force", "speed") if si == "N" else ("torque", "worm speed")
+    x, label = (speed, f"{speed_name} [{units(table, 'worm_speed')}]") if moving else (load, f"load {word} [{si}]")
+    factor, unit = style.scale(si, measured)
+    figure = new_figure(result, f"{word}s that no fit has seen")
     above, below = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [1.5, 1.0]})
     rows = np.argsort(x, kind="stable")
     handles = above.plot(x, factor * measured, "o", color=style.INK, markersize=6, label="measured")
@@ -65,8 +66,8 @@ def draw_torques(result, table):
             line = above.plot(x[chosen], factor * values[chosen], "-", color=colour, linewidth=1.6, label=name)
             handles += line if k == 0 else []
     style.header(above, handles)
-    above.set(ylabel=f"motor torque [{unit}]")
-    error_factor, error_unit = style.scale("N m", (measured - before))
+    above.set(ylabel=f"motor {word} [{unit}]")
+    error_factor, error_unit = style.scale(si, (measured - before))
     handles = []
     for values, colour, name in ((before, BEFORE, "before"), (after, AFTER, "after")):
         error = error_factor * (measured - values)
@@ -100,8 +101,8 @@ def chosen(examples):
     return picked
 
 
-def draw_examples(result, examples):
-    """Returns stretches of the gear angle, a row for every horizon."""
+def draw_examples(result, examples, si):
+    """Returns stretches of the gear angle, whose unit it is, a row for every horizon."""
     rows = chosen(examples)
     figure = new_figure(result, "predictions of data that no fit has seen")
     grid = figure.subplots(len(rows), max(len(row) for row in rows), squeeze=False)
@@ -109,7 +110,7 @@ def draw_examples(result, examples):
         for cell in cells[len(row):]:
             cell.set_visible(False)
         for (horizon, time, measured, before, after), cell in zip(row, cells):
-            scale, unit = style.scale("rad", measured - measured[0], after - measured[0])
+            scale, unit = style.scale(si, measured - measured[0], after - measured[0])
             handles = cell.plot(time, scale * (measured - measured[0]), color=style.INK, linewidth=2.4, alpha=0.55,
                                 label="measured")
             handles += cell.plot(time, scale * (before - measured[0]), color=BEFORE, linewidth=1.5, label="before")
@@ -121,7 +122,7 @@ def draw_examples(result, examples):
             cell.tick_params(labelsize=10)
     for cell in grid[-1]:
         cell.set_xlabel("time [s]")
-    figure.supylabel("change of the gear angle", size=13)
+    figure.supylabel("change of the position" if si == "m" else "change of the gear angle", size=13)
     legend_above(figure, handles)
     return figure
 
@@ -129,7 +130,7 @@ def draw_examples(result, examples):
 def draw_prediction(result):
     """Returns the picture of what was predicted before and after."""
     if "examples" in result and (examples := stretches(group(result, "examples"))):
-        return draw_examples(result, examples)
+        return draw_examples(result, examples, units(group(result, "examples"), "measured"))
     torques = group(result, "torques")
     if torques["measured"].size:
         return draw_torques(result, torques)
@@ -158,10 +159,15 @@ def axes_of_maps(table):
     names = ("time", "gear_angle", "gear_speed", "load_torque", "worm_phase")
     time, angle, speed, load, phase = columns(table, *names)
     everything = np.ones(speed.size, bool)
-    maps = [("gear speed [rad/s]", speed, everything),
-            ("gear angle, forward [rad]", angle, speed > 0.0), ("gear angle, backward [rad]", angle, speed < 0.0),
-            ("load torque [N m]", load, everything), ("worm phase [rad]", phase, everything),
-            ("time [s]", time, everything)]
+    of_angle, of_speed, of_load = (units(table, name) for name in ("gear_angle", "gear_speed", "load_torque"))
+    linear = of_angle == "m"
+    angle_name, speed_name, load_name = (("position", "speed", "load force") if linear else
+                                         ("gear angle", "gear speed", "load torque"))
+    maps = [(f"{speed_name} [{of_speed}]", speed, everything),
+            (f"{angle_name}, forward [{of_angle}]", angle, speed > 0.0),
+            (f"{angle_name}, backward [{of_angle}]", angle, speed < 0.0),
+            (f"{load_name} [{of_load}]", load, everything),
+            ("worm phase [rad]", phase, everything & (not linear)), ("time [s]", time, everything)]
     return [(label, x, rows) for label, x, rows in maps
             if np.isfinite(x[rows]).sum() > 10 and np.ptp(x[rows & np.isfinite(x)]) > 0.0]
 
@@ -175,8 +181,10 @@ def draw_residual(result):
     maps = axes_of_maps(table)
     if not maps:
         return empty(result, "The residual torque has nothing to be drawn over.")
-    factor, unit = style.scale("N m", np.quantile(np.abs(before), [0.98]))
-    figure = new_figure(result, "torque that the model lacks")
+    si = units(table, "before")
+    word = "force" if si == "N" else "torque"
+    factor, unit = style.scale(si, np.quantile(np.abs(before), [0.98]))
+    figure = new_figure(result, f"{word} that the model lacks")
     rows = (len(maps) + 1) // 2
     cells = figure.subplots(rows, 2 if len(maps) > 1 else 1, squeeze=False).ravel()
     for cell in cells[len(maps):]:
@@ -195,7 +203,7 @@ def draw_residual(result):
                               alpha=0.15, linewidth=0)
             handles += cell.plot(middle, factor * mean, color=colour, linewidth=1.6, label=name)
         cell.axhline(0.0, color=style.GREY, linewidth=0.9, zorder=1)
-        cell.set(xlabel=label, ylabel=f"torque [{unit}]")
+        cell.set(xlabel=label, ylabel=f"{word} [{unit}]")
     legend_above(figure, handles)
     return figure
 

@@ -64,12 +64,14 @@ def draw(result):
     model = group(result, "model")
     speed, torque = columns(model, "worm_speed", "motor_torque")
     speed_unit, torque_unit = units(model, "worm_speed"), units(model, "motor_torque")
+    linear = torque_unit == "N"
+    speed_name, torque_name = ("speed", "motor force") if linear else ("worm speed", "motor torque")
     figure = style.new_figure(text(attribute(result, "title")))
     if "records" not in result:
         factor, unit = style.scale(torque_unit, torque)
         axes = figure.subplots()
         style.header(axes, draw_model(axes, speed, factor * torque), handlelength=2.6)
-        axes.set(xlabel=f"worm speed [{speed_unit}]", ylabel=f"motor torque [{unit}]",
+        axes.set(xlabel=f"{speed_name} [{speed_unit}]", ylabel=f"{torque_name} [{unit}]",
                  xlim=style.limits(speed, 0.03), ylim=style.limits(factor * torque))
         return figure
 
@@ -84,14 +86,14 @@ def draw(result):
     above.set_title(rms_line(*rms, torque_unit), loc="left", size=13, pad=34)
     handles = draw_points(above, x, factor * mean, left_out)
     style.header(above, draw_model(above, speed, factor * torque) + handles, handlelength=1.8)
-    above.set(ylabel=f"motor torque [{unit}]", xlim=style.limits(np.append(speed, x), 0.03),
+    above.set(ylabel=f"{torque_name} [{unit}]", xlim=style.limits(np.append(speed, x), 0.03),
               ylim=style.limits(factor * np.append(torque, mean), 0.1))
 
     residual = mean - of_model
     factor, prefix = (1e3, "m") if np.abs(residual).max() < 10.0 else (1.0, "")
     draw_points(below, x, factor * residual, left_out)
     below.axhline(0.0, color=style.VERMILLION, linewidth=1.4, zorder=2)
-    below.set(xlabel=f"worm speed [{speed_unit}]", ylabel=f"measured − model [{prefix}{torque_unit}]",
+    below.set(xlabel=f"{speed_name} [{speed_unit}]", ylabel=f"measured − model [{prefix}{torque_unit}]",
               ylim=style.limits(factor * np.append(residual, 0.0), 0.12))
     name_records(below, x, factor * residual, names, left_out)
     figure.align_ylabels()

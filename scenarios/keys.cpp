@@ -10,8 +10,9 @@ namespace wormdrive {
 namespace {
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const std::size_t at = text.find(from);
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
 }
 
 /// The linear counterpart of a rotary quantity; what is not rotary stays.
@@ -54,9 +55,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis axis) {
   std::vector<Spelling> list{axis == Axis::linear ? linear(name, unit) : Spelling{std::string(name), unit}};
-  if (list.front().unit.suffix == "deg") list.push_back({std::string(name), unit::radian});
-  if (list.front().unit.suffix == "rad") list.push_back({std::string(name), unit::degrees});
-  if (list.front().unit.suffix == "percent") list.push_back({std::string(name), unit::share});
+  const std::string stem = list.front().key;
+  if (list.front().unit.suffix == "deg") list.push_back({stem, unit::radian});
+  if (list.front().unit.suffix == "rad") list.push_back({stem, unit::degrees});
+  if (list.front().unit.suffix == "percent") list.push_back({stem, unit::share});
   std::transform(list.begin(), list.end(), list.begin(), with_suffix);
   return list;
 }
@@ -68,6 +70,7 @@ std::string in_words_of(Axis axis, std::string_view meaning) {
                                            {"inertia", "mass"},
                                            {"gear angle", "position"},
                                            {"gear speed", "speed"},
+                                           {"worm speed", "speed"},
                                            {"rad/s", "m/s"},
                                            {"rad ", "m "}})
       words = replaced(words, rotary, straight);

@@ -6,6 +6,7 @@
 
 #include "core/elastic_teeth.hpp"
 #include "scenarios/build_control.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -39,7 +40,8 @@ std::vector<std::string> warnings(const Scenario& scenario) {
                     mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
                     has_elastic_teeth(scenario.effects) ? "; the flanks move as the ratio says" : ""));
   if (scenario.motor.terms.empty() && !scenario.control)
-    list.push_back("no [motor.torque]: the motor torque is 0 throughout");
+    list.push_back(
+        fmt::format("no [motor.torque]: the motor {} is 0 throughout", in_words_of(scenario.axis, "torque")));
   for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
   return list;
 }

@@ -149,10 +149,12 @@ std::string to_toml(const Scenario& scenario) {
   });
   out.table("[initial]");
   out.fields(scenario.initial);
-  out.table("[run]");
-  out.text("solver", scenario.run.solver == SolverKind::taylor ? "taylor" : "cvode");
-  out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
-  out.fields(scenario.run);
+  if (scenario.run.duration > 0.0) {  // else it was stated for statics or a diagnosis, without a [run]
+    out.table("[run]");
+    out.text("solver", scenario.run.solver == SolverKind::taylor ? "taylor" : "cvode");
+    out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
+    out.fields(scenario.run);
+  }
   if (scenario.control) write_control(out, *scenario.control);
   if (scenario.tolerance) {
     out.table("[tolerance]");

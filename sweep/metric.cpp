@@ -4,6 +4,7 @@
 
 #include "core/elastic_teeth.hpp"
 #include "scenarios/build_control.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -48,6 +49,10 @@ std::vector<Metric> metrics_of(const Scenario& scenario) {
       {"final_gear_angle", unit::radian, "gear angle at the end", [](const Outcome& o) { return o.run.end.theta_g; }});
   list.push_back({"final_gear_speed", unit::radian_per_second, "gear speed at the end",
                   [](const Outcome& o) { return o.run.end.omega_g; }});
+  for (Metric& metric : list) {
+    metric.unit = spellings(metric.name, metric.unit, scenario.axis).front().unit;
+    metric.meaning = in_words_of(scenario.axis, metric.meaning);
+  }
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/diagnosis_file.hpp"
 #include "diagnosis/diagnosis_folder.hpp"
 #include "diagnosis/diagnosis_json.hpp"
 #include "scenarios/write_scenario.hpp"
@@ -50,7 +51,7 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
   result["experiment"] = found.experiment ? py::object(py::str(to_toml(*found.experiment))) : py::none();
   py::list residual;
   const auto column = [&](const char* name, const char* units, const char* what, std::vector<double>& values) {
-    residual.append(described({name, units, what}, own(std::move(values))));
+    residual.append(described(on_axis(scenario.axis, {{name, units, what}}).front(), own(std::move(values))));
   };
   column("time", "s", "time of the sample", r.time);
   column("gear_angle", "rad", "gear angle", r.gear_angle);
