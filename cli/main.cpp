@@ -15,6 +15,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/help_arguments.hpp"
+#include "cli/shell_words.hpp"
 #include "events/halt.hpp"
 #include "output/part_file.hpp"
 #include "scenarios/faults.hpp"
@@ -29,11 +30,7 @@ constexpr int bad_input = 2, cannot_go_on = 3, cannot_write = 4;
 /// "wormdrive run 'my arm.toml'", as one could type it again.
 std::string command_line(int argc, char** argv) {
   std::vector<std::string> words{"wormdrive"};
-  for (int k = 1; k < argc; ++k) {
-    const std::string word = argv[k];
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"$&|;<>()*?[]#~`\\") == std::string::npos;
-    words.push_back(plain ? word : fmt::format("'{}'", word));
-  }
+  for (int k = 1; k < argc; ++k) words.push_back(shell_word(argv[k]));
   return fmt::format("{}", fmt::join(words, " "));
 }
 

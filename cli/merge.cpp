@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/replay_trial.hpp"
+#include "cli/shell_words.hpp"
 
 namespace wormdrive {
 
@@ -14,7 +15,7 @@ int merge_command(const MergeOptions& options) {
   keep_trajectories(options.output, options.command_line, options.quiet);
   if (options.quiet) return 0;
   print_item("merged", fmt::format("{} shards, {} trials", options.shards.size(), trials));
-  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", options.output, options.output));
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", options.output, shell_path(options.output)));
   return 0;
 }
 

@@ -58,15 +58,16 @@ int plot_command(const PlotOptions& options) {
 }
 
 int draw(const PlotOptions& options) {
-  std::vector<std::string> words = options.files;
-  words.insert(words.end(), {"-o", picture(options)});
+  std::vector<std::string> words{"--output=" + picture(options)};
   if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
+  words.emplace_back("--");  // a file may be called like an option
+  words.insert(words.end(), options.files.begin(), options.files.end());
   return run_script(words);
 }
 
 int draw_all(const std::string& file, const std::string& folder, int at_a_time) {
-  return run_script({file, "-o", folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time)});
+  return run_script({"--output=" + folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time), "--", file});
 }
 
 }  // namespace wormdrive

@@ -9,6 +9,7 @@
 #include "cli/report_assets.hpp"
 #include "cli/thinning.hpp"
 #include "scenarios/number_text.hpp"
+#include "scenarios/one_line.hpp"
 
 namespace wormdrive {
 namespace {
@@ -92,7 +93,8 @@ Json as_json(const ReportPage& page) {
 
 std::string escaped(const std::string& text) {
   std::string html;
-  for (const char c : text) html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  for (const char c : one_line(text))  // control characters are none of HTML's
+    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   return html;
 }
 

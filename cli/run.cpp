@@ -9,6 +9,7 @@
 #include "cli/describe_teeth.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_and_write.hpp"
+#include "cli/shell_words.hpp"
 #include "core/elastic_teeth.hpp"
 #include "events/halt.hpp"
 #include "scenarios/load_scenario.hpp"
@@ -74,7 +75,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
                          summary.statistics.evaluations, describe_events(summary)));
   if (summary.control) print_control(*summary.control);
   if (summary.audit) print_item("audit", describe_audit(*summary.audit, scenario));
-  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, output));
+  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", output, shell_path(output)));
   return summary;
 }
 

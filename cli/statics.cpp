@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
+#include "cli/shell_words.hpp"
 #include "output/table.hpp"
 #include "scenarios/build.hpp"
 #include "scenarios/faults.hpp"
@@ -116,7 +117,7 @@ int statics_command(const StaticsOptions& options) {
   print_table(map, outside);
   if (!outside) print_start(scenario);
   if (!options.output.empty())
-    print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
+    print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
 }
 

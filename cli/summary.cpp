@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/describe_sweep.hpp"
+#include "cli/shell_words.hpp"
 
 namespace wormdrive {
 namespace {
@@ -62,7 +63,8 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
                             in_unit(study.parameters[k].si_unit));
     fmt::print("  trial {:<9} {}\n", trial.index, values);
   }
-  fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", sweep.path(), summary.worst.front().index);
+  fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(sweep.path()),
+             summary.worst.front().index);
 }
 
 void print_conditions(const SweepSummary& summary) {

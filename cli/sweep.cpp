@@ -8,6 +8,7 @@
 #include "cli/describe_sweep.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_trial.hpp"
+#include "cli/shell_words.hpp"
 #include "cli/sweep_ranks.hpp"
 #include "cli/sweep_steps.hpp"
 #include "events/halt.hpp"
@@ -92,7 +93,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   print_cost(cost);
   print_failures(file.reasons());
   print_verdicts(verdicts, study.referee_tolerance);
-  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
   return 0;
 }
 

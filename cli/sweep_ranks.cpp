@@ -13,6 +13,7 @@
 #include "cli/describe_sweep.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_trial.hpp"
+#include "cli/shell_words.hpp"
 #include "cli/sweep_steps.hpp"
 #include "events/halt.hpp"
 #include "sweep/merge.hpp"
@@ -210,7 +211,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   const SweepReader result(output);
   print_failures(result.counted_reasons());
   print_verdicts(result.verdicts(), study.referee_tolerance);
-  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, output));
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
   return 0;
 }
 

@@ -44,8 +44,10 @@ TrialRange range_of(const std::string& shard, std::uint64_t trials) {
 }
 
 std::string how_to_resume(const SweepOptions& options) {
-  const bool has = options.command_line.find(" --resume") != std::string::npos;
-  return fmt::format("go on with: {}{}", options.command_line, has ? "" : " --resume");
+  const std::string& typed = options.command_line;
+  if (options.resume) return "go on with: " + typed;
+  const std::size_t end = std::min(typed.find(" -- "), typed.size());  // behind it there are no options
+  return fmt::format("go on with: {} --resume{}", typed.substr(0, end), typed.substr(end));
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/run_and_write.hpp"
+#include "cli/shell_words.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/second_opinion.hpp"
 #include "sweep/threads.hpp"
@@ -50,7 +51,7 @@ int worst_command(const WorstOptions& options) {
     print_item(k == 0 ? "with" : "", fmt::format("{} {:.6g} {}", study.parameters[k].name, worst.found.parameters[k],
                                                  study.parameters[k].si_unit.symbol));
   print_item("referee", second_opinion_on(scenario, study, worst.metric, worst.unit));
-  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, options.output));
+  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
 }
 

@@ -5,15 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "scenarios/one_line.hpp"
+
 namespace wormdrive {
 namespace {
-
-/// A key or a file name may hold a line break or a terminal's control codes; a fault is one line of text all the same.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return text;
-}
 
 std::string lines(const std::vector<Fault>& faults) {
   std::string text;

@@ -6,6 +6,7 @@
 
 #include "core/elastic_teeth.hpp"
 #include "scenarios/document.hpp"
+#include "scenarios/one_line.hpp"
 #include "scenarios/read_control.hpp"
 #include "scenarios/read_effects.hpp"
 #include "scenarios/read_load.hpp"
@@ -25,7 +26,8 @@ class ScenarioReader {
       : name_(std::move(name)), root_(&root, "", Axis::rotary, faults, {name_}), faults_(faults) {}
 
   Scenario read(Purpose purpose) {
-    scenario_.title = root_.text("title").value_or(std::filesystem::path(name_).stem().string());
+    const auto title = purpose == Purpose::show ? root_.text("title") : root_.line("title");
+    scenario_.title = title ? *title : one_line(std::filesystem::path(name_).stem().string());
     read_mesh();
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());

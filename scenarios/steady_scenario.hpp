@@ -4,8 +4,8 @@
 
 namespace wormdrive {
 
-/// The motor torque [N m] that keeps the drive of a scenario at a worm speed [rad/s], with the load of time 0 and the
-/// initial angle.
+/// The motor torque [N m] that keeps the drive of a scenario at a worm speed other than 0 [rad/s], with the load of
+/// time 0 and the initial angle.
 inline double steady_torque(const Scenario& scenario, double worm_speed) {
   return with_drive(scenario, [&](auto& drive) {
     drive.enter(0.0);

@@ -149,6 +149,21 @@ std::optional<std::string> TableReader::text(const std::string& key) {
   return node->value<std::string>();
 }
 
+std::optional<std::string> TableReader::line(const std::string& key) {
+  const std::optional<std::string> words = text(key);
+  if (!words) return words;
+  for (std::size_t k = 0; k < words->size(); ++k) {
+    const auto byte = static_cast<unsigned char>((*words)[k]);
+    const std::string_view wide = std::string_view(*words).substr(k, 3);
+    const bool no_character = wide == "\xEF\xBF\xBE" || wide == "\xEF\xBF\xBF";  // no XML has these two
+    if (byte == '\t' || (byte >= 0x20 && byte != 0x7F && !no_character)) continue;
+    fault(key, fmt::format("{} must be one line without control characters; its character {} is U+{:04X}", path_of(key),
+                           k + 1, no_character ? 0xFF40 + static_cast<unsigned char>(wide[2]) : byte));
+    return std::nullopt;
+  }
+  return words;
+}
+
 std::vector<std::string> TableReader::texts(const std::string& key) {
   const toml::node* node = find(key);
   if (!node) return {};

@@ -12,6 +12,7 @@
 
 #include "scenarios/document.hpp"
 #include "scenarios/load_scenario.hpp"
+#include "scenarios/one_line.hpp"
 #include "sweep/read_design.hpp"
 #include "sweep/read_parameters.hpp"
 #include "sweep/variable.hpp"
@@ -35,7 +36,7 @@ class StudyReader {
 
   /// source: gives the scenario with what the study makes of it.
   Study read(const ScenarioSource& source) {
-    study_.title = root_.text("title").value_or(std::filesystem::path(name_).stem().string());
+    study_.title = root_.line("title").value_or(one_line(std::filesystem::path(name_).stem().string()));
     root_.text("scenario");
     if (!root_.has("scenario")) root_.lacks("'scenario' (the file of the scenario, beside the study)");
     for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});

@@ -1,10 +1,15 @@
 // The module _core of the Python package: scenarios, runs and their columns; wormdrive/__init__.py makes it handy.
 #include "bindings/python/module.hpp"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/run_result.hpp"
 #include "bindings/python/signals.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/quantities.hpp"
 #include "scenarios/steady_scenario.hpp"
@@ -46,7 +51,18 @@ py::dict as_dict(const std::vector<Quantity>& list) {
 }
 
 py::object steady(const Scenario& scenario, const py::array_t<double, py::array::forcecast>& speeds) {
-  return py::vectorize([&](double speed) { return steady_torque(scenario, speed); })(speeds);
+  const auto torque = [&](double speed) {
+    const std::string at = fmt::format("worm_speed = {} {}", speed, units_on(scenario.axis, "rad/s"));
+    if (!std::isfinite(speed)) refuse({at}, "must be a finite number");
+    if (speed == 0.0) {
+      const RestAtStart rest = rest_at_start(scenario);
+      refuse({at},
+             fmt::format("at rest every motor {} from {:.6g} to {:.6g} {} holds the drive; ask for another speed",
+                         in_words_of(scenario.axis, "torque"), rest.low, rest.high, units_on(scenario.axis, "N m")));
+    }
+    return steady_torque(scenario, speed);
+  };
+  return py::vectorize(torque)(speeds);
 }
 
 Purpose purpose(bool look) { return look ? Purpose::look : Purpose::run; }
@@ -90,7 +106,12 @@ PYBIND11_MODULE(_core, m) {
       .def("steady", &steady)
       .def("parameters", [](const Scenario& s) { return as_dict(parameters(s)); })
       .def("derived", [](const Scenario& s) { return as_dict(derived(s)); })
-      .def("warnings", &warnings);
+      .def("warnings", &warnings)
+      .def(py::pickle([](const Scenario& s) { return py::make_tuple(to_toml(s)); },
+                      [](const py::tuple& state) {
+                        return std::make_shared<Scenario>(
+                            parse_scenario(state[0].cast<std::string>(), "scenario", {}, Purpose::show));
+                      }));
   add_sweep(m);
   add_diagnosis(m);
 }

@@ -2,6 +2,7 @@
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "bindings/python/sweep_result.hpp"
+#include "scenarios/write_scenario.hpp"
 #include "sweep/load_study.hpp"
 #include "sweep/threads.hpp"
 
@@ -21,11 +22,25 @@ py::list trials(const py::object& self) {
   const auto& result = self.cast<const SweepResult&>();
   py::list list;
   for (std::size_t k = 0; k < result.columns().size(); ++k) {
-    const std::vector<double>& values = result.column(k);
-    list.append(described(result.columns()[k],
-                          py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data(), self)));
+    list.append(described(result.columns()[k], view(result.column(k), self)));
   }
   return list;
+}
+
+/// Study, scenario and rows; the file of a sweep holds no more.
+py::tuple state(const SweepResult& r) {
+  py::list columns;
+  for (std::size_t k = 0; k < r.columns().size(); ++k)
+    columns.append(py::array_t<double>(static_cast<py::ssize_t>(r.column(k).size()), r.column(k).data()));
+  return py::make_tuple(r.study().text, to_toml(r.study().scenario), columns, r.reasons());
+}
+std::unique_ptr<SweepResult> restored(const py::tuple& state) {
+  auto result =
+      std::make_unique<SweepResult>(parse_study(state[0].cast<std::string>(), state[1].cast<std::string>(), "sweep"));
+  std::vector<std::vector<double>> columns;
+  for (const py::handle column : py::list(state[2])) columns.push_back(column.cast<std::vector<double>>());
+  result->restore(std::move(columns), state[3].cast<std::vector<std::string>>());
+  return result;
 }
 
 }  // namespace
@@ -41,7 +56,8 @@ void add_sweep(py::module_& m) {
             const py::gil_scoped_release others_may_run;
             r.write(path, command_line, referee, threads_for(0));
           },
-          py::arg("path"), py::arg("command_line"), py::arg("referee"));
+          py::arg("path"), py::arg("command_line"), py::arg("referee"))
+      .def(py::pickle(&state, &restored));
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
   m.def("sweep_text", [](const std::string& text, const std::string& name, unsigned threads) {
     return run(read_study(text, name), threads);

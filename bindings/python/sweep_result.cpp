@@ -1,6 +1,7 @@
 #include "bindings/python/sweep_result.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "sweep/ensemble.hpp"
 #include "sweep/referee.hpp"
@@ -21,6 +22,13 @@ void SweepResult::run(unsigned threads, const std::function<void()>& between) {
         return true;
       },
       [] { return false; });
+}
+
+void SweepResult::restore(std::vector<std::vector<double>> columns, const std::vector<std::string>& reasons) {
+  if (columns.size() != values_.size()) throw std::invalid_argument("these are not the trials of this study");
+  values_ = std::move(columns);
+  for (const double code : values_[values_.size() - 2])
+    if (code > 0.0) reasons_.code(reasons.at(static_cast<std::size_t>(code) - 1));
 }
 
 void SweepResult::take(const Trial& trial) {

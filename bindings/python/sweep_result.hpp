@@ -16,6 +16,9 @@ class SweepResult {
   /// Makes all trials, on so many threads. between() is called after each, on the calling thread, and may throw.
   void run(unsigned threads, const std::function<void()>& between);
 
+  /// Takes trials that were made before, column by column, with the reasons of those that were not done.
+  void restore(std::vector<std::vector<double>> columns, const std::vector<std::string>& reasons);
+
   const Study& study() const { return study_; }
   /// As in the table /trials of a file.
   const std::vector<ColumnDescription>& columns() const { return descriptions_; }

@@ -4,10 +4,14 @@ Run by ctest with PYTHONPATH, WORMDRIVE_SCENARIOS, WORMDRIVE_PROGRAM and, for th
 once as it is and once more by tests/decimal_comma.py, for the module takes the locale of the user here.
 """
 
+import concurrent.futures
+import copy
 import gc
 import json
 import locale
+import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -117,6 +121,50 @@ class Runs(unittest.TestCase):
         self.assertEqual(dataset.motion.attrs["flag_values"], [-1, 0, 1])
         self.assertEqual(dataset.motion.attrs["flag_meanings"], "backward stuck forward")
 
+    def test_values_of_numpy_are_values(self):
+        stated = {**SHORT, "mesh": {key: np.float32(value) if key == "ratio" else np.array(value)
+                                    for key, value in SHORT["mesh"].items()},
+                  "effect": {"worm_coulomb": {"on": np.bool_(False), "torque_Nm": np.float64(1e-3)},
+                             "worm_viscous": {"on": np.array(True), "coefficient_Nms_per_rad": np.array(1e-6)}},
+                  "load": {"kind": np.str_("samples"), "times_s": np.array([0.0, 1.0]), "torques_Nm": np.array([0, 1]),
+                           "interpolation": np.array("linear")},
+                  "run": {"duration_s": np.array(0.01), "solver": np.str_("taylor")}}
+        plain = {**SHORT, "effect": {"worm_viscous": {"coefficient_Nms_per_rad": 1e-6}},
+                 "load": {"kind": "samples", "times_s": [0.0, 1.0], "torques_Nm": [0, 1], "interpolation": "linear"},
+                 "run": {"duration_s": 0.01, "solver": "taylor"}}
+        self.assertEqual(wormdrive.Scenario(stated).toml, wormdrive.Scenario(plain).toml)
+        for value in (np.bool_(True), np.array(True), True):
+            self.assertIn("[effect.worm_coulomb]", wormdrive.Scenario(
+                SHORT, effect={"worm_coulomb": {"on": value, "torque_Nm": np.array(1e-3)}}).toml)
+        self.assertIn("friction = 0.125\n", wormdrive.Scenario(SHORT, **{"mesh.friction": np.array(0.125)}).toml)
+        with self.assertRaisesRegex(wormdrive.InputError, "mesh.friction must be a number, not true or false"):
+            wormdrive.Scenario(SHORT, mesh={"friction": np.bool_(True)})
+        wormdrive.sweep({**STUDY, "scenario": str(FIG09), "set": ["run.duration_s=0.001"], "sweep": {
+            "design": "monte_carlo", "trials": np.int64(2), "seed": np.uint8(3)}}, threads=np.int64(1))
+
+    def test_a_title_is_one_line_that_every_file_can_hold(self):
+        for title, told in (("a\u0001b", "2 is U+0001"), ("two\nlines", "4 is U+000A"), ("\x7f", "1 is U+007F"),
+                            ("no \uffff", "4 is U+FFFF")):
+            with self.subTest(told), self.assertRaises(wormdrive.InputError) as caught:
+                wormdrive.Scenario({**SHORT, "title": title})
+            self.assertTrue(str(caught.exception).endswith(
+                f"error: title must be one line without control characters; its character {told}"), str(caught.exception))
+        self.assertEqual(wormdrive.Scenario({**SHORT, "title": "µ < \"π\" & 'so on'"}).title, "µ < \"π\" & 'so on'")
+
+    def test_steady_motion_is_none_at_rest(self):
+        low, high = -0.05 * 0.02, 0.09 * 0.02
+        for speeds in (0, 0.0, -0.0, [1.0, 0.0], np.array(0)):
+            with self.subTest(speeds), self.assertRaises(wormdrive.InputError) as caught:
+                wormdrive.steady(SHORT, speeds)
+            said = str(caught.exception)
+            self.assertRegex(said, r"^worm_speed = -?0 rad/s: error: at rest every motor torque from \S+ to \S+ N m holds "
+                                   "the drive; ask for another speed$")
+            held = sorted(float(word) for word in said.replace(" to ", " from ").split(" from ")[1:] for word in [word.split()[0]])
+            self.assertTrue(2 * low < held[0] < held[1] < 2 * high, said)
+        with self.assertRaisesRegex(wormdrive.InputError, "^worm_speed = nan rad/s: error: must be a finite number$"):
+            wormdrive.steady(SHORT, [1.0, np.nan])
+        self.assertEqual(wormdrive.steady(SHORT, np.float32(10)), wormdrive.steady(SHORT, 10))
+
     def test_steady_and_check(self):
         torque = wormdrive.steady(SHORT, [[-10.0, 10.0]], load={"torque_Nm": 0.0})
         self.assertEqual(torque.shape, (1, 2))
@@ -127,6 +175,116 @@ class Runs(unittest.TestCase):
         ours = wormdrive.check(FIG09)
         for key in ("title", "parameters", "derived", "warnings", "scenario"):
             self.assertEqual(ours[key], told[key])
+
+
+def in_another_process(scenario):
+    """What a worker of a pool does: it is given a scenario and gives back a run of it."""
+    return scenario.run()
+
+
+def halting(scenario):
+    return wormdrive.Scenario(scenario, load={"kind": "constant", "torque_Nm": 0.5}, run={"duration_s": 0.2}, motor={
+        "torque": [{"kind": "ramp", "rate_Nm_per_s": 1.0}, {"kind": "step", "time_s": 0.1, "torque_Nm": 1e308}]}).run()
+
+
+class Shared(unittest.TestCase):
+    """Arrays look into memory that others look into as well, and objects go from one process to another."""
+
+    def tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = Path(folder, "short.toml")
+            scenario.write_text(wormdrive.Scenario(SHORT).toml)
+            trials = wormdrive.sweep({**STUDY, "scenario": str(scenario)}).trials
+        run = wormdrive.run(FIG10, run={"duration_s": 1.1})
+        return [run.trajectory, run.events, run.controller, trials]
+
+    def test_nobody_writes_into_shared_columns(self):
+        for table in self.tables():
+            for again in (table, pickle.loads(pickle.dumps(table)), copy.deepcopy(table)):
+                for name, array in again.items():
+                    with self.subTest(name), self.assertRaises(ValueError):
+                        array[:1] = 0
+            name = next(iter(table))
+            with self.assertRaises(ValueError):
+                table[name].flags.writeable = True
+            own = table[name].copy()
+            own[:] = 0  # a copy is one's own
+
+    def test_a_view_outlives_everything(self):
+        views = [table[name][1:] for table in self.tables() for name in table]
+        copies = [view.copy() for view in views]
+        gc.collect()
+        for _ in range(20):
+            wormdrive.run(SHORT).trajectory.gear_speed.sum()
+        for view, kept in zip(views, copies):
+            np.testing.assert_array_equal(view, kept)
+
+    def same(self, one, other):
+        self.assertEqual(one.toml, other.toml)
+        self.assertEqual(one.title, other.title)
+        self.assertEqual(one.metrics, other.metrics)
+        self.assertEqual(one.statistics, other.statistics)
+        for table in ("trajectory", "events", "controller"):
+            a, b = getattr(one, table), getattr(other, table)
+            self.assertEqual(a is None, b is None)
+            for name in a or ():
+                np.testing.assert_array_equal(a[name], b[name], err_msg=name)
+                self.assertEqual(a.units[name], b.units[name])
+
+    def test_scenarios_and_results_are_pickled(self):
+        import h5py
+
+        for source in (FIG09, FIG10, SCENARIOS / "fig09_backlash.toml"):
+            scenario = wormdrive.Scenario(source, run={"duration_s": 1.1 if source == FIG10 else 0.3})
+            again = pickle.loads(pickle.dumps(scenario))
+            self.assertEqual(again.toml, scenario.toml)
+            result = scenario.run()
+            for restored in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result),
+                             pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))):
+                self.same(restored, result)
+                self.assertEqual(repr(restored), repr(result))
+            with tempfile.TemporaryDirectory() as folder:
+                restored.write(Path(folder, "restored.h5"))
+                with h5py.File(Path(folder, "restored.h5")) as written:
+                    np.testing.assert_array_equal(written["trajectory/gear_speed"][:], result.trajectory.gear_speed)
+
+    def test_sweeps_diagnoses_and_halts_are_pickled(self):
+        import h5py
+
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = Path(folder, "short.toml")
+            scenario.write_text(wormdrive.Scenario(SHORT).toml)
+            sweep = wormdrive.sweep({**STUDY, "scenario": str(scenario)})
+            restored = pickle.loads(pickle.dumps(sweep))
+            sweep.write(Path(folder, "a.h5"), referee=0)
+            restored.write(Path(folder, "b.h5"), referee=0)
+            with h5py.File(Path(folder, "a.h5")) as a, h5py.File(Path(folder, "b.h5")) as b:
+                for name in a["trials"]:
+                    np.testing.assert_array_equal(a["trials"][name][:], b["trials"][name][:])
+                    np.testing.assert_array_equal(restored.trials[name], sweep.trials[name])
+        loads = [0.2 + 0.15 * k for k in range(10) for _ in range(2)]
+        data = {"load_torque_Nm": loads,
+                "motor_torque_Nm": [load * (0.0470713, -0.0837434)[k % 2] for k, load in enumerate(loads)]}
+        found = wormdrive.diagnose(SCENARIOS / "fig07_break_in_07cm_forward.toml", data)
+        again = pickle.loads(pickle.dumps(found))
+        self.assertEqual((again.findings, again.extended), (found.findings, found.extended))
+        np.testing.assert_array_equal(again.residual.after, found.residual.after)
+        with self.assertRaises(wormdrive.SimulationHalted) as caught:
+            halting(SHORT)
+        halt = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual(str(halt), str(caught.exception))
+        self.same(halt.result, caught.exception.result)
+
+    def test_other_processes_take_scenarios_and_give_results(self):
+        scenarios = [wormdrive.Scenario(SHORT, mesh={"friction": friction}) for friction in (0.1, 0.2, 0.3)]
+        for way in ("fork", "spawn"):
+            with self.subTest(way), concurrent.futures.ProcessPoolExecutor(
+                    2, mp_context=multiprocessing.get_context(way)) as pool:
+                for theirs, scenario in zip(pool.map(in_another_process, scenarios), scenarios):
+                    self.same(theirs, scenario.run())
+                with self.assertRaises(wormdrive.SimulationHalted) as caught:
+                    pool.submit(halting, SHORT).result()
+                self.assertEqual(caught.exception.result.trajectory.time[-1], 0.1)
 
 
 STUDY = {

@@ -39,7 +39,8 @@ class Table(Mapping[str, Any]):
     """Columns of one length by name, as NumPy arrays in SI: `table["time"]` or `table.time`.
 
     `units` and `long_names` describe them as in a result file; `flag_meanings` tells the word of each value of the flags
-    (`kind`, `motion`, `flank`), and `words("kind")` is the column in words.
+    (`kind`, `motion`, `flank`), and `words("kind")` is the column in words. The arrays are read-only, for all who hold
+    the table look at the same ones: `table["time"].copy()` is one's own.
     """
 
     def __init__(self, columns: list[_core.Column]):
@@ -47,6 +48,11 @@ class Table(Mapping[str, Any]):
         self.units = {name: unit for name, unit, _, _, _, _ in columns}
         self.long_names = {name: long_name for name, _, long_name, _, _, _ in columns}
         self.flag_meanings = {name: dict(zip(values, words.split())) for name, _, _, words, values, _ in columns if words}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for array in self._arrays.values():
+            array.flags.writeable = False
 
     def words(self, name: str) -> list[str]:
         """A column of flags in words: "break_away", "forward", ..."""
@@ -90,16 +96,39 @@ class Table(Mapping[str, Any]):
         return xarray.Dataset({name: column for name, column in data.items() if name != over}, coords={over: data[over]})
 
 
+class _KeptRun:
+    """What a pickled run says of itself beside its tables."""
+
+    def __init__(self, run: Union[_core.Run, _KeptRun]):
+        self.title, self.toml, self.controlled, self.halted = run.title, run.toml, run.controlled, run.halted
+        self._metrics, self._statistics = run.metrics(), run.statistics()
+
+    def metrics(self) -> dict[str, float]:
+        return self._metrics
+
+    def statistics(self) -> dict[str, int]:
+        return self._statistics
+
+    def write(self, path: str, command_line: str) -> None:
+        """Runs again, to the same bits."""
+        _core.Scenario.parse(self.toml, "scenario", [], False).run().write(path, command_line)
+
+
 class Result:
     """A run: `trajectory` (one row per time), `events` (one per change of mode), `controller` (one per sample, or None).
 
     `metrics` of a controlled run and `statistics` of the solver are dicts by the names of output/schema.md; `toml` is
-    the resolved scenario. The tables are made when they are first asked for.
+    the resolved scenario. The tables are made when they are first asked for. It can be pickled, with all its tables.
     """
 
     def __init__(self, run: _core.Run):
-        self._run = run
+        self._run: Union[_core.Run, _KeptRun] = run
         self._tables: dict[str, Optional[Table]] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        for name in ("trajectory", "events", "controller"):
+            getattr(self, name)
+        return {"_tables": self._tables, "_run": _KeptRun(self._run)}
 
     def _table(self, name: str, present: bool = True) -> Optional[Table]:
         if name not in self._tables:
@@ -157,6 +186,9 @@ class Sweep:
         self.title = sweep.title
         self.trials = Table(sweep.trials())
         self.reasons = sweep.reasons()
+
+    def __reduce__(self) -> tuple[type[Sweep], tuple[_core.Sweep]]:
+        return Sweep, (self._sweep,)
 
     def to_xarray(self) -> Any:
         """The trials as an xarray.Dataset over their index."""
@@ -238,7 +270,8 @@ def run(scenario: Source, /, **overrides: Any) -> Result:
 
 
 def steady(scenario: Source, worm_speed: Any, /, **overrides: Any) -> Any:
-    """Motor torque [N m] that keeps the drive at worm speeds [rad/s], other than 0: an array of their shape."""
+    """Motor torque [N m] that keeps the drive at worm speeds [rad/s], other than 0: an array of their shape. At rest
+    friction holds a range of torques: 0 raises InputError, which tells it."""
     return Scenario(scenario, _look=True, **overrides)._scenario.steady(worm_speed)
 
 
@@ -304,8 +337,10 @@ def _key(key: str) -> str:
 def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_key(k)} = {_toml(v)}" for k, v in value.items()) + "}"
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()  # of NumPy: np.bool_, np.float32, an array without axes
     if isinstance(value, (bool, str)):
-        return json.dumps(value, ensure_ascii=False)
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, numbers.Integral):
         return str(int(value))
     if isinstance(value, numbers.Real):
