@@ -98,6 +98,7 @@ struct SummaryOptions {
   std::string sweep;
   std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first with a unit
   unsigned worst = 5;  ///< trials shown
+  bool done_only = false;  ///< leave out refused and halted trials
   bool json = false;
 };
 int summary_command(const SummaryOptions& options);
@@ -106,7 +107,8 @@ struct WorstOptions {
   std::string sweep;
   std::string metric;  ///< empty: the one by which trials are ranked
   std::uint64_t evaluations = 400;
-  double tail = 1e-3;  ///< probability left out at either end of each parameter
+  double tail = 1e-3;      ///< probability left out at either end of each parameter
+  bool done_only = false;  ///< look among drives alone that run to the end
   unsigned threads = 0;
   std::string output;
   bool quiet = false;

@@ -99,9 +99,10 @@ void print_control(const ControlSummary& summary) {
                              summary.lemma ? fmt::format(", {:.3g} s outside the layer", m.time_outside_layer) : ""));
   if (!summary.lemma) return;
   const Lemma1Monitor& lemma = *summary.lemma;
-  std::string text = std::isnan(lemma.reached()) ? "the layer is never reached"
-                                                 : fmt::format("layer reached at {:.4g} s", lemma.reached());
-  if (lemma.clean()) text += "; every promise kept";
+  const bool reached = !std::isnan(lemma.reached());
+  std::string text = reached ? fmt::format("layer reached at {:.4g} s", lemma.reached())
+                             : "the layer is never reached; what is promised of the time after that cannot be judged";
+  if (reached && lemma.clean()) text += "; every promise kept";
   print_item("Lemma 1", text);
   for (const Violation& v : lemma.violations())
     if (v.count > 0)

@@ -1,6 +1,7 @@
 #include "cli/describe_sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,8 +24,23 @@ void raise(Disagreement& largest, const Disagreement& found) {
 
 }  // namespace
 
+std::string in_unit(const Unit& unit) {
+  return unit.symbol == unit::none.symbol ? "" : fmt::format(" {}", unit.symbol);
+}
+
 std::string with_interval(const SampleEstimate& e, double scale) {
+  if (!e.has_interval()) return fmt::format("{:.4g}", e.value * scale);
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
+}
+
+std::string how_it_ended(const Study& study, const std::string& metric_name, const Trial& trial) {
+  if (trial.status != TrialStatus::done) return fmt::format("{}: {}", name(trial.status), trial.reason);
+  for (std::size_t k = 0; k < study.metrics.size(); ++k)
+    if (const Metric& metric = study.metrics[k]; metric.name == metric_name)
+      return std::isnan(trial.metrics[k])
+                 ? fmt::format("without {}", metric.name)
+                 : fmt::format("{} {:.6g}{}", metric.name, trial.metrics[k], in_unit(metric.unit));
+  return "";
 }
 
 void print_study(const Study& study, TrialRange range) {

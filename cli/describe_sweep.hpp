@@ -8,8 +8,14 @@
 
 namespace wormdrive {
 
-/// An estimate and its interval, times a scale: "0.12 [0.11, 0.13]".
+/// " N m"; nothing for a plain number.
+std::string in_unit(const Unit& unit);
+
+/// An estimate and its interval, if it has one, times a scale: "0.12 [0.11, 0.13]".
 std::string with_interval(const SampleEstimate& e, double scale = 1.0);
+
+/// A trial's value of a metric, or why it has none: "error_max 0.002 rad", "halted: cannot go on at t = 0.3 s: ...".
+std::string how_it_ended(const Study& study, const std::string& metric, const Trial& trial);
 
 /// Prints what a study asks for.
 void print_study(const Study& study, TrialRange range);

@@ -12,14 +12,16 @@
 namespace wormdrive {
 namespace {
 
-/// The trials that the study names and that the file has; the worst only where the file has all of them.
+/// The trials that the study names and that the file has; the worst of those that are done only where the file has all.
 std::set<std::uint64_t> wanted(const SweepReader& sweep) {
   const Kept& kept = sweep.study().kept;
   std::set<std::uint64_t> trials;
   for (const std::uint64_t trial : kept.trials)
     if (sweep.has(trial)) trials.insert(trial);
   if (kept.worst > 0 && sweep.trials() == sweep.study().trials())
-    for (const Trial& trial : summarise(sweep, kept.worst_by, static_cast<unsigned>(kept.worst)).worst)
+    for (const Trial& trial :
+         summarise(sweep, {.ranked_by = kept.worst_by, .worst = static_cast<unsigned>(kept.worst), .done_only = true})
+             .worst)
       trials.insert(trial.index);
   return trials;
 }

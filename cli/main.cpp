@@ -224,13 +224,12 @@ int main(int argc, char** argv) {
   replay_app->add_flag("-q,--quiet", replay.quiet, "print faults only");
 
   SummaryOptions summary;
-  CLI::App* const summary_app =
-      app.add_subcommand("summary", "what a sweep comes to: quantiles, risks, what matters most");
+  CLI::App* const summary_app = app.add_subcommand("summary", "what a sweep comes to: quantiles, risks, influences");
   summary_app->add_option("sweep", summary.sweep, "result of a sweep (.h5)")->required();
   summary_app->add_option("--metric", summary.metric,
-                          "by which parameters and trials are ranked; default: that of the first threshold, else the "
-                          "first metric with a unit");
+                          "ranks parameters and trials; default: that of the first threshold, else one with a unit");
   summary_app->add_option("--worst", summary.worst, "how many of the worst trials are shown")->capture_default_str();
+  summary_app->add_flag("--done-only", summary.done_only, "leave out refused and halted trials, else the worst");
   summary_app->add_flag("--json", summary.json, "print the result as JSON");
 
   WorstOptions worst;
@@ -245,6 +244,7 @@ int main(int argc, char** argv) {
   worst_app->add_option("--tail", worst.tail, "probability that is left out at either end of each number")
       ->check(CLI::Range(1e-12, 0.49))
       ->capture_default_str();
+  worst_app->add_flag("--done-only", worst.done_only, "look among drives alone that run to the end");
   worst_app->add_option("--threads", worst.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
   worst_app->add_flag("-q,--quiet", worst.quiet, "print faults only");
   FmuOptions fmu;

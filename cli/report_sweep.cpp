@@ -15,17 +15,24 @@ constexpr std::size_t most_metrics = 10, most_parameters = 4;  ///< that are dra
 constexpr std::size_t points = 2000;                           ///< of a cloud, and of a distribution
 constexpr std::size_t bins = 25;                               ///< in which a cloud's quantiles are taken
 
-/// A metric, and the rows of the trials that have it.
+/// A metric of the trials that are there; infinite where one without it counts as the worst.
 struct Values {
   std::vector<double> values;
   std::vector<std::size_t> rows;
 };
-Values values_of(const ResultFile& file, const std::vector<double>& status, const std::string& metric) {
+Values values_of(const ResultFile& file, const std::vector<double>& status, const Ranking& ranking,
+                 const std::string& metric) {
   Values of{file.column("trials/" + metric), {}};
-  for (std::size_t k = 0; k < status.size(); ++k)
-    if (status[k] == static_cast<double>(TrialStatus::done) && std::isfinite(of.values[k])) of.rows.push_back(k);
+  for (std::size_t k = 0; k < status.size(); ++k) {
+    if (status[k] == 0.0) continue;
+    of.values[k] = ranking(of.values[k], status[k] == static_cast<double>(TrialStatus::done));
+    of.rows.push_back(k);
+  }
   return of;
 }
+
+/// What can be drawn; else a gap.
+double drawable(double value) { return std::isfinite(value) ? value : NAN; }
 
 /// "error max: largest error"
 std::string described(const Metric& metric) {
@@ -47,7 +54,7 @@ ReportPanel distribution(const Values& column, const SweepSummary& summary, cons
   ReportSeries series{m.metric.name, std::string(m.metric.unit.symbol), described(m.metric), {}};
   for (const std::size_t k : shown) {
     panel.over.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(rising.size()));
-    series.values.push_back(rising[k]);
+    series.values.push_back(drawable(rising[k]));
   }
   panel.series.push_back(std::move(series));
   for (const ThresholdSummary& t : summary.thresholds)
@@ -72,13 +79,15 @@ ReportPanel cloud(const Values& y, const Metric& metric, const std::vector<doubl
       values.push_back(y.values[rows[k]]);
     std::sort(values.begin(), values.end());
     const auto at = [&](double p) {
-      return values.empty() ? NAN : values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)];
+      return values.empty()
+                 ? NAN
+                 : drawable(values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)]);
     };
     quantiles.push_back({at(0.5), at(0.95)});
   }
   for (const std::size_t k : even_rows(rows.size(), points)) {
     panel.over.push_back(x[rows[k]]);
-    panel.series[0].values.push_back(y.values[rows[k]]);
+    panel.series[0].values.push_back(drawable(y.values[rows[k]]));
     const auto& [median, most] = quantiles[std::min(bins - 1, k * bins / rows.size())];
     panel.series[1].values.push_back(median);
     panel.series[2].values.push_back(most);
@@ -87,23 +96,26 @@ ReportPanel cloud(const Values& y, const Metric& metric, const std::vector<doubl
 }
 
 ReportTable metric_table(const SweepSummary& summary) {
+  const std::string interval = summary.sample ? " [interval]" : "";
   ReportTable table{"Metrics",
                     {{"metric"},
                      {"unit"},
                      {"drives", true},
+                     {"without", true},
                      {"mean", true},
                      {"median", true},
-                     {"95 % lie below [interval]"},
-                     {"99 % lie below [interval]"},
+                     {"95 % lie below" + interval},
+                     {"99 % lie below" + interval},
                      {"greatest", true},
                      {"meaning"}},
                     {},
-                    "Intervals hold the true quantile with 95 % confidence."};
+                    "Drives without a value count as the worst below a share, and not in mean and greatest."};
+  if (summary.sample) table.note += " Intervals hold the true quantile with 95 % confidence.";
   for (const MetricSummary& m : summary.metrics)
     if (m.count > 0)
       table.rows.push_back({words(m.metric.name), std::string(m.metric.unit.symbol), static_cast<double>(m.count),
-                            m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]),
-                            m.greatest, m.metric.meaning});
+                            static_cast<double>(m.without), m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]),
+                            with_interval(m.quantiles[3]), m.greatest, m.metric.meaning});
   return table;
 }
 
@@ -121,13 +133,10 @@ ReportTable influence_table(const SweepSummary& summary) {
 
 ReportTable worst_table(const SweepReader& sweep, const SweepSummary& summary) {
   const Study& study = sweep.study();
-  ReportTable table{"Worst drives", {{"trial", true}, {words(summary.ranked_by), true}}, {}};
+  ReportTable table{"Worst drives", {{"trial", true}, {"by " + words(summary.ranked_by)}}, {}};
   for (const UncertainParameter& p : study.parameters) table.heads.push_back({p.name, true});
-  const auto ranked = std::find_if(study.metrics.begin(), study.metrics.end(),
-                                   [&](const Metric& m) { return m.name == summary.ranked_by; });
   for (const Trial& trial : summary.worst) {
-    table.rows.push_back(
-        {static_cast<double>(trial.index), trial.metrics[static_cast<std::size_t>(ranked - study.metrics.begin())]});
+    table.rows.push_back({static_cast<double>(trial.index), how_it_ended(study, summary.ranked_by, trial)});
     for (const double value : trial.parameters) table.rows.back().push_back(value);
   }
   table.note = "wormdrive replay makes one of them again, with its trajectory.";
@@ -136,13 +145,18 @@ ReportTable worst_table(const SweepReader& sweep, const SweepSummary& summary) {
 
 std::string verdict(const SweepSummary& summary) {
   std::string text;
+  const auto share = [](const SampleEstimate& e) {
+    return fmt::format(
+        "{:.3g} %{}", 100.0 * e.value,
+        e.has_interval() ? fmt::format("; 95 % confidence: {:.3g} to {:.3g} %", 100.0 * e.low, 100.0 * e.high) : "");
+  };
   for (const ThresholdSummary& t : summary.thresholds) {
-    const std::string interval =
-        summary.sample ? fmt::format("; 95 % confidence: {:.3g} to {:.3g} %", 100.0 * t.share.low, 100.0 * t.share.high)
-                       : "";
-    text += fmt::format("{}{} of {} drives have {} {} {:g} {} ({:.3g} %{}).", text.empty() ? "" : " ", t.missed, t.of,
+    text += fmt::format("{}{} of {} drives have {} {} {:g} {} ({}).", text.empty() ? "" : " ", t.missed, t.of,
                         words(t.threshold.metric), t.threshold.above ? "above" : "below", t.threshold.limit,
-                        t.unit.symbol, 100.0 * t.share.value, interval);
+                        t.unit.symbol, share(t.share));
+    if (t.refused + t.halted > 0)
+      text += fmt::format(" {} more were refused and {} halted: {} do not keep it ({}).", t.refused, t.halted,
+                          t.of - t.kept(), share(t.not_kept));
   }
   return text;
 }
@@ -151,7 +165,7 @@ std::string verdict(const SweepSummary& summary) {
 
 ReportPage report_of_sweep(const ResultFile& file) {
   const SweepReader sweep(file.path());
-  const SweepSummary summary = summarise(sweep, "", 10);
+  const SweepSummary summary = summarise(sweep, {.worst = 10});
   const Study& study = sweep.study();
   ReportPage page;
   page.summary =
@@ -161,7 +175,7 @@ ReportPage report_of_sweep(const ResultFile& file) {
   page.remarks = sweep.reasons();
   for (const ConditionSummary& c : summary.conditions)
     if (c.trials > 0)
-      page.remarks.push_back(fmt::format("Lemma 1 fails in {} of {} trials: {}", c.trials, c.of, c.rule));
+      page.remarks.push_back(fmt::format("Lemma 1 fails in {} of {} trials that are done: {}", c.trials, c.of, c.rule));
 
   std::vector<const MetricSummary*> drawn;
   for (const MetricSummary& m : summary.metrics)
@@ -172,10 +186,11 @@ ReportPage report_of_sweep(const ResultFile& file) {
   const std::vector<double> status = file.column("trials/status");
   ReportGroup spread{"Spread: the value below which a share of the drives stays", "share of drives", "1", {}};
   for (const MetricSummary* m : drawn)
-    spread.panels.push_back(distribution(values_of(file, status, m->metric.name), summary, *m));
+    spread.panels.push_back(
+        distribution(values_of(file, status, ranking_of(study, m->metric.name), m->metric.name), summary, *m));
   if (!spread.panels.empty()) page.groups.push_back(std::move(spread));
   if (!drawn.empty() && drawn.front()->metric.name == summary.ranked_by) {
-    const Values ranked = values_of(file, status, summary.ranked_by);
+    const Values ranked = values_of(file, status, ranking_of(study, summary.ranked_by), summary.ranked_by);
     for (std::size_t k = 0; k < std::min(most_parameters, summary.influences.size()); ++k) {
       const auto parameter =
           std::find_if(study.parameters.begin(), study.parameters.end(),

@@ -1,5 +1,7 @@
 #include "sweep/summary.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -12,26 +14,36 @@ namespace wormdrive {
 namespace {
 
 void print_metrics(const SweepSummary& summary) {
+  const char* const interval = summary.sample ? " [95 % interval]" : "";
   fmt::print("\n  {:<28} {:<10} {:>11} {:>11} {:>34} {:>34} {:>11}\n", "metric", "unit", "mean", "median",
-             "95 % lie below [95 % interval]", "99 % lie below [95 % interval]", "greatest");
+             fmt::format("95 % lie below{}", interval), fmt::format("99 % lie below{}", interval), "greatest");
+  bool some_without = false;
   for (const MetricSummary& m : summary.metrics) {
     if (m.count == 0) {
       fmt::print("  {:<28} {:<10} no trial has it\n", m.metric.name, m.metric.unit.symbol);
       continue;
     }
-    fmt::print("  {:<28} {:<10} {:>11.4g} {:>11.4g} {:>34} {:>34} {:>11.4g}\n", m.metric.name, m.metric.unit.symbol,
-               m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]), m.greatest);
+    some_without = some_without || m.without > 0;
+    fmt::print("  {:<28} {:<10} {:>11.4g} {:>11.4g} {:>34} {:>34} {:>11.4g}{}\n", m.metric.name, m.metric.unit.symbol,
+               m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]), m.greatest,
+               m.without > 0 ? fmt::format("  {} without", m.without) : "");
   }
+  if (some_without)
+    fmt::print("  trials without a value count as the worst below a share, and not in mean and greatest\n");
 }
 
 void print_thresholds(const SweepSummary& summary) {
-  for (const ThresholdSummary& t : summary.thresholds)
+  const auto share = [&](const SampleEstimate& e) {
+    return fmt::format("{} %{}", with_interval(e, 100.0), e.has_interval() ? " (95 % interval, exact binomial)" : "");
+  };
+  for (const ThresholdSummary& t : summary.thresholds) {
     print_item(t.threshold.above ? "above" : "below",
-               fmt::format("{} {} {:g} {}: {} of {} trials{}", t.threshold.metric, t.threshold.above ? ">" : "<",
-                           t.threshold.limit, t.unit.symbol, t.missed, t.of,
-                           summary.sample
-                               ? fmt::format(", {} % (95 % interval, exact binomial)", with_interval(t.share, 100.0))
-                               : ""));
+               fmt::format("{} {} {:g} {}: {} of {} trials, {}", t.threshold.metric, t.threshold.above ? ">" : "<",
+                           t.threshold.limit, t.unit.symbol, t.missed, t.of, share(t.share)));
+    if (t.refused + t.halted > 0)
+      print_item("", fmt::format("{} refused, {} halted, {} kept; not kept in {}", t.refused, t.halted, t.kept(),
+                                 share(t.not_kept)));
+  }
 }
 
 void print_influences(const SweepSummary& summary) {
@@ -42,11 +54,9 @@ void print_influences(const SweepSummary& summary) {
                  with_interval(i.sobol->first));
     else
       fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
-}
-
-/// " N m"; nothing for a plain number.
-std::string in_unit(const Unit& unit) {
-  return unit.symbol == unit::none.symbol ? "" : fmt::format(" {}", unit.symbol);
+  if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
+    fmt::print("  {} of {} samples are left out of the Sobol indices: a trial of theirs has no value\n", sobol.left_out,
+               sobol.used + sobol.left_out);
 }
 
 void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
@@ -54,34 +64,36 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
   fmt::print("\n  worst trials\n");
   const Study& study = sweep.study();
   for (const Trial& trial : summary.worst) {
-    std::string values;
-    for (std::size_t k = 0; k < study.metrics.size(); ++k)
-      if (study.metrics[k].name == summary.ranked_by)
-        values += fmt::format("{} {:.6g}{}", summary.ranked_by, trial.metrics[k], in_unit(study.metrics[k].unit));
+    std::string values = how_it_ended(study, summary.ranked_by, trial);
     for (std::size_t k = 0; k < study.parameters.size(); ++k)
       values += fmt::format(", {} {:.6g}{}", study.parameters[k].name, trial.parameters[k],
                             in_unit(study.parameters[k].si_unit));
     fmt::print("  trial {:<9} {}\n", trial.index, values);
   }
-  fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(sweep.path()),
-             summary.worst.front().index);
+  const auto ran = std::find_if(summary.worst.begin(), summary.worst.end(),
+                                [](const Trial& trial) { return trial.status != TrialStatus::refused; });
+  if (ran != summary.worst.end())
+    fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(sweep.path()), ran->index);
 }
 
 void print_conditions(const SweepSummary& summary) {
   for (const ConditionSummary& c : summary.conditions)
-    if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials: {}", c.trials, c.of, c.rule));
+    if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials that are done: {}", c.trials, c.of, c.rule));
 }
 
-nlohmann::json as_json(const SampleEstimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
+nlohmann::json as_json(const SampleEstimate& e) {
+  if (!e.has_interval()) return {{"value", e.value}};
+  return {{"value", e.value}, {"low", e.low}, {"high", e.high}};
+}
 
 nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
   const Study& study = sweep.study();
-  nlohmann::json json{{"title", study.title},          {"trials", summary.trials}, {"done", summary.done},
-                      {"refused", summary.refused},    {"halted", summary.halted}, {"sample", summary.sample},
-                      {"ranked_by", summary.ranked_by}};
+  nlohmann::json json{{"title", study.title},           {"trials", summary.trials},      {"done", summary.done},
+                      {"refused", summary.refused},     {"halted", summary.halted},      {"sample", summary.sample},
+                      {"done_only", summary.done_only}, {"ranked_by", summary.ranked_by}};
   for (const MetricSummary& m : summary.metrics) {
     nlohmann::json& metric = json["metrics"][m.metric.name];
-    metric = {{"unit", m.metric.unit.symbol}, {"count", m.count}, {"mean", m.mean},
+    metric = {{"unit", m.metric.unit.symbol}, {"count", m.count}, {"without", m.without},  {"mean", m.mean},
               {"deviation", m.deviation},     {"least", m.least}, {"greatest", m.greatest}};
     for (std::size_t k = 0; k < m.quantiles.size(); ++k)
       metric["quantiles"][fmt::format("{:g}", summary_quantiles[k])] = as_json(m.quantiles[k]);
@@ -91,15 +103,22 @@ nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
                                   {"limit", t.threshold.limit},
                                   {"above", t.threshold.above},
                                   {"missed", t.missed},
+                                  {"refused", t.refused},
+                                  {"halted", t.halted},
+                                  {"kept", t.kept()},
                                   {"of", t.of},
-                                  {"share", as_json(t.share)}});
+                                  {"share", as_json(t.share)},
+                                  {"not_kept", as_json(t.not_kept)}});
   for (const Influence& i : summary.influences) {
     nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation}};
     if (i.sobol) influence["sobol"] = {{"first", as_json(i.sobol->first)}, {"total", as_json(i.sobol->total)}};
     json["influences"].push_back(std::move(influence));
   }
+  if (!summary.sobol.of.empty())
+    json["sobol"] = {{"samples", summary.sobol.used}, {"left_out", summary.sobol.left_out}};
   for (const Trial& trial : summary.worst) {
-    nlohmann::json worst{{"trial", trial.index}};
+    nlohmann::json worst{{"trial", trial.index}, {"status", name(trial.status)}};
+    if (!trial.reason.empty()) worst["reason"] = trial.reason;
     for (std::size_t k = 0; k < study.parameters.size(); ++k)
       worst["parameters"][study.parameters[k].name] = trial.parameters[k];
     for (std::size_t k = 0; k < study.metrics.size(); ++k) worst["metrics"][study.metrics[k].name] = trial.metrics[k];
@@ -114,7 +133,8 @@ nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
 
 int summary_command(const SummaryOptions& options) {
   const SweepReader sweep(options.sweep);
-  const SweepSummary summary = summarise(sweep, options.metric, options.worst);
+  const SweepSummary summary =
+      summarise(sweep, {.ranked_by = options.metric, .worst = options.worst, .done_only = options.done_only});
   if (options.json) {
     print_json(as_json(sweep, summary));
     return 0;
@@ -123,8 +143,10 @@ int summary_command(const SummaryOptions& options) {
   print_item("trials", fmt::format("{} of {}{}", summary.trials, sweep.range().size(),
                                    sweep.complete() ? "" : ", the sweep is not complete"));
   if (summary.done < summary.trials)
-    print_item("failed", fmt::format("{} refused, {} halted; all else is told of the {} that are done", summary.refused,
-                                     summary.halted, summary.done));
+    print_item("failed",
+               fmt::format("{} refused, {} halted; {}", summary.refused, summary.halted,
+                           summary.done_only ? fmt::format("all else is told of the {} that are done", summary.done)
+                                             : "they count as the worst, without them: --done-only"));
   for (const std::string& reason : sweep.reasons()) print_item("", reason);
   print_verdicts(sweep.verdicts(), sweep.study().referee_tolerance);
   print_thresholds(summary);

@@ -16,12 +16,13 @@ QUANTILES = 5, 50, 95, 99  # [%]
 
 
 class Ranked(NamedTuple):
-    """The metric by which trials are ranked, over the trials that are done."""
+    """The metric by which trials are ranked, over the trials that have it."""
 
     name: str
     unit: str
     values: np.ndarray
     limits: list  # of its thresholds, with whether they are missed above
+    without: int  # trials that were refused, halted or have no value: worse than all others
 
 
 class Bar(NamedTuple):
@@ -51,7 +52,7 @@ def ranked(result):
                   zip(texts(table, "metric"), *columns(table, "limit", "above")) if metric == name]
     if rows.size == 0:
         raise NotAResult(f"no trial has a finite '{name}'")
-    return Ranked(name, units(trials, name), values[rows], limits), rows
+    return Ranked(name, units(trials, name), values[rows], limits, np.count_nonzero(status) - rows.size), rows
 
 
 def influences(result):
@@ -90,9 +91,10 @@ def shown(metric):
 
 
 def missing_note(metric, factor, unit):
-    """Returns words on the limits that are not shown."""
+    """Returns words on the limits and trials that are not shown."""
     far = [limit for limit in metric.limits if limit not in shown(metric)]
-    return "".join(f", limit {style.number(factor * limit)} {unit} far {'above' if above else 'below'}"
+    without = f", {metric.without} trials without" if metric.without else ""
+    return without + "".join(f", limit {style.number(factor * limit)} {unit} far {'above' if above else 'below'}"
                    for limit, above in far)
 
 
@@ -117,17 +119,19 @@ def draw_histogram(axes, metric, factor, unit):
 
 
 def draw_exceedance(axes, metric, factor, unit):
-    """Draws which share of the trials lies above a value; below it where the thresholds ask that."""
+    """Draws which share of all trials lies above a value; below it where the thresholds ask that."""
     values = np.sort(factor * metric.values)
     below = any(not above for _, above in metric.limits)
-    share = np.arange(values.size, 0, -1) / values.size
+    trials = values.size + metric.without
+    share = (np.arange(values.size, 0, -1) + metric.without) / trials
     wide = is_wide(values)
     x = np.log(values) if wide else values
     x, y = style.decimate(x, share[::-1] if below else share) if values[-1] > values[0] else (x, share)
     axes.semilogy(np.exp(x) if wide else x, y, color=style.BLUE, drawstyle="steps-post")
     for limit, above in shown(metric):
         axes.axvline(factor * limit, color=style.VERMILLION)
-        beyond = np.mean(values > factor * limit if above else values < factor * limit)
+        missed = np.count_nonzero(values > factor * limit if above else values < factor * limit)
+        beyond = (missed + metric.without) / trials
         # beside the crossing, on the side from which the curve comes down
         axes.annotate(f"{100 * beyond:.3g} %", (factor * limit, max(beyond, share[-1])), textcoords="offset points",
                       xytext=(-6 if below else 6, 4), ha="right" if below else "left", color=style.VERMILLION)

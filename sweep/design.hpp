@@ -1,11 +1,14 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include <boost/random/sobol.hpp>
+
+#include "sweep/correlated_strata.hpp"
 
 namespace wormdrive {
 
@@ -28,9 +31,11 @@ struct SobolSequence {
   std::uint64_t trials{};
 };
 /// For Sobol indices [Saltelli2010]: of two independent samples A and B the rows A, B, and for each parameter A with
-/// that parameter from B; samples (parameters + 2) trials.
+/// that parameter from B; samples (parameters + 2) trials. The samples are dealt out to Sobol sequences whose digital
+/// shifts are independent: a single sequence does not tell how far it is off, these do by how much they differ.
 struct Saltelli {
   static constexpr std::string_view kind = "saltelli";
+  static constexpr std::uint64_t replicates = 16;
   std::uint64_t samples{};
 };
 /// Every combination of levels.
@@ -42,9 +47,13 @@ struct Grid {
 struct OneAtATime {
   static constexpr std::string_view kind = "one_at_a_time";
   std::vector<std::uint64_t> levels;
+  std::vector<double> medians;  ///< the coordinates at which they are
 };
 
 using DesignSettings = std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime>;
+
+/// The coordinate at which a level stands: in the middle of the stratum that is its own.
+double middle_of(std::uint64_t level, std::uint64_t levels);
 
 /// Whether the points are a sample of the parameters' distribution, so that shares of them are probabilities.
 bool is_sample(const DesignSettings& settings);
@@ -54,10 +63,16 @@ bool allows_correlation(const DesignSettings& settings);
 /// How many trials a design has with so many parameters.
 std::uint64_t size(const DesignSettings& settings, std::size_t parameters);
 
+/// The trial whose noise a trial has: itself, but where a row of a Saltelli design is A with one parameter from B that
+/// of A, so that nothing but the parameter is another one.
+std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial);
+
 /// Gives the points of a design, any of them in any order; a thread has its own.
 class Design {
  public:
-  Design(DesignSettings settings, std::size_t parameters, std::uint64_t seed);
+  /// strata: those of a Latin hypercube of correlated parameters, else none.
+  Design(DesignSettings settings, std::size_t parameters, std::uint64_t seed,
+         std::shared_ptr<const CorrelatedStrata> strata = nullptr);
 
   /// The coordinates of a trial, each in (0, 1).
   std::vector<double> point(std::uint64_t trial);
@@ -70,13 +85,15 @@ class Design {
   std::vector<double> at(const Grid& design, std::uint64_t trial) const;
   std::vector<double> at(const OneAtATime& design, std::uint64_t trial) const;
   double draw(std::uint64_t trial, std::size_t parameter) const;
-  std::vector<double> sobol(std::uint64_t row);
+  /// A row of the sequence under one of its shifts.
+  std::vector<double> sobol(std::uint64_t row, std::uint64_t replicate);
 
   DesignSettings settings_;
   std::size_t parameters_;
   std::uint64_t seed_;
+  std::shared_ptr<const CorrelatedStrata> strata_;
   boost::random::sobol sequence_;
-  std::vector<std::uint64_t> shift_;  ///< of each dimension of the sequence
+  std::vector<std::vector<std::uint64_t>> shifts_;  ///< of each replicate and dimension of the sequence
 };
 
 }  // namespace wormdrive

@@ -73,6 +73,13 @@ double Discrete::quantile(double u) const {
   return values[last];
 }
 
+Discrete Discrete::each_once() const {
+  Discrete once;
+  for (const double value : values)
+    if (std::find(once.values.begin(), once.values.end(), value) == once.values.end()) once.values.push_back(value);
+  return once;
+}
+
 std::string QuantileTable::refusal() const {
   if (values.size() < 2 || values.size() != probabilities.size())
     return fmt::format("values has {} numbers and probabilities {}; state as many, at least 2", values.size(),

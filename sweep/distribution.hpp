@@ -95,6 +95,8 @@ struct Discrete {
 
   std::string refusal() const;
   double quantile(double u) const;
+  /// Every value once, in the order in which they are stated, all equally likely.
+  Discrete each_once() const;
 };
 
 /// A distribution as it was found: values at probabilities from 0 to 1, straight between them.

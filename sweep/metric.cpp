@@ -1,5 +1,7 @@
 #include "sweep/metric.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/elastic_teeth.hpp"
@@ -17,20 +19,33 @@ void add_tracking(std::vector<Metric>& list, bool follows) {
   });
 }
 
+/// How often a run that ended at a time [s] broke a promise. One about what comes after the layer was reached, or after
+/// the run settled, is not kept by a run that never came to that: not a number.
+double violations(const Lemma1Monitor& lemma, const Violation& promise, double end) {
+  const bool was_judged = promise.name == "definition" ||
+                          (promise.name == "layer" ? !std::isnan(lemma.reached()) : lemma.quiet().settled < end);
+  return was_judged ? static_cast<double>(promise.count) : std::numeric_limits<double>::quiet_NaN();
+}
+
 void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
   list.push_back({"layer_reached", unit::second, "first sample within the boundary layer",
-                  [](const Outcome& o) { return o.run.control->lemma->reached(); }});
+                  [](const Outcome& o) { return o.run.control->lemma->reached(); },
+                  std::numeric_limits<double>::infinity()});
   const auto promises = make_monitor(scenario.control->law, make_lemma1(scenario))->violations();
   for (std::size_t k = 0; k < promises.size(); ++k)
     list.push_back({fmt::format("{}_violations", promises[k].name), unit::none,
-                    fmt::format("samples that broke {}", promises[k].promise), [k](const Outcome& o) {
-                      return static_cast<double>(o.run.control->lemma->violations()[k].count);
+                    fmt::format("samples that broke {}", promises[k].promise),
+                    [k, duration = scenario.run.duration](const Outcome& o) {
+                      const Lemma1Monitor& lemma = *o.run.control->lemma;
+                      return violations(lemma, lemma.violations()[k], duration);
                     }});
   const std::vector<Condition> conditions = lemma1_conditions(scenario);
-  for (std::size_t k = 0; k < conditions.size(); ++k)
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
     list.push_back({fmt::format("condition_{}", k + 1), unit::none,
                     fmt::format("margin of {}, negative where it fails", conditions[k].rule),
                     [k](const Outcome& o) { return o.conditions[k].margin(); }});
+    list.back().least_is_worst = true;
+  }
 }
 
 }  // namespace

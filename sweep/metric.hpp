@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Metric {
   Unit unit;         ///< SI
   std::string meaning;
   std::function<double(const Outcome&)> of;  ///< not a number where a run has none
+  /// What a run without it counts as: infinity for the time of something that never happened; not a number where
+  /// nothing can be said.
+  double missing = std::numeric_limits<double>::quiet_NaN();
+  bool least_is_worst = false;  ///< unless a threshold says otherwise
 };
 
 /// All that runs of a scenario come to, whatever the values of its numbers are.

@@ -1,5 +1,6 @@
 #include "sweep/read_design.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ std::uint64_t whole(TableReader& table, const std::string& key, const Bounds& bo
 
 class DesignReader {
  public:
-  DesignReader(TableReader& table, const Study& study, const std::vector<std::optional<double>>& levels)
+  DesignReader(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels)
       : table_(table), study_(study), levels_(levels) {}
 
   void read(MonteCarlo& design) { read_trials(design); }
@@ -48,10 +49,23 @@ class DesignReader {
     require_whole(table_, "levels", common.value_or(1.0));
     double combinations = 1.0;
     for (std::size_t k = 0; k < levels_.size(); ++k) {
-      const auto* const discrete = std::get_if<Discrete>(&study_.parameters[k].distribution);
-      const double own = discrete && discrete->weights.empty() ? static_cast<double>(discrete->values.size()) : 5.0;
-      const double levels = levels_[k].value_or(discrete ? own : common.value_or(own));
+      UncertainParameter& parameter = study_.parameters[k];
+      double levels = levels_[k].value_or(common.value_or(5.0)), median = 0.5;
+      if (auto* const discrete = std::get_if<Discrete>(&parameter.distribution)) {
+        const double at_median = discrete->quantile(0.5);
+        *discrete = discrete->each_once();
+        const std::vector<double>& values = discrete->values;
+        if (levels_[k].value_or(static_cast<double>(values.size())) != static_cast<double>(values.size()))
+          table_.fault("design",
+                       fmt::format("sweep.design = \"{}\" takes every value of a discrete parameter once, and "
+                                   "'{}' has {} values and states levels = {}; leave them out",
+                                   Levelled::kind, parameter.path, values.size(), levels));
+        levels = static_cast<double>(values.size());
+        const auto place = std::find(values.begin(), values.end(), at_median) - values.begin();
+        median = middle_of(static_cast<std::uint64_t>(place), values.size());
+      }
       design.levels.push_back(static_cast<std::uint64_t>(levels));
+      if constexpr (std::is_same_v<Levelled, OneAtATime>) design.medians.push_back(median);
       combinations *= levels;
     }
     if (std::is_same_v<Levelled, Grid> && combinations > most_trials)
@@ -62,7 +76,7 @@ class DesignReader {
   }
 
   TableReader& table_;
-  const Study& study_;
+  Study& study_;
   const std::vector<std::optional<double>>& levels_;
 };
 
@@ -90,6 +104,7 @@ void read_design(TableReader& table, Study& study, const std::vector<std::option
   study.seed = static_cast<std::uint64_t>(
       table.number("seed", unit::none, seeds, Presence::optional, "seed of all draws").value_or(0.0));
   require_whole(table, "seed", static_cast<double>(study.seed));
+  study.common_random_numbers = table.truth("common_random_numbers").value_or(false);
   const auto kind = table.choice("design", kinds_of<DesignSettings>(), Presence::required);
   if (!kind) return table.ignore_unknown();  // which keys it may have hangs on its kind
   study.design = make_kind<DesignSettings>(*kind);
@@ -110,6 +125,14 @@ void read_design(TableReader& table, Study& study, const std::vector<std::option
         fmt::format("sweep.design = \"{}\" needs independent parameters, and there is a [[correlation]]; {}", *kind,
                     by_levels ? "leave it out or take \"monte_carlo\", \"latin_hypercube\" or \"sobol\""
                               : "Sobol indices of dependent parameters do not add up to the variance"));
+  const auto* const latin = std::get_if<LatinHypercube>(&study.design);
+  if (!latin || study.copula.independent() || !table.faults().empty()) return;
+  if (latin->trials > CorrelatedStrata::most_trials)
+    table.fault("trials",
+                fmt::format("sweep.trials = {} is too many for a Latin hypercube with a [[correlation]], which "
+                            "is laid out in memory; at most {}, or take \"sobol\" or \"monte_carlo\"",
+                            latin->trials, CorrelatedStrata::most_trials));
+  study.strata = std::make_shared<CorrelatedStrata>(latin->trials, study.copula, study.seed);
 }
 
 }  // namespace wormdrive

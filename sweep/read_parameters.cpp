@@ -1,6 +1,8 @@
 #include "sweep/read_parameters.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,6 +75,7 @@ Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& 
   if (tables.empty()) return {};
   const auto count = static_cast<Eigen::Index>(parameters.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(count, count);
+  std::map<std::pair<Eigen::Index, Eigen::Index>, std::size_t> stated;  // pairs, and the table of each
   for (std::size_t k = 0; k < tables.size(); ++k) {
     TableReader table(tables[k], fmt::format("correlation[{}]", k), root.axis(), root.faults(), root.where());
     const std::vector<std::string> between = table.texts("between");
@@ -88,10 +91,15 @@ Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& 
       else
         pair.push_back(found - parameters.begin());
     }
-    if (between.size() != 2 || (pair.size() == 2 && pair[0] == pair[1]))
+    if (between.size() != 2 || (pair.size() == 2 && pair[0] == pair[1])) {
       table.fault("between", fmt::format("correlation[{}].between must name two parameters", k));
-    else if (pair.size() == 2)
+    } else if (pair.size() == 2) {
+      if (const auto [before, is_new] = stated.try_emplace(std::minmax(pair[0], pair[1]), k); !is_new)
+        table.fault("between", fmt::format("correlation[{}].between names '{}' and '{}', as correlation[{}] does; keep "
+                                           "one of them",
+                                           k, between[0], between[1], before->second));
       matrix(pair[0], pair[1]) = matrix(pair[1], pair[0]) = coefficient;
+    }
     table.finish();
   }
   if (!root.faults().empty()) return {};

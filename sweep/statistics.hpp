@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -8,9 +9,13 @@
 
 namespace wormdrive {
 
-/// An estimate and where the truth lies with 95 % confidence.
+/// An estimate and where the truth lies with 95 % confidence, which are not numbers where there is no telling: of
+/// values that are no sample.
 struct SampleEstimate {
   double value, low, high;
+
+  bool has_interval() const { return !std::isnan(low); }
+  SampleEstimate without_interval() const { return {value, std::nan(""), std::nan("")}; }
 };
 
 /// Which values of a sample, by their ranks counted from 0, tell its p-quantile and where the true one lies; nothing at
@@ -25,14 +30,17 @@ struct QuantileRanks {
 /// [Hahn1991].
 QuantileRanks quantile_ranks(std::uint64_t n, double p);
 
-/// The p-quantile from at(rank), the values; an end is infinite where the sample is too small for it.
+/// The p-quantile from at(rank), the values, infinite ones among them; an end of its interval is infinite where the
+/// sample is too small for it.
 template <class At>
 SampleEstimate sample_quantile(const QuantileRanks& ranks, At&& at) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // between the two neighbours, as numpy does
-  const double below = at(ranks.below), share = ranks.share;
-  return {below + (share > 0.0 ? share * (at(ranks.below + 1) - below) : 0.0), ranks.low ? at(*ranks.low) : -infinite,
-          ranks.high ? at(*ranks.high) : infinite};
+  double value = at(ranks.below);
+  if (ranks.share > 0.0)
+    if (const double next = at(ranks.below + 1); std::isfinite(value) && next != value)
+      value += ranks.share * (next - value);
+  return {value, ranks.low ? at(*ranks.low) : -infinite, ranks.high ? at(*ranks.high) : infinite};
 }
 
 /// Probability of what happened k times in n independent trials, with the exact binomial interval [ClopperPearson1934].
@@ -44,11 +52,15 @@ struct SobolIndex {
   double first_deviation, total_deviation;  ///< standard errors
 };
 
-/// Sobol indices of every parameter from a Saltelli design: values of one metric in the order of its trials, blocks of
-/// parameters + 2; blocks with a value that is not finite are left out. Estimators of Saltelli 2010 for the first and
-/// Jansen 1999 for the total index. Intervals come from 200 resamples that take every block as often as a Poisson
-/// number of mean 1 says, so that memory does not grow with the blocks. Empty if fewer than two blocks are left or the
-/// metric is constant.
-std::vector<SobolIndex> sobol_indices(const Column& values, std::size_t parameters, std::uint64_t seed);
+/// Sobol indices of every parameter, in their order.
+struct SobolIndices {
+  std::vector<SobolIndex> of;        ///< none if fewer than two samples are left or the metric is constant
+  std::uint64_t used{}, left_out{};  ///< samples; those are left out of which a value is not finite
+};
+
+/// Sobol indices from a Saltelli design: values of one metric in the order of its trials, from the first one on.
+/// Estimators of Saltelli 2010 for the first and Jansen 1999 for the total index. Intervals are those of Student's t
+/// from the jackknife over the design's replicates [Owen1997]: draws within one are not independent, replicates are.
+SobolIndices sobol_indices(const Column& values, std::size_t parameters);
 
 }  // namespace wormdrive

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,20 +12,35 @@ namespace wormdrive {
 
 inline constexpr double summary_quantiles[] = {0.05, 0.5, 0.95, 0.99};
 
-/// How a metric is distributed over the trials that are done, and finite.
-struct MetricSummary {
-  Metric metric;
-  std::uint64_t count{};
-  double mean{}, deviation{}, least{}, greatest{};
-  std::vector<SampleEstimate> quantiles;  ///< of summary_quantiles
+/// How the values of a metric are ordered, those of trials included that have none: these are the worst.
+struct Ranking {
+  double sign;     ///< +1 where the greatest values are the worst, -1 where the least are
+  double missing;  ///< what a trial counts as that is done and has no value
+
+  double worst() const { return sign * std::numeric_limits<double>::infinity(); }
+  /// What a trial counts as; it is worst if it was refused or halted.
+  double operator()(double value, bool done) const { return !done ? worst() : std::isnan(value) ? missing : value; }
 };
 
-/// How often a threshold is missed by the trials that are done.
+/// How a metric is distributed over the trials.
+struct MetricSummary {
+  Metric metric;
+  std::uint64_t count{}, without{};  ///< trials with a finite value; others, which count as their ranking says
+  double mean{}, deviation{}, least{}, greatest{};  ///< of the finite values
+  std::vector<SampleEstimate> quantiles;            ///< of summary_quantiles, over all trials
+};
+
+/// How often a threshold is missed.
 struct ThresholdSummary {
   Threshold threshold;
   Unit unit;
-  std::uint64_t missed{}, of{};
-  SampleEstimate share{};
+  std::uint64_t missed{};             ///< trials that are done and do not keep the limit
+  std::uint64_t refused{}, halted{};  ///< trials of which nothing is known but that
+  std::uint64_t of{};                 ///< all of them
+  SampleEstimate share{};             ///< of those that miss it
+  SampleEstimate not_kept{};          ///< of those that miss it, were refused or halted
+
+  std::uint64_t kept() const { return of - missed - refused - halted; }
 };
 
 /// How much a parameter matters for the metric by which trials are ranked.
@@ -35,7 +51,7 @@ struct Influence {
   double size() const { return sobol ? sobol->total.value : std::abs(rank_correlation); }
 };
 
-/// For the values of how many trials a condition of Lemma 1 does not hold.
+/// For the values of how many trials that are done a condition of Lemma 1 does not hold.
 struct ConditionSummary {
   std::string rule;
   std::uint64_t trials{}, of{};
@@ -44,12 +60,14 @@ struct ConditionSummary {
 /// What a sweep comes to.
 struct SweepSummary {
   std::uint64_t trials{}, done{}, refused{}, halted{};
-  bool sample = true;  ///< shares are probabilities, for the design is a sample
+  bool sample = true;      ///< shares are probabilities, for the design is a sample; else nothing has an interval
+  bool done_only = false;  ///< refused and halted trials are left out of all below
   std::vector<MetricSummary> metrics;
   std::vector<ThresholdSummary> thresholds;
   std::string ranked_by;
   std::vector<Influence> influences;         ///< greatest first
-  std::vector<Trial> worst;                  ///< greatest first
+  SobolIndices sobol;                        ///< of the parameters as the study states them; none of another design
+  std::vector<Trial> worst;                  ///< the worst first
   std::vector<ConditionSummary> conditions;  ///< every one, in the order of the metrics
 
   std::uint64_t with(TrialStatus status) const {
@@ -66,10 +84,15 @@ struct SweepSummary {
 /// first one with a unit, else the first one.
 std::string default_ranking(const Study& study);
 
-/// +1 where the greatest values of a metric are the worst, -1 where the least are: where a threshold is missed below.
-double worse(const Study& study, const std::string& metric);
+Ranking ranking_of(const Study& study, const std::string& metric);
 
-/// Throws InputFault if the metric by which trials are to be ranked does not exist; empty: the default.
-SweepSummary summarise(const SweepReader& sweep, const std::string& ranked_by, unsigned worst);
+struct SummarySettings {
+  std::string ranked_by = {};  ///< metric by which trials are ranked; empty: the default
+  unsigned worst = 5;          ///< trials that are listed
+  bool done_only = false;      ///< leave out refused and halted trials, which else count as the worst
+};
+
+/// Throws InputFault if the metric by which trials are to be ranked does not exist.
+SweepSummary summarise(const SweepReader& sweep, const SummarySettings& settings);
 
 }  // namespace wormdrive

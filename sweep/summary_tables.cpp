@@ -25,7 +25,7 @@ struct SummaryTable {
 /// An estimate takes three columns.
 void add_estimate(SummaryTable& table, const std::string& name, const std::string& units, const std::string& meaning) {
   table.columns.push_back({name, units, meaning});
-  table.columns.push_back({name + "_low", units, "lower end of its 95 % interval"});
+  table.columns.push_back({name + "_low", units, "lower end of its 95 % interval; not a number if it has none"});
   table.columns.push_back({name + "_high", units, "upper end of its 95 % interval"});
 }
 void append(std::vector<double>& row, const SampleEstimate& e) { row.insert(row.end(), {e.value, e.low, e.high}); }
@@ -46,15 +46,16 @@ SummaryTable metric_table(const Study& study) {
   SummaryTable table{"metrics",
                      study.metrics.size(),
                      {{"index", "1", "number of the metric"},
-                      {"count", "1", "trials that are done and have a finite value"},
-                      {"mean", "", "mean, in the unit of the metric"},
+                      {"count", "1", "trials that have a finite value"},
+                      {"without", "1", "trials without: refused, halted, or it never happened"},
+                      {"mean", "", "mean of the finite values, in the unit of the metric"},
                       {"deviation", "", "standard deviation"},
                       {"least", "", "least value"},
                       {"greatest", "", "greatest value"}},
                      {{"name", "name of the metric"}, {"unit", "its unit"}}};
   for (const double p : summary_quantiles)
     add_estimate(table, fmt::format("quantile_{:.0f}", 100.0 * p), "",
-                 fmt::format("{:.0f} % of the trials lie below", 100.0 * p));
+                 fmt::format("{:.0f} % of the trials lie below, those without a value as the worst", 100.0 * p));
   return table;
 }
 
@@ -64,10 +65,14 @@ SummaryTable threshold_table(const Study& study) {
                      {{"index", "1", "number of the threshold"},
                       {"limit", "", "limit, in the unit of the metric"},
                       {"above", "1", "1: missed above the limit, 0: below"},
-                      {"missed", "1", "trials that miss it"},
-                      {"of", "1", "trials that are done"}},
+                      {"missed", "1", "trials that are done and miss it"},
+                      {"refused", "1", "trials whose values make no drive that could run"},
+                      {"halted", "1", "trials whose simulation could not go on"},
+                      {"kept", "1", "trials that keep it"},
+                      {"of", "1", "all of them"}},
                      {{"metric", "metric that it limits"}}};
   add_estimate(table, "share", "1", "share that misses it; exact binomial interval");
+  add_estimate(table, "not_kept", "1", "share that misses it, was refused or halted; exact binomial interval");
   return table;
 }
 
@@ -87,7 +92,8 @@ SummaryTable worst_table(const Study& study) {
                      std::min<std::uint64_t>(worst_trials_listed, study.trials()),
                      {{"index", "1", "rank, 0 for the worst"},
                       {"trial", "1", "index of the trial, -1 for none"},
-                      {"value", "", "its value of the metric by which trials are ranked"}},
+                      {"status", "1", "how it ended, as in /trials"},
+                      {"value", "", "its value of the metric by which trials are ranked; not a number if it has none"}},
                      {}};
   for (const UncertainParameter& p : study.parameters)
     table.columns.push_back({p.name, std::string(p.si_unit.symbol), "parameter " + p.path});
@@ -125,7 +131,7 @@ class Rows {
 void write_metrics(hid_t file, const SweepSummary& summary, const Study& study) {
   Rows rows(file, metric_table(study));
   for (const MetricSummary& m : summary.metrics) {
-    std::vector<double> row{rows.next(), static_cast<double>(m.count)};
+    std::vector<double> row{rows.next(), static_cast<double>(m.count), static_cast<double>(m.without)};
     if (m.count == 0) {
       row.resize(metric_table(study).columns.size(), none);
     } else {
@@ -140,9 +146,16 @@ void write_thresholds(hid_t file, const SweepSummary& summary, const Study& stud
   if (study.thresholds.empty()) return;
   Rows rows(file, threshold_table(study));
   for (const ThresholdSummary& t : summary.thresholds) {
-    std::vector<double> row{rows.next(), t.threshold.limit, t.threshold.above ? 1.0 : 0.0,
-                            static_cast<double>(t.missed), static_cast<double>(t.of)};
+    std::vector<double> row{rows.next(),
+                            t.threshold.limit,
+                            t.threshold.above ? 1.0 : 0.0,
+                            static_cast<double>(t.missed),
+                            static_cast<double>(t.refused),
+                            static_cast<double>(t.halted),
+                            static_cast<double>(t.kept()),
+                            static_cast<double>(t.of)};
     append(row, t.share);
+    append(row, t.not_kept);
     rows.add(row, {t.threshold.metric});
   }
 }
@@ -167,7 +180,7 @@ void write_worst(hid_t file, const SweepSummary& summary, const Study& study) {
     std::vector<double> row{rows.next(), -1.0};
     if (k < summary.worst.size()) {
       const Trial& trial = summary.worst[k];
-      row = {rows.next(), static_cast<double>(trial.index),
+      row = {rows.next(), static_cast<double>(trial.index), static_cast<double>(trial.status),
              trial.metrics[static_cast<std::size_t>(ranked - study.metrics.begin())]};
       row.insert(row.end(), trial.parameters.begin(), trial.parameters.end());
     }

@@ -151,7 +151,7 @@ void SweepFile::finish() {
   flush();
   {
     const SweepReader all(part_path());
-    write_summary_tables(file_.file(), summarise(all, "", worst_trials_listed), all.study());
+    write_summary_tables(file_.file(), summarise(all, {.worst = worst_trials_listed}), all.study());
   }
   table_.reset();
   reason_texts_.reset();

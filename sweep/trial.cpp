@@ -9,6 +9,7 @@
 #include "scenarios/build_control.hpp"
 #include "scenarios/refusal.hpp"
 #include "scenarios/table_reader.hpp"
+#include "sweep/random.hpp"
 
 namespace wormdrive {
 
@@ -23,7 +24,7 @@ std::string_view name(TrialStatus status) {
 
 Trials::Trials(const Study& study, LaneKind lanes)
     : study_(study),
-      design_(study.design, study.parameters.size(), study.seed),
+      design_(study.design, study.parameters.size(), study.seed, study.strata),
       lanes_(lanes),
       scenarios_(runs_together(study.scenario), study.scenario) {
   for (Scenario& scenario : scenarios_) {
@@ -39,8 +40,19 @@ Trial Trials::row(std::uint64_t index) const {
   return {index, {}, std::vector<double>(study_.metrics.size(), std::numeric_limits<double>::quiet_NaN()), {}, {}};
 }
 
-std::string Trials::set_up(std::size_t place, Trial& trial, std::vector<double> u) {
-  study_.copula.apply(u);
+std::vector<double> Trials::probabilities(std::uint64_t index) {
+  std::vector<double> u = design_.point(index);
+  if (!study_.strata) study_.copula.apply(u);
+  return u;
+}
+
+std::vector<double> Trials::point(std::uint64_t index) {
+  std::vector<double> u = design_.point(index);
+  if (study_.strata) study_.copula.undo(u);
+  return u;
+}
+
+std::string Trials::set_up(std::size_t place, Trial& trial, const std::vector<double>& u) {
   std::string refusal;
   for (std::size_t k = 0; k < u.size(); ++k) {
     const Variable& variable = variables_[place][k];
@@ -55,8 +67,20 @@ std::string Trials::set_up(std::size_t place, Trial& trial, std::vector<double> 
   return refusal;
 }
 
-bool Trials::prepare(std::size_t place, Trial& trial, std::vector<double> point) {
-  trial.reason = set_up(place, trial, std::move(point));
+void Trials::draw_noise(std::size_t place, std::uint64_t index) {
+  if (!study_.scenario.control || study_.common_random_numbers) return;
+  const ControlScenario& stated = *study_.scenario.control;
+  ControlScenario& control = *scenarios_[place].control;
+  const std::uint64_t trial = noise_of(study_.design, study_.parameters.size(), index);
+  // whoever varies a seed says himself which noise a trial has
+  if (!study_.varies("sensor.seed")) control.sensor.seed = noise_seed(stated.sensor.seed, study_.seed, trial);
+  if (!study_.varies("disturbance.seed"))
+    control.disturbance.seed = noise_seed(stated.disturbance.seed, study_.seed, trial);
+}
+
+bool Trials::prepare(std::size_t place, Trial& trial, const std::vector<double>& u) {
+  draw_noise(place, trial.index);
+  trial.reason = set_up(place, trial, u);
   if (trial.reason.empty()) trial.reason = why_it_cannot_run(scenarios_[place]).value_or("");
   if (!trial.reason.empty()) trial.status = TrialStatus::refused;
   return trial.reason.empty();
@@ -83,7 +107,7 @@ std::vector<Trial> Trials::operator()(TrialRange range) {
   std::vector<Trial*> prepared;
   for (std::uint64_t index = range.first; index < range.end; ++index) {
     Trial& trial = trials.emplace_back(row(index));
-    if (prepare(prepared.size(), trial, design_.point(index))) prepared.push_back(&trial);
+    if (prepare(prepared.size(), trial, probabilities(index))) prepared.push_back(&trial);
     if (prepared.size() == scenarios_.size()) {
       run(prepared);
       prepared.clear();
@@ -93,15 +117,17 @@ std::vector<Trial> Trials::operator()(TrialRange range) {
   return trials;
 }
 
-Trial Trials::at(const std::vector<double>& point) {
-  Trial trial = row(0);
+Trial Trials::at(std::vector<double> point, std::uint64_t index) {
+  study_.copula.apply(point);
+  Trial trial = row(index);
   if (prepare(0, trial, point)) run({&trial});
   return trial;
 }
 
 const Scenario& Trials::scenario(std::uint64_t index) {
   Trial trial = row(index);
-  set_up(0, trial, design_.point(index));
+  draw_noise(0, index);
+  set_up(0, trial, probabilities(index));
   return scenarios_.front();
 }
 

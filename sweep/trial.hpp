@@ -41,10 +41,11 @@ class Trials {
 
   Trial operator()(std::uint64_t index) { return std::move((*this)({index, index + 1}).front()); }
   std::vector<Trial> operator()(TrialRange range);
-  /// A trial at another point of the unit cube than those of the design; its index stands for nothing.
-  Trial at(const std::vector<double>& point);
-  /// The point of the unit cube at which the design puts a trial.
-  std::vector<double> point(std::uint64_t index) { return design_.point(index); }
+  /// A trial at another point of the unit cube than those of the design, with the noise of one of its trials and under
+  /// the index of that one. Correlations come on top of the point.
+  Trial at(std::vector<double> point, std::uint64_t index);
+  /// The point of the unit cube, less the correlations, at which the design puts a trial.
+  std::vector<double> point(std::uint64_t index);
   /// The scenario of a trial; why it cannot run is told by the trial.
   const Scenario& scenario(std::uint64_t index);
   /// The scenario of the latest trial that was asked for alone.
@@ -52,10 +53,14 @@ class Trials {
 
  private:
   Trial row(std::uint64_t index) const;
-  /// Puts the values at a point into a scenario and the trial; returns what bounds say against them.
-  std::string set_up(std::size_t place, Trial& trial, std::vector<double> point);
-  /// The same; whether the trial can run.
-  bool prepare(std::size_t place, Trial& trial, std::vector<double> point);
+  /// The probabilities below the values of a trial, correlations included.
+  std::vector<double> probabilities(std::uint64_t index);
+  /// Puts the values above probabilities into a scenario and the trial; returns what bounds say against them.
+  std::string set_up(std::size_t place, Trial& trial, const std::vector<double>& u);
+  /// Gives a scenario the noise of a trial.
+  void draw_noise(std::size_t place, std::uint64_t index);
+  /// Sets a trial up with its noise; whether it can run.
+  bool prepare(std::size_t place, Trial& trial, const std::vector<double>& u);
   /// Runs trials whose scenarios have been set up, one after the other from the first place on.
   void run(const std::vector<Trial*>& prepared);
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include <fmt/format.h>
 #include <nlopt.h>
 
 #include "scenarios/faults.hpp"
@@ -16,73 +17,85 @@
 namespace wormdrive {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 /// One search from one start.
 class Search {
  public:
-  Search(const Study& study, std::size_t metric, double sign, const WorstCaseSettings& settings)
-      : trials_(study), metric_(metric), sign_(sign), settings_(settings) {}
+  Search(const Study& study, const std::string& metric, const WorstCaseSettings& settings)
+      : trials_(study), ranking_(ranking_of(study, metric)), settings_(settings) {
+    while (study.metrics[metric_].name != metric) ++metric_;
+  }
 
   void from(std::uint64_t trial, std::uint64_t most) {
+    start = trial;
     std::vector<double> u = trials_.point(trial);
     for (double& x : u) x = std::clamp(x, settings_.tail, 1.0 - settings_.tail);
-    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
-        nlopt_create(NLOPT_LN_SBPLX, static_cast<unsigned>(u.size())), nlopt_destroy);
-    nlopt_set_lower_bounds1(optimiser.get(), settings_.tail);
-    nlopt_set_upper_bounds1(optimiser.get(), 1.0 - settings_.tail);
-    nlopt_set_initial_step1(optimiser.get(), 0.2);
-    nlopt_set_maxeval(optimiser.get(), static_cast<int>(most));
-    nlopt_set_xtol_abs1(optimiser.get(), 1e-6);
+    optimiser_.reset(nlopt_create(NLOPT_LN_SBPLX, static_cast<unsigned>(u.size())));
+    nlopt_set_lower_bounds1(optimiser_.get(), settings_.tail);
+    nlopt_set_upper_bounds1(optimiser_.get(), 1.0 - settings_.tail);
+    nlopt_set_initial_step1(optimiser_.get(), 0.2);
+    nlopt_set_maxeval(optimiser_.get(), static_cast<int>(most));
+    nlopt_set_xtol_abs1(optimiser_.get(), 1e-6);
     nlopt_set_max_objective(
-        optimiser.get(),
+        optimiser_.get(),
         [](unsigned n, const double* x, double*, void* self) {
-          return static_cast<Search*>(self)->value({x, x + n});
+          return static_cast<Search*>(self)->tried({x, x + n});
         },
         this);
     double best = 0.0;
-    nlopt_optimize(optimiser.get(), u.data(), &best);  // however it ends: the best one is kept here
+    nlopt_optimize(optimiser_.get(), u.data(), &best);  // however it ends: the worst one is kept here
+  }
+  /// How bad a trial is, infinite where nothing is worse; one that is left out is better than all others.
+  double badness(const Trial& trial) const {
+    const bool done = trial.status == TrialStatus::done;
+    if (!done && settings_.done_only) return -infinite;
+    return ranking_.sign * ranking_(trial.metrics[metric_], done);
   }
 
-  std::vector<double> point;                                ///< the worst
-  double worst = -std::numeric_limits<double>::infinity();  ///< times the sign
-  std::uint64_t evaluations = 0;
+  std::vector<double> point;                 ///< the worst
+  double worst = -infinite;                  ///< how bad it is
+  std::uint64_t start = 0, evaluations = 0;  ///< the trial from which it began
 
  private:
-  static constexpr double no_drive = -1e300;  ///< what cannot run is not worse than what can
+  static constexpr double beyond_all = 1e300;  ///< a finite stand-in, for the search
 
-  double value(const std::vector<double>& u) {
-    const Trial trial = trials_.at(u);
+  double tried(const std::vector<double>& u) {
+    const double bad = badness(trials_.at(u, start));
     ++evaluations;
-    const double value = sign_ * trial.metrics[metric_];
-    if (!std::isfinite(value)) return no_drive;
-    if (value > worst) {
-      worst = value;
+    if (bad > worst) {
+      worst = bad;
       point = u;
     }
-    return value;
+    if (worst == infinite) nlopt_force_stop(optimiser_.get());
+    return std::clamp(bad, -beyond_all, beyond_all);
   }
 
   Trials trials_;
-  std::size_t metric_;
-  double sign_;
+  Ranking ranking_;
   const WorstCaseSettings& settings_;
+  std::size_t metric_ = 0;
+  std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser_{nullptr, nlopt_destroy};
 };
 
 }  // namespace
 
 WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings) {
   constexpr unsigned starts = 4;
-  const SweepSummary summary = summarise(sweep, settings.metric, starts);
+  const SweepSummary summary =
+      summarise(sweep, {.ranked_by = settings.metric, .worst = starts, .done_only = settings.done_only});
   const Study& study = sweep.study();
-  if (summary.worst.empty()) refuse({sweep.path()}, "has no trial from which a search could start: none is done");
-  const auto metric =
-      static_cast<std::size_t>(std::find_if(study.metrics.begin(), study.metrics.end(),
-                                            [&](const Metric& m) { return m.name == summary.ranked_by; }) -
-                               study.metrics.begin());
-  const double sign = worse(study, summary.ranked_by);
+  if (summary.worst.empty())
+    refuse({sweep.path()},
+           fmt::format("has no trial from which a search could start{}", settings.done_only ? ": none is done" : ""));
 
   std::vector<std::unique_ptr<Search>> searches;
   for (std::size_t k = 0; k < summary.worst.size(); ++k)
-    searches.push_back(std::make_unique<Search>(study, metric, sign, settings));
+    searches.push_back(std::make_unique<Search>(study, summary.ranked_by, settings));
+  Trials trials(study);
+  const Trial& before = summary.worst.front();
+  if (searches.front()->badness(before) == infinite)
+    return {summary.ranked_by, before, 0, before, trials.scenario(before.index)};
   std::atomic<std::size_t> next{0};
   std::exception_ptr fault;
   std::mutex mutex;
@@ -102,18 +115,16 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
   }
   if (fault) std::rethrow_exception(fault);
 
-  const auto& best = **std::max_element(searches.begin(), searches.end(),
-                                        [](const auto& a, const auto& b) { return a->worst < b->worst; });
-  WorstCase worst{summary.ranked_by,
-                  study.metrics[metric].unit,
-                  sign * best.worst,
-                  summary.worst.front().metrics[metric],
-                  summary.worst.front().index,
-                  0,
-                  best.point,
-                  {}};
+  const Search& best = **std::max_element(searches.begin(), searches.end(),
+                                          [](const auto& a, const auto& b) { return a->worst < b->worst; });
+  WorstCase worst{summary.ranked_by, before, 0, before, {}};
   for (const auto& search : searches) worst.evaluations += search->evaluations;
-  worst.found = Trials(study).at(best.point);
+  if (best.worst > -infinite) {
+    worst.found = trials.at(best.point, best.start);
+    worst.scenario = trials.scenario();
+  } else {  // no drive within the box has come to anything
+    worst.scenario = trials.scenario(before.index);
+  }
   return worst;
 }
 

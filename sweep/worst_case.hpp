@@ -12,22 +12,23 @@ struct WorstCaseSettings {
   std::uint64_t evaluations = 400;  ///< trials that are made at most
   double tail = 1e-3;               ///< probability that is left out at either end of each parameter
   unsigned threads = 1;
+  bool done_only = false;  ///< among drives that run to the end; else one that does not is the worst
 };
 
-/// The worst drive that was found in the uncertain box.
+/// The worst drive that was found in the uncertain box. Nothing is worse than one that cannot run, does not come to its
+/// end or has no value of the metric.
 struct WorstCase {
   std::string metric;
-  Unit unit;
-  double value{}, before{};  ///< of the metric, and of the sweep's worst trial
-  std::uint64_t trial{};     ///< the sweep's worst one
+  Trial before;  ///< the sweep's worst
   std::uint64_t evaluations{};
-  std::vector<double> point;  ///< of the unit cube
-  Trial found;
+  Trial found;        ///< its noise is that of the trial of its index
+  Scenario scenario;  ///< of what was found
 };
 
 /// Searches the box of the uncertain parameters for the worst value of a metric, by subplex searches [Rowan1990] from
-/// the sweep's worst trials on; the same for any number of threads. Throws InputFault if the sweep has no trial that is
-/// done, or not the metric.
+/// the sweep's worst trials on, each with the noise of its first trial; the same for any number of threads. Where
+/// nothing can be worse than the sweep's worst, that is the answer. Throws InputFault if the sweep has no trial from
+/// which a search could start, or not the metric.
 WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings);
 
 }  // namespace wormdrive

@@ -52,7 +52,33 @@ TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
        "study.toml:3:7: error: run.solver = \"tailor\" must be one of \"cvode\", \"taylor\""},
       {"[[threshold]]",
        "[[correlation]]\nbetween = [\"mesh.friction\", \"mesh.ratio\"]\ncoefficient = 0.5\n[[threshold]]",
-       "study.toml:20:11: error: correlation[0].between names 'mesh.ratio', which is no [[parameter]]"}};
+       "study.toml:20:11: error: correlation[0].between names 'mesh.ratio', which is no [[parameter]]"},
+      {"[[threshold]]",
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
+       "[[correlation]]\nbetween = [\"effect.worm_coulomb.torque_Nm\", \"mesh.friction\"]\ncoefficient = -0.9\n"
+       "[[threshold]]",
+       "study.toml:23:11: error: correlation[1].between names 'effect.worm_coulomb.torque_Nm' and 'mesh.friction', as "
+       "correlation[0] does; keep one of them"},
+      {"[[threshold]]",
+       "[[parameter]]\npath = \"mesh.ratio\"\ndistribution = \"uniform\"\nlow = 59\nhigh = 61\n"
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"mesh.ratio\"]\ncoefficient = 0.9\n"
+       "[[correlation]]\nbetween = [\"mesh.ratio\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = -0.9\n"
+       "[[threshold]]",
+       "study.toml:24:1: error: these correlations contradict each other: their matrix is not positive definite; bring "
+       "them closer to 0"},
+      {"[sweep]\ndesign = \"monte_carlo\"\ntrials = 200",
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
+       "[sweep]\ndesign = \"latin_hypercube\"\ntrials = 10000001",
+       "study.toml:9:10: error: sweep.trials = 10000001 is too many for a Latin hypercube with a [[correlation]], "
+       "which is "
+       "laid out in memory; at most 10000000, or take \"sobol\" or \"monte_carlo\""},
+      {"design = \"monte_carlo\"\ntrials = 200\nseed = 3\n[[parameter]]\npath = \"mesh.friction\"\n"
+       "distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1",
+       "design = \"grid\"\nlevels = 7\n[[parameter]]\npath = \"mesh.friction\"\n"
+       "distribution = \"discrete\"\nvalues = [0.2, 0.3]\nlevels = 3",
+       "study.toml:5:10: error: sweep.design = \"grid\" takes every value of a discrete parameter once, and "
+       "'mesh.friction' has 2 values and states levels = 3; leave them out"}};
   for (const BadStudy& bad : cases) {
     const StudyFolder folder(study_but(bad.part, bad.by));
     const std::set<std::string> before = folder.names();

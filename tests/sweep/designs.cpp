@@ -1,12 +1,16 @@
 // Designs: what each promises of its points, and that any point can be asked for alone.
 #include <filesystem>
+#include <memory>
 #include <set>
+#include <thread>
 
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "sweep/design.hpp"
 #include "sweep/keyed_permutation.hpp"
 #include "sweep/load_study.hpp"
+#include "sweep/studies.hpp"
+#include "sweep/trial.hpp"
 
 namespace wormdrive::test::sweep_designs {
 
@@ -65,6 +69,73 @@ TEST_CASE("a Latin hypercube uses every stratum of every parameter once", "[swee
   }
 }
 
+TEST_CASE("a correlated Latin hypercube uses every stratum once and has the correlations that were asked for",
+          "[sweep]") {
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Identity(5, 5);  // the fourth is free
+  const auto state = [&](int j, int k, double coefficient) { wanted(j, k) = wanted(k, j) = coefficient; };
+  state(0, 2, 0.9);
+  state(1, 2, -0.3);
+  state(1, 4, -0.5);
+  const Copula copula(wanted);
+  for (const std::uint64_t n : {1, 2, 3, 5, 6, 97, 1024}) {
+    const auto strata = std::make_shared<CorrelatedStrata>(n, copula, 3);
+    Design design(LatinHypercube{n}, 5, 3, strata), free(LatinHypercube{n}, 5, 3);
+    std::vector<std::vector<double>> scores(5);
+    for (std::size_t k = 0; k < 5; ++k) {
+      std::set<int> used;
+      for (std::uint64_t trial = 0; trial < n; ++trial) {
+        const std::vector<double> u = design.point(trial);
+        used.insert(static_cast<int>(u[k] * static_cast<double>(n)));
+        scores[k].push_back(normal_quantile(u[k]));
+        if (k == 0 || k == 3) REQUIRE(u[k] == free.point(trial)[k]);
+      }
+      INFO(n << " trials, parameter " << k);
+      REQUIRE(used.size() == n);
+    }
+    if (n < 97) continue;
+    for (std::size_t j = 0; j < 5; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        double product = 0.0, squares_j = 0.0, squares_k = 0.0;
+        for (std::uint64_t trial = 0; trial < n; ++trial) {
+          product += scores[j][trial] * scores[k][trial];
+          squares_j += scores[j][trial] * scores[j][trial];
+          squares_k += scores[k][trial] * scores[k][trial];
+        }
+        const double found = product / std::sqrt(squares_j * squares_k);
+        const double asked = wanted(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k));
+        INFO(n << " trials, parameters " << j << " and " << k << ": " << found << " for " << asked);
+        // accidents of random orders, 1/sqrt(n), are taken out wherever a parameter is correlated
+        CHECK(std::abs(found - asked) < (j == 3 || k == 3 ? 4.0 / std::sqrt(n) : 2.0 / static_cast<double>(n) + 0.01));
+      }
+  }
+}
+
+TEST_CASE("a correlated Latin hypercube is the same for all who share it, and less its correlations the same point",
+          "[sweep]") {
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Identity(2, 2);
+  wanted(0, 1) = wanted(1, 0) = 0.7;
+  const Copula copula(wanted);
+  const auto shared = std::make_shared<CorrelatedStrata>(1000, copula, 5),
+             own = std::make_shared<CorrelatedStrata>(1000, copula, 5);
+  std::vector<std::vector<double>> found(1000);
+  {
+    std::vector<std::jthread> threads;
+    for (std::uint64_t t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        Design design(LatinHypercube{1000}, 2, 5, shared);
+        for (std::uint64_t trial = t; trial < 1000; trial += 4) found[trial] = design.point(trial);
+      });
+  }
+  Design alone(LatinHypercube{1000}, 2, 5, own);
+  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+    REQUIRE(alone.point(trial) == found[trial]);
+    std::vector<double> u = found[trial];
+    copula.undo(u);
+    copula.apply(u);
+    REQUIRE(std::abs(u[1] - found[trial][1]) < 1e-12);
+  }
+}
+
 TEST_CASE("of a shifted Sobol sequence the first 2^m points lie one in each 2^-m, the origin included", "[sweep]") {
   const auto all = points(SobolSequence{256}, 5, 9);
   for (std::size_t k = 0; k < 5; ++k) {
@@ -101,13 +172,13 @@ TEST_CASE("a grid has every combination, one at a time every parameter alone", "
   const auto grid = points(Grid{{2, 3}}, 2, 0);
   CHECK(grid == std::vector<std::vector<double>>{
                     {0.25, 0.5 / 3}, {0.25, 0.5}, {0.25, 2.5 / 3}, {0.75, 0.5 / 3}, {0.75, 0.5}, {0.75, 2.5 / 3}});
-  const auto alone = points(OneAtATime{{2, 1}}, 2, 0);
+  const auto alone = points(OneAtATime{{2, 1}, {0.5, 0.5}}, 2, 0);
   CHECK(alone == std::vector<std::vector<double>>{{0.5, 0.5}, {0.25, 0.5}, {0.75, 0.5}, {0.5, 0.5}});
 }
 
 TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
   const DesignSettings designs[] = {MonteCarlo{100}, LatinHypercube{100}, SobolSequence{100},
-                                    Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}}};
+                                    Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}, {0.5, 0.5, 0.5}}};
   for (const DesignSettings& settings : designs) {
     const auto forward = points(settings, 3, 11);
     Design design(settings, 3, 11);
@@ -115,6 +186,24 @@ TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
     for (const auto& u : forward)
       for (const double x : u) REQUIRE((x > 0.0 && x < 1.0));
   }
+}
+
+TEST_CASE("by levels a discrete parameter takes each of its values once, whatever it weighs", "[sweep]") {
+  const std::string text =
+      edited(edited(good_study, "distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1\n",
+                    "distribution = \"discrete\"\nvalues = [0.2, 0.3, 0.3, 0.25]\nweights = [0.99, 0, 0.01, 1e-30]\n"),
+             "trials = 200", "levels = 4");
+  const auto friction = [](const std::string& study) {
+    const StudyFolder folder(study);
+    const Study read = load_study(folder / "study.toml");
+    std::vector<double> values;
+    for (const Trial& trial : Trials(read)({0, read.trials()})) values.push_back(trial.parameters[0]);
+    return values;
+  };
+  CHECK(friction(edited(text, "monte_carlo", "grid")) ==
+        std::vector{0.2, 0.2, 0.2, 0.2, 0.3, 0.3, 0.3, 0.3, 0.25, 0.25, 0.25, 0.25});
+  // the medians first, by the weights
+  CHECK(friction(edited(text, "monte_carlo", "one_at_a_time")) == std::vector{0.2, 0.2, 0.3, 0.25, 0.2, 0.2, 0.2, 0.2});
 }
 
 TEST_CASE("every shipped study can be read", "[sweep]") {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -39,16 +40,41 @@ double spearman(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 template <class Function>
-std::vector<double> evaluated(Function&& f, std::size_t parameters, std::uint64_t samples) {
-  Design design(Saltelli{samples}, parameters, 4);
+std::vector<double> evaluated(Function&& f, std::size_t parameters, std::uint64_t samples, std::uint64_t seed = 4) {
+  Design design(Saltelli{samples}, parameters, seed);
   std::vector<double> values;
   for (std::uint64_t k = 0; k < samples * (parameters + 2); ++k) values.push_back(f(design.point(k)));
   return values;
 }
 
+/// A function of numbers from (0, 1) with its exact Sobol indices.
+struct Known {
+  std::function<double(const std::vector<double>&)> of;
+  std::vector<double> first, total;
+};
+
+const Known ishigami = [] {
+  constexpr double pi = std::numbers::pi, a = 7.0, b = 0.1;
+  const double pi4 = std::pow(pi, 4), variance = a * a / 8 + b * pi4 / 5 + b * b * pi4 * pi4 / 18 + 0.5;
+  const double Vx = 0.5 * std::pow(1 + b * pi4 / 5, 2), Vy = a * a / 8, Vxz = b * b * pi4 * pi4 * 8 / 225;
+  return Known{[=](const std::vector<double>& u) {
+                 const double x = pi * (2.0 * u[0] - 1.0), y = pi * (2.0 * u[1] - 1.0), z = pi * (2.0 * u[2] - 1.0);
+                 return std::sin(x) + a * std::sin(y) * std::sin(y) + b * z * z * z * z * std::sin(x);
+               },
+               {Vx / variance, Vy / variance, 0.0},
+               {(Vx + Vxz) / variance, Vy / variance, Vxz / variance}};
+}();
+const Known ramp{[](const std::vector<double>& u) { return 7.0 + 3.0 * u[0] + 2.0 * u[1] + u[2]; },
+                 {9.0 / 14, 4.0 / 14, 1.0 / 14},
+                 {9.0 / 14, 4.0 / 14, 1.0 / 14}};
+/// A step, as a count of events is one: 1 where both numbers are above 0.3.
+const Known corner{[](const std::vector<double>& u) { return u[0] > 0.3 && u[1] > 0.3 ? 1.0 : 0.0; },
+                   {0.49 * 0.21 / (0.49 * 0.51), 0.49 * 0.21 / (0.49 * 0.51)},
+                   {1.0 - 0.21 / 0.51, 1.0 - 0.21 / 0.51}};
+
 /// Indices within three standard errors of the exact ones, and these errors not so large that all is true.
-void check_indices(const std::vector<SobolIndex>& found, const std::vector<double>& first,
-                   const std::vector<double>& total) {
+void check_indices(const SobolIndices& indices, const std::vector<double>& first, const std::vector<double>& total) {
+  const std::vector<SobolIndex>& found = indices.of;
   REQUIRE(found.size() == first.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
     INFO("parameter " << k << ": first " << found[k].first.value << " +- " << found[k].first_deviation << ", total "
@@ -65,29 +91,48 @@ void check_indices(const std::vector<SobolIndex>& found, const std::vector<doubl
 }  // namespace
 
 TEST_CASE("Sobol indices of the Ishigami function", "[sweep]") {
-  constexpr double pi = std::numbers::pi, a = 7.0, b = 0.1;
-  const auto ishigami = [&](const std::vector<double>& u) {
-    const double x = pi * (2.0 * u[0] - 1.0), y = pi * (2.0 * u[1] - 1.0), z = pi * (2.0 * u[2] - 1.0);
-    return std::sin(x) + a * std::sin(y) * std::sin(y) + b * z * z * z * z * std::sin(x);
-  };
-  const double pi4 = std::pow(pi, 4), variance = a * a / 8 + b * pi4 / 5 + b * b * pi4 * pi4 / 18 + 0.5;
-  const double Vx = 0.5 * std::pow(1 + b * pi4 / 5, 2), Vy = a * a / 8, Vxz = b * b * pi4 * pi4 * 8 / 225;
-  check_indices(sobol_indices(column(evaluated(ishigami, 3, 8192)), 3, 1), {Vx / variance, Vy / variance, 0.0},
-                {(Vx + Vxz) / variance, Vy / variance, Vxz / variance});
+  check_indices(sobol_indices(column(evaluated(ishigami.of, 3, 8192)), 3), ishigami.first, ishigami.total);
 }
 
 TEST_CASE("Sobol indices of a linear model, far from zero", "[sweep]") {
   const auto linear = [](const std::vector<double>& u) { return 1e6 + 3.0 * u[0] + 2.0 * u[1] + u[2] + 0.0 * u[3]; };
   const std::vector<double> exact{9.0 / 14, 4.0 / 14, 1.0 / 14, 0.0};
-  check_indices(sobol_indices(column(evaluated(linear, 4, 4096)), 4, 1), exact, exact);
+  check_indices(sobol_indices(column(evaluated(linear, 4, 4096)), 4), exact, exact);
 }
 
-TEST_CASE("blocks of a Saltelli design with a failed trial are left out", "[sweep]") {
+TEST_CASE("intervals of Sobol indices hold the truth as often as they say", "[sweep]") {
+  constexpr int designs = 1000;
+  for (const auto& [function, samples] : {std::pair{&ishigami, 128}, {&ishigami, 1024}, {&ramp, 100}, {&corner, 256}}) {
+    const std::size_t parameters = function->first.size();
+    std::vector<int> first(parameters), total(parameters);
+    for (std::uint64_t seed = 1; seed <= designs; ++seed) {
+      const auto values = evaluated(function->of, parameters, static_cast<std::uint64_t>(samples), seed);
+      const SobolIndices found = sobol_indices(column(values), parameters);
+      for (std::size_t k = 0; k < parameters; ++k) {
+        const auto holds = [](const SampleEstimate& e, double truth) { return e.low <= truth && truth <= e.high; };
+        if (holds(found.of[k].first, function->first[k])) ++first[k];
+        if (holds(found.of[k].total, function->total[k])) ++total[k];
+      }
+    }
+    for (std::size_t k = 0; k < parameters; ++k) {
+      INFO(samples << " samples, parameter " << k << ": " << first[k] << " and " << total[k] << " of " << designs);
+      for (const int caught : {first[k], total[k]}) {
+        CHECK(caught >= 0.90 * designs);
+        CHECK(caught <= 0.98 * designs);
+      }
+    }
+  }
+}
+
+TEST_CASE("samples of a Saltelli design with a failed trial are left out, and counted", "[sweep]") {
   const auto linear = [](const std::vector<double>& u) { return 3.0 * u[0] + 2.0 * u[1]; };
   std::vector<double> values = evaluated(linear, 2, 4096);
   for (std::size_t k = 0; k < values.size(); k += 37) values[k] = std::numeric_limits<double>::quiet_NaN();
-  check_indices(sobol_indices(column(values), 2, 1), {9.0 / 13, 4.0 / 13}, {9.0 / 13, 4.0 / 13});
-  CHECK(sobol_indices(column(std::vector<double>(40, 1.0)), 2, 1).empty());
+  const SobolIndices found = sobol_indices(column(values), 2);
+  check_indices(found, {9.0 / 13, 4.0 / 13}, {9.0 / 13, 4.0 / 13});
+  CHECK(found.left_out == 443);  // every 37th of 16384 values fails, each in another sample
+  CHECK(found.used == 4096 - 443);
+  CHECK(sobol_indices(column(std::vector<double>(40, 1.0)), 2).of.empty());
 }
 
 TEST_CASE("Clopper and Pearson's intervals", "[sweep]") {
