@@ -106,19 +106,21 @@ class MetricsMeter {
 
   Metrics result() const {
     if (samples_ == 0) {
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
-      return {none, none, none, none, none, none, none, none, none};
+      Metrics none;
+      for_each_field<Metrics>(
+          [&](const auto& field) { none.*field.member = std::numeric_limits<double>::quiet_NaN(); });
+      return none;
     }
     const double n = static_cast<double>(samples_);
-    return {sums_.highest - sums_.lowest,
-            std::sqrt(sums_.squares / n),
-            std::max(std::abs(sums_.highest), std::abs(sums_.lowest)),
-            sums_.peak,
-            std::sqrt(sums_.torque_squares / n),
-            static_cast<double>(reversals_),
-            static_cast<double>(flank_changes_),
-            stuck_,
-            sums_.outside};
+    return {.error_peak_to_peak = sums_.highest - sums_.lowest,
+            .error_rms = std::sqrt(sums_.squares / n),
+            .error_max = std::max(std::abs(sums_.highest), std::abs(sums_.lowest)),
+            .torque_peak = sums_.peak,
+            .torque_rms = std::sqrt(sums_.torque_squares / n),
+            .reversals = static_cast<double>(reversals_),
+            .flank_changes = static_cast<double>(flank_changes_),
+            .time_stuck = stuck_,
+            .time_outside_layer = sums_.outside};
   }
 
  private:
