@@ -31,8 +31,8 @@ bool is_whole(const std::vector<double>& values) {
 }
 
 /// What indices are worked out from.
-struct SampleSums {
-  explicit SampleSums(std::size_t parameters) : first(parameters), total(parameters) {}
+struct IndexSums {
+  explicit IndexSums(std::size_t parameters) : first(parameters), total(parameters) {}
 
   double weight = 0.0, sum = 0.0, squares = 0.0;
   std::vector<double> first, total;
@@ -50,7 +50,7 @@ struct SampleSums {
     }
   }
   /// sign: +1 adds other sums, -1 takes them away.
-  void add(const SampleSums& other, double sign) {
+  void add(const IndexSums& other, double sign) {
     weight += sign * other.weight;
     sum += sign * other.sum;
     squares += sign * other.squares;
@@ -94,32 +94,32 @@ SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
   });
   if (constant) return indices;
 
-  SampleSums all(parameters);
-  std::vector<SampleSums> parts(Saltelli::replicates, all);
+  IndexSums all(parameters);
+  std::vector<IndexSums> parts(Saltelli::replicates, all);
   for_each_sample(values, parameters, [&](std::uint64_t sample, std::vector<double>& f) {
     if (!is_whole(f)) return;
     for (double& value : f) value -= centre;
     parts[sample % Saltelli::replicates].add(f);
   });
-  std::erase_if(parts, [](const SampleSums& part) { return part.weight == 0.0; });
-  for (const SampleSums& part : parts) all.add(part, 1.0);
+  std::erase_if(parts, [](const IndexSums& part) { return part.weight == 0.0; });
+  for (const IndexSums& part : parts) all.add(part, 1.0);
   if (parts.size() < 2) return indices;
-  std::vector<SampleSums> without(parts.size(), all);
+  std::vector<IndexSums> without(parts.size(), all);
   for (std::size_t r = 0; r < parts.size(); ++r) without[r].add(parts[r], -1.0);
 
   const boost::math::students_t student(static_cast<double>(parts.size() - 1));
   const double widths = quantile(student, 0.975);  // of half an interval, in standard errors
-  const auto index = [&](double (SampleSums::*of)(std::size_t) const, std::size_t k, double& error) {
+  const auto index = [&](double (IndexSums::*of)(std::size_t) const, std::size_t k, double& error) {
     std::vector<double> resampled;
-    for (const SampleSums& sums : without) resampled.push_back((sums.*of)(k));
+    for (const IndexSums& sums : without) resampled.push_back((sums.*of)(k));
     error = jackknife_error(resampled);
     const double value = (all.*of)(k);
     return SampleEstimate{value, value - widths * error, value + widths * error};
   };
   for (std::size_t k = 0; k < parameters; ++k) {
     SobolIndex& found = indices.of.emplace_back();
-    found.first = index(&SampleSums::first_index, k, found.first_deviation);
-    found.total = index(&SampleSums::total_index, k, found.total_deviation);
+    found.first = index(&IndexSums::first_index, k, found.first_deviation);
+    found.total = index(&IndexSums::total_index, k, found.total_deviation);
   }
   return indices;
 }

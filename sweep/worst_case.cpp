@@ -27,7 +27,7 @@ class Search {
     while (study.metrics[metric_].name != metric) ++metric_;
   }
 
-  void from(std::uint64_t trial, std::uint64_t most) {
+  void from(std::uint64_t trial, std::uint64_t runs) {
     start = trial;
     std::vector<double> u = trials_.point(trial);
     for (double& x : u) x = std::clamp(x, settings_.tail, 1.0 - settings_.tail);
@@ -35,7 +35,7 @@ class Search {
     nlopt_set_lower_bounds1(optimiser_.get(), settings_.tail);
     nlopt_set_upper_bounds1(optimiser_.get(), 1.0 - settings_.tail);
     nlopt_set_initial_step1(optimiser_.get(), 0.2);
-    nlopt_set_maxeval(optimiser_.get(), static_cast<int>(most));
+    nlopt_set_maxeval(optimiser_.get(), static_cast<int>(runs));
     nlopt_set_xtol_abs1(optimiser_.get(), 1e-6);
     nlopt_set_max_objective(
         optimiser_.get(),
