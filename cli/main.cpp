@@ -18,13 +18,13 @@
 #include "cli/shell_words.hpp"
 #include "events/halt.hpp"
 #include "output/part_file.hpp"
+#include "output/program.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/keys.hpp"
 
 namespace {
 
 using namespace wormdrive;
-
 constexpr int bad_input = 2, cannot_go_on = 3, cannot_write = 4;
 
 /// "wormdrive run 'my arm.toml'", as one could type it again.

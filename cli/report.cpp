@@ -33,7 +33,8 @@ ReportPage page_of(const ResultFile& file) {
 ReportTable provenance(const ResultFile& file) {
   ReportTable table{"Provenance", {{"what"}, {"which"}}, {}};
   table.rows.push_back({"file", std::filesystem::path(file.path()).filename().string()});
-  for (const std::string name : {"command_line", "wormdrive_version", "commit", "libraries", "created", "solver"})
+  for (const std::string name :
+       {"command_line", "wormdrive_version", "commit", "sources", "libraries", "created", "solver"})
     if (const std::string text = file.attribute("/", name); !text.empty()) table.rows.push_back({words(name), text});
   return table;
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/certificate.hpp"
-#include "output/part_file.hpp"
+#include "output/program.hpp"
 #include "scenarios/keys.hpp"
 
 namespace wormdrive {

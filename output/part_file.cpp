@@ -13,7 +13,7 @@
 #include <sundials/sundials_version.h>
 #include <sys/file.h>
 
-#include "commit.hpp"
+#include "output/program.hpp"
 
 namespace wormdrive {
 namespace {
@@ -101,14 +101,13 @@ void write_provenance(hid_t file, const Provenance& provenance) {
   write_attribute(file, "kind", provenance.kind);
   write_attribute(file, "scenario", provenance.scenario);
   write_attribute(file, "command_line", provenance.command_line);
-  write_attribute(file, "wormdrive_version", std::string(version));
-  write_attribute(file, "commit", std::string(commit));
+  write_attribute(file, "wormdrive_version", program_version());
+  write_attribute(file, "commit", program_commit());
+  write_attribute(file, "sources", program_sources());
   write_attribute(file, "libraries",
                   fmt::format("SUNDIALS {}, HDF5 {}.{}.{}, Eigen {}.{}.{}", SUNDIALS_VERSION, major, minor, release,
                               EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   write_attribute(file, "created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
 }
-
-std::string build_description() { return fmt::format("wormdrive {} ({})", version, commit); }
 
 }  // namespace wormdrive

@@ -54,7 +54,4 @@ struct Provenance {
 };
 void write_provenance(hid_t file, const Provenance& provenance);
 
-/// "wormdrive 0.1.0 (commit)"
-std::string build_description();
-
 }  // namespace wormdrive

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "output/program.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/write_scenario.hpp"
 #include "sweep/load_study.hpp"
@@ -80,7 +81,7 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   PartFile file(path + ".part");  // so that NAME.part is whole from its first moment on
   write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
   write_attribute(file.file(), "study", study.text);
-  write_attribute(file.file(), "build", build_description());
+  write_attribute(file.file(), "build", program_identity());
   write_attribute(file.file(), "first_trial", static_cast<std::int64_t>(range.first));
   write_attribute(file.file(), "end_trial", static_cast<std::int64_t>(range.end));
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
@@ -192,7 +193,7 @@ std::string SweepReader::why_not(const std::string& study, const std::string& sc
   return build_ == build ? "" : fmt::format("it was made by {}, and this is {}", build_, build);
 }
 std::string SweepReader::why_not_of(const Study& study) const {
-  return why_not(study.text, to_toml(study.scenario), build_description());
+  return why_not(study.text, to_toml(study.scenario), program_identity());
 }
 std::string SweepReader::why_not_of(const SweepReader& other) const {
   return why_not(other.study_.text, other.scenario_, other.build_);

@@ -14,7 +14,7 @@
 #include "bindings/fmi/plant_parameters.hpp"
 #include "bindings/fmi/variables.hpp"
 #include "core/elastic_teeth.hpp"
-#include "output/part_file.hpp"
+#include "output/program.hpp"
 
 namespace wormdrive {
 namespace {

@@ -8,6 +8,8 @@
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/run_result.hpp"
 #include "bindings/python/signals.hpp"
+#include "output/hdf5.hpp"
+#include "output/program.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/keys.hpp"
 #include "scenarios/load_scenario.hpp"

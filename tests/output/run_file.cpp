@@ -87,8 +87,8 @@ TEST_CASE("a run file has the columns of its layout, each with units or flags an
       CHECK(run.text(path, "flag_meanings") == column.flag_meanings);
     }
   }
-  for (const std::string attribute :
-       {"title", "kind", "scenario", "command_line", "wormdrive_version", "commit", "libraries", "created", "solver"})
+  for (const std::string attribute : {"title", "kind", "scenario", "command_line", "wormdrive_version", "commit",
+                                      "sources", "libraries", "created", "solver"})
     CHECK(read_text_attribute(run.file(), attribute) != "");
   CHECK(read_text_attribute(run.file(), "kind") == "run");
   CHECK(read_text_attribute(run.file(), "command_line") ==

@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
-#include "output/part_file.hpp"
+#include "output/program.hpp"
 #include "sweep/studies.hpp"
 
 namespace wormdrive::test::sweep_bad_studies {
@@ -238,7 +238,7 @@ TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[swe
   CHECK(other.exit == 2);
   CHECK(other.err == fmt::format("o.h5.part: error: cannot be resumed: it was made by wormdrive 0.0.1 (abc), and this "
                                  "is {}; undo the change, or delete the file to begin anew\n",
-                                 build_description()));
+                                 program_identity()));
   folder.write("o.h5.part", "no HDF5");
   CHECK(folder.sweep({"-o", "o.h5", "--resume"}).err ==
         "o.h5.part: error: cannot be resumed: it cannot be opened as HDF5; delete the file to begin anew\n");
