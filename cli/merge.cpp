@@ -11,7 +11,8 @@ namespace wormdrive {
 
 int merge_command(const MergeOptions& options) {
   for (const std::string& shard : options.shards) refuse_to_overwrite(options.output, shard);
-  const std::uint64_t trials = merge_shards(options.shards, options.output, options.command_line);
+  const std::uint64_t trials =
+      merge_shards(options.shards, options.output, OutputLock(options.output), options.command_line);
   keep_trajectories(options.output, options.command_line, options.quiet);
   if (options.quiet) return 0;
   print_item("merged", fmt::format("{} shards, {} trials", options.shards.size(), trials));

@@ -32,7 +32,7 @@ void print_cost(const SweepCost& cost) {
 
 int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
   const TrialRange range = range_of(options.shard, study.trials());
-  const OpenSweep open = open_sweep(output, study, range, options.command_line, options.resume);
+  const OpenSweep open = open_sweep(output, OutputLock(output), study, range, options.command_line, options.resume);
   if (!options.quiet) print_study(study, range);
   if (!open.file) {
     if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
@@ -42,8 +42,8 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
 
   const unsigned threads = threads_for(options.threads);
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
-  std::uint64_t made = 0;
-  const auto too_many = [&] { return options.max_failures && file.reasons().total() > *options.max_failures; };
+  std::uint64_t made = 0, failed = open.failed;
+  const auto too_many = [&] { return options.max_failures && failed > *options.max_failures; };
   std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;
   SweepCost cost;
@@ -53,14 +53,22 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     Progress progress(static_cast<double>(wanted), options.quiet);
     auto next = open.missing.begin();
     const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
-    const auto take = [&](const Trial& trial) {
-      file.append(trial);
+    const auto take = [&](Trial trial) {
+      failed += trial.status != TrialStatus::done;
+      file.append(std::move(trial));
       progress.at(static_cast<double>(++made), [&](double passed) {
-        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, file.reasons().total());
+        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, failed);
       });
-      return !too_many();
     };
-    if (!too_many()) run_ensemble(study, source, threads, take, [] { return Interruptible::signal() != 0; });
+    const auto is_to_end = [&] {
+      const bool interrupted = Interruptible::signal() != 0;
+      if (interrupted)
+        file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
+      else
+        file.keep_safe();
+      return interrupted || too_many();
+    };
+    if (!too_many()) run_ensemble(study, source, threads, take, is_to_end);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cost.file = thread_cpu_time() - file_begin;  // this thread has done nothing else
     cost.trials = cpu_time() - cpu_begin - cost.file;
@@ -77,9 +85,11 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
                                   how_to_resume(options)));
   }
-  if (too_many())
-    throw Halt(fmt::format("{}; {} keeps them all",
-                           too_many_failed(file.reasons(), before + made, *options.max_failures), file.part_path()));
+  if (too_many()) {  // threads were ahead of the trial that was one too many
+    const EarlyEnd early = ended_early({file.part_path()}, *options.max_failures);
+    file.drop_from(early.end);
+    throw Halt(fmt::format("{}; {} keeps them all", early.told, file.part_path()));
+  }
   if (made < wanted) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
@@ -91,7 +101,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were there already", before) : ""));
   print_cost(cost);
-  print_failures(file.reasons());
+  print_failures(SweepReader(output).counted_reasons());
   print_verdicts(verdicts, study.referee_tolerance);
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
   return 0;
@@ -129,13 +139,14 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
-  Ranks ranks;
+  std::optional<Ranks> ranks;
   try {
-    return sweep_together(ranks, options);
+    ranks.emplace(!options.shard.empty());
+    return sweep_together(*ranks, options);
   } catch (const InputFault& fault) {
     // mpirun may lose what is said behind the ranks' common end
-    if (ranks.count() == 1) throw;
-    fmt::print(stderr, "{}\n", fault.what());
+    if (ranks && ranks->count() == 1) throw;
+    if (!fault.faults.empty()) fmt::print(stderr, "{}\n", fault.what());
     return 2;
   }
 }

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -52,8 +51,8 @@ class RankSweep {
         study_(study),
         path_(path),
         missing_(std::move(missing)),
-        portion_(
-            std::clamp<std::uint64_t>(missing_.count() / (64 * static_cast<std::uint64_t>(ranks.count())), 1, 256)) {}
+        portion_(std::clamp<std::uint64_t>(missing_.count() / (64 * static_cast<std::uint64_t>(ranks.count())), 1,
+                                           256 * std::uint64_t{threads_for(options.threads)})) {}
 
   void make() {
     const TrialRange all{0, study_.trials()};
@@ -61,19 +60,17 @@ class RankSweep {
     SweepFile file(path_, study_, all);
     Progress progress(static_cast<double>(missing_.count()), options_.quiet || !ranks_.first());
     const double begin = cpu_time();
-    const auto take = [&](const Trial& trial) {
-      file.append(trial);
+    const auto take = [&](Trial trial) {
+      if (trial.status != TrialStatus::done) ++failures_;
+      file.append(std::move(trial));
       ++made_;
-      if (trial.status != TrialStatus::done) ranks_.add(Ranks::Counter::failures, 1);
       progress.at(static_cast<double>(std::min(reached_.load(), missing_.count())), [&](double seconds) {
         return fmt::format(", about {:.0f} trials/s on {} ranks", static_cast<double>(reached_.load()) / seconds,
                            ranks_.count());
       });
-      return true;
     };
     run_ensemble(
-        study_, [this] { return next(); }, threads_for(options_.threads), take,
-        [] { return Interruptible::signal() != 0; });
+        study_, [this] { return next(); }, threads_for(options_.threads), take, [&] { return is_to_end(file); });
     const auto ranks = static_cast<std::size_t>(ranks_.count());
     if (!too_many() && Interruptible::signal() == 0)
       judge(file, study_, options_, cpu_time() - begin, (least_judged + ranks - 1) / ranks);
@@ -81,16 +78,21 @@ class RankSweep {
   }
   std::uint64_t made() const { return made_; }
   /// What was taken by then is made nevertheless, so that every trial before the last one is there.
-  bool too_many() { return ranks_.add(Ranks::Counter::failures, 0) > options_.max_failures.value_or(never); }
+  bool too_many() {
+    const std::uint64_t failures = failures_.exchange(0);
+    return ranks_.add({0, failures}).failures + failures > most_failures();
+  }
 
  private:
-  static constexpr std::uint64_t never = ~std::uint64_t{0};
+  std::uint64_t most_failures() const { return options_.max_failures.value_or(~std::uint64_t{0}); }
 
-  /// The next trials that no rank has taken.
+  /// The next trials that no rank has taken. Failures are told with the question, so that they cost no other.
   std::optional<TrialRange> next() {
     if (left_ == 0) {
-      if (too_many()) return std::nullopt;
-      at_ = ranks_.add(Ranks::Counter::portion, 1) * portion_;
+      const std::uint64_t failures = failures_.exchange(0);
+      const Tally before = ranks_.add({1, failures});
+      if (before.failures + failures > most_failures()) return std::nullopt;
+      at_ = before.portions * portion_;
       left_ = at_ < missing_.count() ? std::min(portion_, missing_.count() - at_) : 0;
       reached_ = at_;
     }
@@ -101,6 +103,15 @@ class RankSweep {
     return range;
   }
 
+  static bool is_to_end(SweepFile& file) {
+    const bool ends = Interruptible::signal() != 0;
+    if (ends)
+      file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
+    else
+      file.keep_safe();
+    return ends;
+  }
+
   Ranks& ranks_;
   const SweepOptions& options_;
   const Study& study_;
@@ -108,18 +119,20 @@ class RankSweep {
   Missing missing_;
   std::uint64_t portion_, at_ = 0, left_ = 0;
   std::atomic<std::uint64_t> reached_{0};
+  std::atomic<std::uint64_t> failures_{0};  ///< that the others have not been told
   std::uint64_t made_ = 0;
 };
 
 /// What the first rank finds of earlier ones, for all of them; nothing for the others if it has a fault to tell.
-std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const Study& study,
-                               const std::string& output) {
+std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output,
+                               OutputLock& lock) {
   RankPlan plan;
   std::vector<std::uint64_t> told{2};  // that something is wrong
   if (ranks.first()) {
     try {
+      lock = OutputLock(output);
       plan = plan_ranks(output, study, options.resume);
-      ranks.add(Ranks::Counter::failures, plan.failed);
+      ranks.add({0, plan.failed});
     } catch (...) {
       ranks.told(told);
       throw;
@@ -134,40 +147,33 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
   return plan;
 }
 
-/// What a single process would say that ends with the trial that is one failure too many.
-std::string why_ended(const std::string& output, std::uint64_t max_failures) {
-  std::vector<std::unique_ptr<SweepReader>> parts;
-  std::vector<std::pair<TrialRange, const SweepReader*>> ranges;
-  for (const std::string& part : rank_parts(output)) {
-    parts.push_back(std::make_unique<SweepReader>(part));
-    for (const TrialRange& range : parts.back()->present()) ranges.emplace_back(range, parts.back().get());
-  }
-  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.first.first < b.first.first; });
-  ReasonTable reasons;
-  std::uint64_t trials = 0;
-  for (const auto& [range, part] : ranges)
-    for_each_trial(*part, range, [&](const Trial& trial) {
-      if (reasons.total() > max_failures) return;
-      reasons.code(trial.reason);
-      ++trials;
-    });
-  return too_many_failed(reasons, trials, max_failures);
-}
-
 /// Puts together what the ranks have made; the first one does it.
-void join(const SweepOptions& options, const std::string& output) {
+void join(const SweepOptions& options, const std::string& output, OutputLock lock) {
   const std::vector<std::string> parts = rank_parts(output);
   std::vector<std::string> used;
   for (const std::string& part : parts)
     if (SweepReader(part).trials() > 0) used.push_back(part);
-  merge_shards(used, output, options.command_line);
+  merge_shards(used, output, std::move(lock), options.command_line);
   for (const std::string& part : parts) std::filesystem::remove(part);
+}
+
+/// ", 317 to 323 each", how many trials each rank has made this time; nothing for a single one.
+std::string shares(const std::string& output, std::uint64_t generation, int ranks) {
+  if (ranks == 1) return "";
+  std::uint64_t least = ~std::uint64_t{0}, most = 0;
+  for (int rank = 0; rank < ranks; ++rank) {
+    const std::uint64_t made = SweepReader(rank_file(output, generation, rank) + ".part").trials();
+    least = std::min(least, made);
+    most = std::max(most, made);
+  }
+  return least == most ? fmt::format(", {} each", least) : fmt::format(", {} to {} each", least, most);
 }
 
 }  // namespace
 
 int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output) {
-  const std::optional<RankPlan> agreement = agreed(ranks, options, study, output);
+  OutputLock lock;  // the first one holds it for all
+  const std::optional<RankPlan> agreement = agreed(ranks, options, study, output, lock);
   if (!agreement) return 2;
   const RankPlan& plan = *agreement;
   const bool talks = ranks.first() && !options.quiet;
@@ -182,7 +188,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   std::string fault;
   try {
     sweep.make();
-  } catch (const OutputFault& what) {  // the others go on: they must not wait for this one
+  } catch (const std::exception& what) {  // the others go on: they must not wait for this one
     fault = what.what();
     fmt::print(stderr, "wormdrive: rank {}: {}\n", ranks.rank(), fault);
   }
@@ -193,20 +199,23 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
                                          how_to_resume(options).substr(std::string("go on with: ").size()));
   if (broken || too_many || made < missing.count()) {
     if (ranks.first() && too_many)
-      fmt::print(stderr, "wormdrive: {}; {}.rank_* keep them all\n", why_ended(output, *options.max_failures), output);
+      fmt::print(stderr, "wormdrive: {}; {}.rank_* keep them all\n",
+                 ended_early(rank_parts(output), *options.max_failures).told, output);
     else if (ranks.first())
       fmt::print(stderr, "wormdrive: ended after {} of {} trials, all of them in {}.rank_*; {}\n", there,
                  study.trials(), output, resume);
     return too_many ? 3 : broken ? 4 : 128 + Interruptible::signal();
   }
+  std::string each;
   if (ranks.first()) {
-    join(options, output);
+    each = shares(output, plan.generation, ranks.count());
+    join(options, output, std::move(lock));
     keep_trajectories(output, options.command_line, options.quiet);
   }
   if (!talks) return 0;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}, {:.0f} a second{}", made, seconds, ranks.count(),
-                                ranks.count() == 1 ? "" : "s", static_cast<double>(made) / seconds,
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}{}, {:.0f} a second{}", made, seconds, ranks.count(),
+                                ranks.count() == 1 ? "" : "s", each, static_cast<double>(made) / seconds,
                                 there > made ? fmt::format("; {} were there already", there - made) : ""));
   const SweepReader result(output);
   print_failures(result.counted_reasons());

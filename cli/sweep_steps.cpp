@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/describe_sweep.hpp"
 #include "scenarios/faults.hpp"
+#include "sweep/pieces.hpp"
 #include "sweep/referee.hpp"
 #include "sweep/threads.hpp"
 
@@ -48,6 +50,20 @@ std::string how_to_resume(const SweepOptions& options) {
   if (options.resume) return "go on with: " + typed;
   const std::size_t end = std::min(typed.find(" -- "), typed.size());  // behind it there are no options
   return fmt::format("go on with: {} --resume{}", typed.substr(0, end), typed.substr(end));
+}
+
+EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures) {
+  const SweepPieces pieces(parts);
+  ReasonTable reasons;
+  std::uint64_t trials = 0, end = 0;
+  for (const auto& [range, part] : pieces.in_order)
+    for_each_trial(*part, range, [&](const Trial& trial) {
+      if (reasons.total() > max_failures) return;
+      reasons.code(trial.reason, trial.index);
+      ++trials;
+      end = trial.index + 1;
+    });
+  return {end, too_many_failed(reasons, trials, max_failures)};
 }
 
 namespace {

@@ -29,6 +29,14 @@ TrialRange range_of(const std::string& shard, std::uint64_t trials);
 /// "go on with: wormdrive sweep ... --resume"
 std::string how_to_resume(const SweepOptions& options);
 
+/// How a sweep ends that is made one trial after the other until one more has failed than may.
+struct EarlyEnd {
+  std::uint64_t end{};  ///< the first trial that it does not make
+  std::string told;
+};
+/// Finds that in files which have every trial before, and perhaps others.
+EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures);
+
 /// Trials of a sweep that a referee looks at in any case.
 inline constexpr std::size_t least_judged = 8;
 

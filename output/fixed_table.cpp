@@ -64,14 +64,13 @@ FixedTable::FixedTable(hid_t parent, const std::string& group, const std::vector
     errno = 0;
     datasets_.emplace_back(H5Dopen2(parent, path.c_str(), H5P_DEFAULT), H5Dclose,
                            "cannot open " + path + " of " + file_of(parent));
-    names_.push_back(column.name);
   }
 }
 
 void FixedTable::write(std::size_t column, std::uint64_t row, const std::vector<double>& values) {
   if (values.empty()) return;
-  const std::string action = "cannot write " + names_[column] + " to " + file_of(datasets_[column]);
-  write_rows(datasets_[column], H5T_NATIVE_DOUBLE, row, values.size(), values.data(), action);
+  write_rows(datasets_[column], H5T_NATIVE_DOUBLE, row, values.size(), values.data(),
+             "cannot write " + file_of(datasets_[column]));
 }
 
 void FixedTexts::create(hid_t parent, const std::string& name, const std::string& long_name, std::uint64_t rows) {
@@ -85,12 +84,11 @@ void FixedTexts::create(hid_t parent, const std::string& name, const std::string
 }
 
 FixedTexts::FixedTexts(hid_t parent, const std::string& name)
-    : name_(name),
-      dataset_(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose,
+    : dataset_(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose,
                "cannot open " + name + " of " + file_of(parent)) {}
 
 void FixedTexts::write(std::uint64_t row, const std::string& text) {
-  const std::string action = "cannot write " + name_ + " to " + file_of(dataset_);
+  const std::string action = "cannot write " + file_of(dataset_);
   std::string padded(shortened(text));
   padded.resize(longest);
   write_rows(dataset_, text_type(action), row, 1, padded.data(), action);

@@ -22,7 +22,6 @@ class FixedTable {
 
  private:
   std::string group_;
-  std::vector<std::string> names_;
   std::vector<Hdf5Handle> datasets_;
 };
 
@@ -35,7 +34,6 @@ class FixedTexts {
   void write(std::uint64_t row, const std::string& text);
 
  private:
-  std::string name_;
   Hdf5Handle dataset_;
 };
 

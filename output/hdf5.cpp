@@ -80,6 +80,15 @@ Hdf5Handle open_hdf5(const std::string& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
 }
 
+Hdf5Handle open_hdf5_while_written(const std::string& path) {
+  prepare_hdf5();
+  const std::string action = "it cannot be opened as HDF5";
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
+  check_hdf5(H5Pset_file_locking(access, false, true), action);
+  errno = 0;
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, action};
+}
+
 Hdf5Handle reopen_hdf5(const std::string& path) {
   prepare_hdf5();
   errno = 0;

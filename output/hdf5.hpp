@@ -51,6 +51,9 @@ void check_hdf5(herr_t status, const std::string& action);
 bool is_hdf5(const std::string& path);
 Hdf5Handle create_hdf5(const std::string& path);
 Hdf5Handle open_hdf5(const std::string& path);
+/// The same for a file in which another program writes values, but nothing of the structure: it is not asked for a
+/// lock.
+Hdf5Handle open_hdf5_while_written(const std::string& path);
 /// Opens a file to write on in it.
 Hdf5Handle reopen_hdf5(const std::string& path);
 Hdf5Handle create_group(hid_t parent, const std::string& name);

@@ -29,12 +29,25 @@ void refuse_to_replace_other_things(const std::string& path) {
     throw OutputFault(fmt::format("cannot write {}: it exists and is not an HDF5 file; choose another name", path));
 }
 
+void rename(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) != 0)
+    throw OutputFault(fmt::format("cannot rename {} to {}: {}", from, to, std::strerror(errno)));
+}
+
 void remove_quietly(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
 }
 
 }  // namespace
+
+bool is_being_written(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool taken = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return taken;
+}
 
 void refuse_to_disturb_a_writer(const std::string& part_path) {
   const int descriptor = ::open(part_path.c_str(), O_RDONLY);
@@ -55,6 +68,17 @@ void synchronise(const std::string& path) {
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(path_ + ".part") {
   refuse_to_replace_other_things(path_);
+  lock_ = OutputLock(path_);
+  create();
+}
+
+PartFile::PartFile(std::string path, OutputLock lock)
+    : path_(std::move(path)), part_path_(path_ + ".part"), lock_(std::move(lock)) {
+  refuse_to_replace_other_things(path_);
+  create();
+}
+
+void PartFile::create() {
   refuse_to_disturb_a_writer(part_path_);
   try {
     file_ = create_hdf5(part_path_);
@@ -89,9 +113,13 @@ void PartFile::finish() {
   flush();
   file_.close("cannot write " + part_path_);
   synchronise(part_path_);
-  if (std::rename(part_path_.c_str(), path_.c_str()) != 0)
-    throw OutputFault(fmt::format("cannot rename {} to {}: {}", part_path_, path_, std::strerror(errno)));
+  rename(part_path_, path_);
   stays_ = true;
+}
+
+void PartFile::give_way_to(const std::string& other) {
+  rename(other, path_);
+  stays_ = false;
 }
 
 void write_provenance(hid_t file, const Provenance& provenance) {

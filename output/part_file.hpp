@@ -2,6 +2,7 @@
 #include <string>
 
 #include "output/hdf5.hpp"
+#include "output/output_lock.hpp"
 
 namespace wormdrive {
 
@@ -11,7 +12,9 @@ class PartFile {
   /// Creates NAME.part; throws OutputFault if the place cannot be written, or if NAME is something that no result may
   /// replace: neither a plain file nor absent, or a file that is not HDF5.
   explicit PartFile(std::string path);
-  /// Opens the NAME.part that a program left, to go on with it; it stays whatever happens.
+  /// The same for one who holds the lock of what it becomes.
+  PartFile(std::string path, OutputLock lock);
+  /// Opens the NAME.part that a program left, to go on with it, for one who holds the lock; it stays whatever happens.
   static PartFile reopened(std::string path) { return {std::move(path), Left{}}; }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -26,6 +29,8 @@ class PartFile {
   void flush();
   /// Closes the file and gives it its final name. Every other handle into it must be closed before.
   void finish();
+  /// Gives the final name to another file, which has all of this one, and removes NAME.part.
+  void give_way_to(const std::string& other);
   /// Makes the part readable and lets it stay although it is not complete.
   void keep();
 
@@ -33,10 +38,16 @@ class PartFile {
   struct Left {};
   PartFile(std::string path, Left);
 
+  void create();
+
   std::string path_, part_path_;
+  OutputLock lock_;  ///< given back after all else
   Hdf5Handle file_;
   bool stays_ = false;
 };
+
+/// Whether a program has a file open for writing.
+bool is_being_written(const std::string& path);
 
 /// HDF5 locks a file that it writes, but empties it before it asks for the lock. Throws OutputFault where a program has
 /// it.

@@ -132,6 +132,13 @@ int runs_together(const Scenario& scenario) { return fits_lane(scenario) ? LaneB
 
 std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind kind) {
   std::vector<BatchResult> results(scenarios.size());
+  run_batch(
+      scenarios, [&](std::size_t place, BatchResult result) { results[place] = std::move(result); }, kind);
+  return results;
+}
+
+void run_batch(std::span<const Scenario> scenarios, const std::function<void(std::size_t, BatchResult)>& take,
+               LaneKind kind) {
   std::vector<bool> taken(scenarios.size());
   for (std::size_t first = 0; first < scenarios.size(); ++first) {
     if (taken[first]) continue;
@@ -147,13 +154,12 @@ std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind
       taken[k] = true;
     }
     if (runs.empty()) {
-      results[first] = run_alone(scenarios[first]);
+      take(first, run_alone(scenarios[first]));
       continue;
     }
     std::vector<BatchResult> found = LaneGroup(kind, std::move(runs)).run(scenarios[first]);
-    for (std::size_t k = 0; k < places.size(); ++k) results[places[k]] = std::move(found[k]);
+    for (std::size_t k = 0; k < places.size(); ++k) take(places[k], std::move(found[k]));
   }
-  return results;
 }
 
 }  // namespace wormdrive

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -18,5 +19,8 @@ int runs_together(const Scenario& scenario);
 /// Simulates scenarios as run_scenario() does, with the same bits: those that differ in numbers of drive and controller
 /// alone, sampled by a sliding controller and solved by power series, several at once in the lanes of one register.
 std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind kind = widest_lanes());
+/// The same; take(place, result) gets each as soon as it is there, so that one that takes long holds back no other.
+void run_batch(std::span<const Scenario> scenarios, const std::function<void(std::size_t, BatchResult)>& take,
+               LaneKind kind);
 
 }  // namespace wormdrive

@@ -11,14 +11,17 @@
 namespace wormdrive {
 namespace {
 
-/// Trials that are done before the one that is to be handed over next wait here, so many at most.
-constexpr std::uint64_t window = 4096;
+/// Trials that are done and wait for being handed over, so many at most.
+constexpr std::size_t window = 1 << 16;
+/// So many are worth waking the thread that takes them; fewer wait a moment.
+constexpr std::size_t worth_waking = 256;
+constexpr std::chrono::milliseconds moment(10);
 
 class Ensemble {
  public:
   Ensemble(const Study& study, const TrialSource& source) : study_(study), source_(source) {}
 
-  void run(unsigned threads, const std::function<bool(Trial)>& take, const std::function<bool()>& stop) {
+  void run(unsigned threads, const std::function<void(Trial)>& take, const std::function<bool()>& stop) {
     {
       std::vector<std::jthread> workers;
       const Stopper stop_on_the_way_out{*this};  // whatever take() throws; then the workers are joined
@@ -33,11 +36,6 @@ class Ensemble {
     Ensemble& ensemble;
     ~Stopper() { ensemble.halt(); }
   };
-  /// Trials that somebody makes together, and the turn of the first one to be handed over.
-  struct Claim {
-    TrialRange trials;
-    std::uint64_t turn;
-  };
 
   void halt() {
     const std::lock_guard lock(mutex_);
@@ -50,9 +48,9 @@ class Ensemble {
   }
 
   /// The next trials, at most so many, once there is room for them; nothing when there is no more to do.
-  std::optional<Claim> claim(std::uint64_t most) {
+  std::optional<TrialRange> claim(std::uint64_t most) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [&] { return no_more_ || claimed_ + most <= taken_ + window; });
+    room_.wait(lock, [&] { return no_more_ || done_.size() < window; });
     if (no_more_) return std::nullopt;
     if (portion_.size() == 0) {
       if (const auto more = source_()) {
@@ -62,45 +60,43 @@ class Ensemble {
         return std::nullopt;
       }
     }
-    const std::uint64_t first = portion_.first, turn = claimed_, count = std::min(most, portion_.size());
+    const std::uint64_t first = portion_.first, count = std::min(most, portion_.size());
     portion_.first += count;
-    claimed_ += count;
-    return Claim{{first, first + count}, turn};
+    in_work_ += count;
+    return TrialRange{first, first + count};
   }
 
   void work() {
     try {
       Trials trials(study_);
-      while (const auto mine = claim(trials.together())) {
-        std::vector<Trial> made = trials(mine->trials);
-        const std::lock_guard lock(mutex_);
-        for (std::size_t k = 0; k < made.size(); ++k) done_[(mine->turn + k) % window] = std::move(made[k]);
-        if (mine->turn == taken_) news_.notify_one();
-      }
+      while (const auto mine = claim(trials.together()))
+        trials.make(*mine, [this](Trial trial) { put(std::move(trial)); });
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!fault_) fault_ = std::current_exception();
       stop_claims();
     }
   }
+  void put(Trial trial) {
+    const std::lock_guard lock(mutex_);
+    done_.push_back(std::move(trial));
+    --in_work_;
+    if (done_.size() == worth_waking || ended()) news_.notify_one();
+  }
+  bool ended() const { return fault_ || (no_more_ && in_work_ == 0); }
 
-  void hand_over(const std::function<bool(Trial)>& take, const std::function<bool()>& stop) {
-    for (std::unique_lock lock(mutex_);;) {
-      if (!no_more_ && stop()) stop_claims();
-      std::optional<Trial>& trial = done_[taken_ % window];
-      if (trial) {
-        Trial ready = std::move(*trial);
-        trial.reset();
-        ++taken_;
-        room_.notify_one();
-        lock.unlock();
-        if (!take(std::move(ready))) return;
-        lock.lock();
-      } else if (fault_ || (no_more_ && taken_ == claimed_)) {
-        return;
-      } else {
-        news_.wait_for(lock, std::chrono::milliseconds(100));
+  void hand_over(const std::function<void(Trial)>& take, const std::function<bool()>& stop) {
+    for (bool last = false; !last;) {
+      if (stop()) halt();
+      std::vector<Trial> ready;
+      {
+        std::unique_lock lock(mutex_);
+        news_.wait_for(lock, moment, [this] { return done_.size() >= worth_waking || ended(); });
+        ready.swap(done_);
+        last = ended();
       }
+      room_.notify_all();
+      for (Trial& trial : ready) take(std::move(trial));
     }
   }
 
@@ -108,17 +104,17 @@ class Ensemble {
   const TrialSource& source_;
   std::mutex mutex_;
   std::condition_variable room_, news_;
-  TrialRange portion_;                     ///< of the source, what nobody has claimed
-  std::uint64_t claimed_ = 0, taken_ = 0;  ///< trials claimed, handed over
-  bool no_more_ = false;                   ///< to claim
+  TrialRange portion_;         ///< of the source, what nobody has claimed
+  std::vector<Trial> done_;    ///< and not handed over yet
+  std::uint64_t in_work_ = 0;  ///< trials that somebody makes
+  bool no_more_ = false;       ///< to claim
   std::exception_ptr fault_;
-  std::vector<std::optional<Trial>> done_{window};
 };
 
 }  // namespace
 
 void run_ensemble(const Study& study, const TrialSource& source, unsigned threads,
-                  const std::function<bool(Trial)>& take, const std::function<bool()>& stop) {
+                  const std::function<void(Trial)>& take, const std::function<bool()>& stop) {
   Ensemble(study, source).run(threads, take, stop);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,14 +74,14 @@ std::vector<Stretch> in_order(const Shards& shards) {
 
 }  // namespace
 
-std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output,
+std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
                            const std::string& command_line) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
   refuse_what_does_not_belong_together(shards);
   const std::vector<Stretch> stretches = in_order(shards);
   const Study& study = shards.front()->study();
-  const OpenSweep merged = open_sweep(output, study, {0, study.trials()}, command_line, false);
+  const OpenSweep merged = open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false);
   try {
     for (const auto& [shard, range] : stretches)
       for_each_trial(*shard, range, [&](const Trial& trial) { merged.file->append(trial); });

@@ -1,9 +1,13 @@
 #include "sweep/ranks.hpp"
 
-#include <cstdlib>
+#include <chrono>
+#include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "scenarios/faults.hpp"
+#include "sweep/launch.hpp"
 
 #ifdef WORMDRIVE_MPI
 #include <mpi.h>
@@ -12,82 +16,169 @@
 namespace wormdrive {
 namespace {
 
-/// How many processes a launcher says that it has started; 1 without one.
-long launched() {
-  for (const char* const variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
-    if (const char* const size = std::getenv(variable)) return std::strtol(size, nullptr, 10);
-  return 1;
+constexpr const char* each_its_shard = "give every process a --shard of its own";
+
+/// Throws InputFault in the first process; in the others one that tells nothing.
+[[noreturn]] void refuse_launch(const Launch& launch, const std::string& what) {
+  if (launch.rank == 0) refuse({launch.by}, what);
+  throw InputFault(std::vector<Fault>{});
 }
 
 }  // namespace
 
+Tally Ranks::count_here(Tally more) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(tally_, {tally_.portions + more.portions, tally_.failures + more.failures});
+}
+
 #ifdef WORMDRIVE_MPI
 
-struct Ranks::Window {
-  MPI_Win handle{};
+/// MPI as several threads share it: it is called by one of them at a time, and none of them waits inside, for a message
+/// of the others may be what all wait for. Between two looks they sleep, and leave the core to the trials.
+struct Ranks::Link {
+  enum Tag { question, answer };
+
+  /// Waits for what begin(request) begins.
+  template <class Begin>
+  void complete(Begin&& begin) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    {
+      const std::lock_guard lock(calls);
+      begin(&request);
+    }
+    for (int done = 0;;) {
+      {
+        const std::lock_guard lock(calls);
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      }
+      if (done) return;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+
+  Tally ask(Tally more) {
+    const std::lock_guard one_at_a_time(asking);
+    Tally before;
+    complete([&](MPI_Request* request) { MPI_Isend(&more, 2, MPI_UINT64_T, 0, question, MPI_COMM_WORLD, request); });
+    complete([&](MPI_Request* request) { MPI_Irecv(&before, 2, MPI_UINT64_T, 0, answer, MPI_COMM_WORLD, request); });
+    return before;
+  }
+
+  /// Whether somebody has asked, who then has been answered.
+  bool answered(Ranks& ranks) {
+    const std::lock_guard lock(calls);
+    int asked = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, question, MPI_COMM_WORLD, &asked, &status);
+    if (!asked) return false;
+    Tally tally;
+    MPI_Recv(&tally, 2, MPI_UINT64_T, status.MPI_SOURCE, question, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    tally = ranks.count_here(tally);
+    MPI_Send(&tally, 2, MPI_UINT64_T, status.MPI_SOURCE, answer, MPI_COMM_WORLD);  // so few bytes wait for nobody
+    return true;
+  }
+  void answer_until_stopped(Ranks& ranks) {
+    answers = std::jthread([this, &ranks](const std::stop_token& stop) {
+      while (!stop.stop_requested())
+        if (!answered(ranks)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+  }
+
+  std::mutex calls, asking;
+  std::jthread answers;  ///< of the first one
 };
 
-Ranks::Ranks() {
-  if (launched() <= 1) return;  // joining takes time, and a single process needs nobody
+Ranks::Ranks(bool apart) {
+  static_assert(sizeof(Tally) == 2 * sizeof(std::uint64_t));
+  const Launch launched = launch();
+  if (launched.size == 1) return;  // joining takes time, and a single process needs nobody
+  if (apart && launched.by == "srun") return;
+  if (!launched.can_meet)
+    refuse_launch(launched, fmt::format("has started {} processes that cannot find each other; start them with srun "
+                                        "--mpi=pmix or with mpirun, or {}",
+                                        launched.size, each_its_shard));
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
-  window_ = new Window;
-  MPI_Win_create(counters_.data(), sizeof counters_, sizeof(std::uint64_t), MPI_INFO_NULL, MPI_COMM_WORLD,
-                 &window_->handle);
+  std::string fault;
+  if (launched.size > 0 && launched.size != count_) {
+    char library[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+    int length = 0;
+    MPI_Get_library_version(library, &length);
+    const std::string name(library, static_cast<std::size_t>(length));
+    fault = fmt::format(
+        "has started {} processes, of which MPI finds {}: it is not of the MPI with which wormdrive was "
+        "built, {}; start them with its mpirun, or {}",
+        launched.size, count_, name.substr(0, name.find_first_of(",\n")), each_its_shard);
+  } else if (level < MPI_THREAD_SERIALIZED) {
+    fault = fmt::format(
+        "has started {} processes with an MPI that no second thread may call; build it with threads, or "
+        "{}",
+        count_, each_its_shard);
+  }
+  if (!fault.empty()) {
+    MPI_Finalize();
+    refuse_launch(launched, fault);
+  }
+  if (count_ == 1) {
+    MPI_Finalize();
+    return;
+  }
+  link_ = std::make_unique<Link>();
+  if (first()) link_->answer_until_stopped(*this);
 }
 
 Ranks::~Ranks() {
-  if (!window_) return;
-  MPI_Win_free(&window_->handle);
-  delete window_;
+  if (!link_) return;
+  link_->complete([](MPI_Request* request) { MPI_Ibarrier(MPI_COMM_WORLD, request); });  // nobody will ask any more
+  if (first()) {
+    link_->answers.request_stop();
+    link_->answers.join();
+  }
   MPI_Finalize();
 }
 
 std::vector<std::uint64_t> Ranks::told(std::vector<std::uint64_t> numbers) const {
-  if (!window_) return numbers;
+  if (!link_) return numbers;
+  const auto tell = [this](std::uint64_t* first, std::size_t count) {
+    link_->complete([&](MPI_Request* request) {
+      MPI_Ibcast(first, static_cast<int>(count), MPI_UINT64_T, 0, MPI_COMM_WORLD, request);
+    });
+  };
   std::uint64_t size = numbers.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  tell(&size, 1);
   numbers.resize(size);
-  MPI_Bcast(numbers.data(), static_cast<int>(size), MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  tell(numbers.data(), size);
   return numbers;
 }
 
 std::uint64_t Ranks::sum(std::uint64_t number) const {
-  if (window_) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  return number;
+  if (!link_) return number;
+  std::uint64_t all = 0;
+  link_->complete(
+      [&](MPI_Request* request) { MPI_Iallreduce(&number, &all, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD, request); });
+  return all;
 }
 
-std::uint64_t Ranks::add(Counter counter, std::uint64_t number) {
-  const std::lock_guard lock(mutex_);
-  std::uint64_t& here = counters_[static_cast<std::size_t>(counter)];
-  if (!window_) return std::exchange(here, here + number);
-  std::uint64_t before = 0;
-  MPI_Win_lock(MPI_LOCK_SHARED, 0, 0, window_->handle);
-  MPI_Fetch_and_op(&number, &before, MPI_UINT64_T, 0, static_cast<MPI_Aint>(counter), MPI_SUM, window_->handle);
-  MPI_Win_unlock(0, window_->handle);
-  return before;
-}
+Tally Ranks::add(Tally more) { return link_ && !first() ? link_->ask(more) : count_here(more); }
 
 #else
 
-struct Ranks::Window {};
+struct Ranks::Link {};
 
-Ranks::Ranks() {
-  if (launched() > 1)
-    refuse({"mpirun"},
-           "this wormdrive was built without MPI; install libopenmpi-dev and build it again, or give every "
-           "process a --shard of its own");
+Ranks::Ranks(bool apart) {
+  const Launch launched = launch();
+  if (launched.size <= 1 || (apart && launched.by == "srun")) return;
+  refuse_launch(launched,
+                fmt::format("this wormdrive was built without MPI; install libopenmpi-dev and build it again, "
+                            "or {}",
+                            each_its_shard));
 }
 Ranks::~Ranks() = default;
 std::vector<std::uint64_t> Ranks::told(std::vector<std::uint64_t> numbers) const { return numbers; }
 std::uint64_t Ranks::sum(std::uint64_t number) const { return number; }
-std::uint64_t Ranks::add(Counter counter, std::uint64_t number) {
-  const std::lock_guard lock(mutex_);
-  std::uint64_t& here = counters_[static_cast<std::size_t>(counter)];
-  return std::exchange(here, here + number);
-}
+Tally Ranks::add(Tally more) { return count_here(more); }
 
 #endif
 

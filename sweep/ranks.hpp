@@ -1,17 +1,24 @@
 #pragma once
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace wormdrive {
 
-/// The processes that share a sweep, as mpirun has started them; a single one without mpirun, or where the program was
-/// built without MPI.
+/// What ranks count together: portions that somebody has taken, and trials that have failed.
+struct Tally {
+  std::uint64_t portions = 0, failures = 0;
+};
+
+/// The processes that share a sweep, as mpirun or srun has started them; a single one without either, or where the
+/// program was built without MPI.
 class Ranks {
  public:
-  /// Joins the others. Throws InputFault if mpirun has started several and the program knows no MPI.
-  Ranks();
+  /// Joins the others. apart: every process has trials of its own, so that those of srun need not know each other.
+  /// Throws InputFault, of all the processes in the first one, if several were started that cannot find each other.
+  explicit Ranks(bool apart);
   Ranks(const Ranks&) = delete;
   ~Ranks();
 
@@ -23,17 +30,18 @@ class Ranks {
   std::vector<std::uint64_t> told(std::vector<std::uint64_t> numbers) const;
   std::uint64_t sum(std::uint64_t number) const;
 
-  /// Two counters that all share and that start at 0: which portion comes next, how many trials have failed.
-  enum class Counter { portion, failures };
-  /// Adds to a counter, one-sided: nobody waits for anybody. Returns what it was. Threads may call it.
-  std::uint64_t add(Counter counter, std::uint64_t number);
+  /// Adds to what all have counted, which starts at 0, and returns what that was. Nobody waits for anybody's trial: a
+  /// thread of the first one answers. Threads may call it.
+  Tally add(Tally more);
 
  private:
+  Tally count_here(Tally more);
+
   int rank_ = 0, count_ = 1;
-  std::array<std::uint64_t, 2> counters_{};  ///< of the first one; nobody asks the others
+  Tally tally_;  ///< of the first one; nobody asks the others
   std::mutex mutex_;
-  struct Window;
-  Window* window_ = nullptr;  ///< none for a single process
+  struct Link;
+  std::unique_ptr<Link> link_;  ///< none for a single process
 };
 
 }  // namespace wormdrive

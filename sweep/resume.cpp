@@ -44,8 +44,8 @@ void refuse_to_begin_anew(const SweepReader& there) {
                      there.trials(), there.range().size()));
 }
 
-OpenSweep open_sweep(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
-                     bool resume) {
+OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& study, TrialRange range,
+                     const std::string& command_line, bool resume) {
   const std::string part_path = path + ".part";
   ReasonTable reasons;
   std::vector<TrialRange> present;
@@ -62,7 +62,9 @@ OpenSweep open_sweep(const std::string& path, const Study& study, TrialRange ran
     }
     SweepFile::create(path, study, range, command_line);
   }
-  return {std::make_unique<SweepFile>(path, study, range, std::move(reasons)), outside(present, range)};
+  const std::uint64_t failed = reasons.total();
+  return {std::move(lock), std::make_unique<SweepFile>(path, study, range, std::move(reasons)), outside(present, range),
+          failed};
 }
 
 }  // namespace wormdrive

@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "output/program.hpp"
-#include "scenarios/faults.hpp"
 #include "scenarios/write_scenario.hpp"
-#include "sweep/load_study.hpp"
 #include "sweep/summary_tables.hpp"
 
 namespace wormdrive {
 namespace {
 
-constexpr std::size_t rows_at_once = 4096;  ///< handed to the file, as far as a second does not pass before
+constexpr std::size_t rows_at_once = 1 << 16;  ///< handed to the file, as far as some time does not pass before
+constexpr std::chrono::milliseconds longest_wait(500);
 
 /// Verdicts one after the other; a row of zeros is none.
 std::vector<ColumnDescription> verdict_descriptions() {
@@ -52,33 +51,8 @@ std::vector<ColumnDescription> trial_columns(const Study& study) {
   return list;
 }
 
-ReasonTable::ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts) {
-  for (std::size_t k = 0; k < examples.size(); ++k) {
-    codes_.emplace(kind_of_reason(examples[k]), k + 1);
-    entries_.push_back({examples[k], counts[k]});
-  }
-}
-
-std::size_t ReasonTable::code(const std::string& reason) {
-  if (reason.empty()) return 0;
-  const auto [known, is_new] = codes_.try_emplace(kind_of_reason(reason), entries_.size() + 1);
-  if (is_new && entries_.size() == most) {
-    codes_.erase(known);
-    ++entries_.back().count;
-    return most;
-  }
-  if (is_new) entries_.push_back({entries_.size() + 1 == most ? "another reason" : reason, 0});
-  ++entries_[known->second - 1].count;
-  return known->second;
-}
-
-std::uint64_t ReasonTable::total() const {
-  return std::accumulate(entries_.begin(), entries_.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const Entry& entry) { return sum + entry.count; });
-}
-
 void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line) {
-  PartFile file(path + ".part");  // so that NAME.part is whole from its first moment on
+  PartFile file(path + ".part", OutputLock());  // so that NAME.part is whole from its first moment on
   write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
   write_attribute(file.file(), "study", study.text);
   write_attribute(file.file(), "build", program_identity());
@@ -95,41 +69,85 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
 SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons)
     : range_(range),
       file_(PartFile::reopened(path)),
+      columns_(study.parameters.size() + study.metrics.size() + 3),
       reasons_(std::move(reasons)),
-      reasons_written_(reasons_.entries().size()),
       flushed_(Clock::now()) {
   table_.emplace(file_.file(), "trials", trial_columns(study));
   reason_texts_.emplace(file_.file(), "reasons");
-  columns_.resize(study.parameters.size() + study.metrics.size() + 3);
+  for (const ReasonTable::Entry& entry : reasons_.entries()) reasons_written_.push_back(entry.example);
 }
 
-void SweepFile::append(const Trial& trial) {
-  const std::uint64_t row = trial.index - range_.first;
-  if (columns_.front().size() >= rows_at_once || row != row_ + columns_.front().size() ||
-      Clock::now() - flushed_ >= std::chrono::seconds(1))
+void SweepFile::append(Trial trial) {
+  waiting_.push_back(std::move(trial));
+  if (waiting_.size() >= rows_at_once)
     flush();
-  if (columns_.front().empty()) row_ = row;
-  auto column = columns_.begin();
-  (column++)->push_back(static_cast<double>(trial.index));
-  for (const double value : trial.parameters) (column++)->push_back(value);
-  for (const double value : trial.metrics) (column++)->push_back(value);
-  (column++)->push_back(static_cast<double>(reasons_.code(trial.reason)));
-  column->push_back(static_cast<double>(trial.status));
+  else
+    keep_safe();
+}
+
+void SweepFile::keep_safe() {
+  if (Clock::now() - flushed_ >= longest_wait) flush();
 }
 
 void SweepFile::flush() {
   flushed_ = Clock::now();
-  if (columns_.front().empty()) return;
-  for (; reasons_written_ < reasons_.entries().size(); ++reasons_written_)
-    reason_texts_->write(reasons_written_, reasons_.entries()[reasons_written_].example);
-  const std::size_t status = columns_.size() - 1;
-  for (std::size_t k = 0; k < status; ++k) table_->write(k, row_, columns_[k]);
-  // A row is there only once it has a status, and it has one only when all else is on its way to the disk: a kill
-  // between the two flushes costs rows, but leaves none that only seem to be there.
+  if (waiting_.empty()) return;
+  std::sort(waiting_.begin(), waiting_.end(), [](const Trial& a, const Trial& b) { return a.index < b.index; });
+  const auto for_each_run = [this](auto&& write_run) {  // of trials one after the other
+    for (std::size_t first = 0, end = 0; first < waiting_.size(); first = end) {
+      while (++end < waiting_.size() && waiting_[end].index == waiting_[end - 1].index + 1) continue;
+      write_run(std::span<const Trial>(waiting_).subspan(first, end - first));
+    }
+  };
+  for_each_run([this](std::span<const Trial> run) { write(run, Part::all_but_status); });
+  write_reasons();
+  // A row is there only once it has a status, and it has one only when all else is on the disk: a kill or a power cut
+  // between the two costs rows, but leaves none that only seem to be there.
   file_.flush();
-  table_->write(status, row_, columns_[status]);
+  synchronise(part_path());
+  for_each_run([this](std::span<const Trial> run) { write(run, Part::status); });
   file_.flush();
-  for (std::vector<double>& column : columns_) column.clear();
+  waiting_.clear();
+}
+
+void SweepFile::write(std::span<const Trial> trials, Part part) {
+  const std::uint64_t row = trials.front().index - range_.first;
+  std::vector<double> values(trials.size());
+  std::size_t column = part == Part::status ? columns_ - 1 : 0;
+  const auto write_column = [&](auto&& value_of) {
+    std::transform(trials.begin(), trials.end(), values.begin(), value_of);
+    table_->write(column++, row, values);
+  };
+  if (part == Part::status) {
+    write_column([](const Trial& trial) { return static_cast<double>(trial.status); });
+    return;
+  }
+  write_column([](const Trial& trial) { return static_cast<double>(trial.index); });
+  for (std::size_t k = 0; k < trials.front().parameters.size(); ++k)
+    write_column([k](const Trial& trial) { return trial.parameters[k]; });
+  for (std::size_t k = 0; k < trials.front().metrics.size(); ++k)
+    write_column([k](const Trial& trial) { return trial.metrics[k]; });
+  write_column([this](const Trial& t) { return static_cast<double>(reasons_.code(t.reason, t.index)); });
+}
+
+void SweepFile::write_reasons() {
+  reasons_written_.resize(reasons_.entries().size());
+  for (std::size_t k = 0; k < reasons_written_.size(); ++k) {
+    const std::string& example = reasons_.entries()[k].example;
+    if (reasons_written_[k] == example) continue;
+    reason_texts_->write(k, example);
+    reasons_written_[k] = example;
+  }
+}
+
+void SweepFile::drop_from(std::uint64_t trial) {
+  flush();
+  const std::vector<TrialRange> present = SweepReader(part_path()).present();
+  for (const TrialRange& range : present)
+    for (std::uint64_t first = std::max(range.first, trial); first < range.end; first += rows_at_once)
+      table_->write(columns_ - 1, first - range_.first,
+                    std::vector<double>(std::min<std::uint64_t>(rows_at_once, range.end - first)));
+  file_.flush();
 }
 
 void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
@@ -150,6 +168,10 @@ void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
 
 void SweepFile::finish() {
   flush();
+  if (!reasons_.in_order()) {
+    finish_in_order();
+    return;
+  }
   {
     const SweepReader all(part_path());
     write_summary_tables(file_.file(), summarise(all, {.worst = worst_trials_listed}), all.study());
@@ -159,101 +181,22 @@ void SweepFile::finish() {
   file_.finish();
 }
 
-SweepReader::SweepReader(const std::string& path) : path_(path) {
+void SweepFile::finish_in_order() {
+  const std::string path = file_.path() + ".in_order";
   try {
-    file_ = open_hdf5(path);
-    if (read_text_attribute(file_, "kind") != "sweep") throw OutputFault("it is not the result of a sweep");
-    scenario_ = read_text_attribute(file_, "scenario");
-    build_ = read_text_attribute(file_, "build");
-    study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
-    range_ = {static_cast<std::uint64_t>(read_integer_attribute(file_, "first_trial")),
-              static_cast<std::uint64_t>(read_integer_attribute(file_, "end_trial"))};
-    reasons_ = read_fixed_texts(file_, "reasons");
-    for_each_block({}, [&](const Block& block) {
-      std::uint64_t trial = block.first;
-      for (const double status : block.status) {
-        if (status != 0.0) extend(present_, {trial, trial + 1});
-        ++trial;
-      }
-    });
-  } catch (const OutputFault& fault) {
-    refuse({path}, fault.what());
+    const SweepReader all(part_path());
+    create(path, all.study(), range_, read_text_attribute(file_.file(), "command_line"));
+    SweepFile copy(path, all.study(), range_);
+    for (const TrialRange& range : all.present())
+      for_each_trial(all, range, [&](const Trial& trial) { copy.append(trial); });
+    copy.write(all.verdicts());
+    copy.finish();
+  } catch (...) {
+    std::error_code ignored;  // NAME.part has all of it
+    std::filesystem::remove(path + ".part", ignored);
+    throw;
   }
-}
-
-bool SweepReader::has(std::uint64_t trial) const {
-  return std::any_of(present_.begin(), present_.end(),
-                     [&](const TrialRange& range) { return range.first <= trial && trial < range.end; });
-}
-
-std::string SweepReader::why_not(const std::string& study, const std::string& scenario,
-                                 const std::string& build) const {
-  if (const auto other = difference(study_.text, study)) return "the study differs in " + *other;
-  if (const auto other = difference(scenario_, scenario)) return "the scenario differs in " + *other;
-  return build_ == build ? "" : fmt::format("it was made by {}, and this is {}", build_, build);
-}
-std::string SweepReader::why_not_of(const Study& study) const {
-  return why_not(study.text, to_toml(study.scenario), program_identity());
-}
-std::string SweepReader::why_not_of(const SweepReader& other) const {
-  return why_not(other.study_.text, other.scenario_, other.build_);
-}
-
-void SweepReader::for_each_block(const std::vector<std::string>& columns,
-                                 const std::function<void(const Block&)>& visit) const {
-  constexpr std::uint64_t at_once = 1 << 16;
-  for (std::uint64_t first = range_.first; first < range_.end; first += at_once) {
-    const auto read = [&](const std::string& name) {
-      return read_column(file_, "trials/" + name, first - range_.first, std::min(at_once, range_.end - first));
-    };
-    Block block{first, read("status"), {}};
-    for (const std::string& name : columns) block.columns.push_back(read(name));
-    visit(block);
-  }
-}
-
-std::vector<Trial> SweepReader::read(TrialRange range) const {
-  std::vector<Trial> trials(range.size());
-  const auto each = [&](const std::string& name, auto&& put) {
-    const std::vector<double> values = read_column(file_, "trials/" + name, range.first - range_.first, range.size());
-    for (std::size_t k = 0; k < trials.size(); ++k) put(trials[k], values[k]);
-  };
-  each("index", [](Trial& t, double value) { t.index = static_cast<std::uint64_t>(value); });
-  for (const UncertainParameter& p : study_.parameters)
-    each(p.name, [](Trial& t, double value) { t.parameters.push_back(value); });
-  for (const Metric& m : study_.metrics) each(m.name, [](Trial& t, double value) { t.metrics.push_back(value); });
-  each("status", [](Trial& t, double value) { t.status = static_cast<TrialStatus>(value); });
-  each("reason", [&](Trial& t, double value) {
-    const auto code = static_cast<std::size_t>(value);
-    if (code > 0) t.reason = reasons_.at(code - 1);
-  });
-  return trials;
-}
-
-std::vector<RefereeVerdict> SweepReader::verdicts() const {
-  const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
-  const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
-                            speed = read("speed_difference"), t = read("time"),
-                            closed_angle = read("closed_angle_difference"),
-                            closed_speed = read("closed_speed_difference"), closed_t = read("closed_time"),
-                            parted = read("parted");
-  std::vector<RefereeVerdict> list;
-  for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k) {
-    RefereeVerdict verdict{static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, {}, judged[k] == 2.0};
-    if (!std::isnan(closed_angle[k])) verdict.in_loop.closed = {closed_angle[k], closed_speed[k], closed_t[k]};
-    if (!std::isnan(parted[k])) verdict.in_loop.parted = parted[k];
-    list.push_back(verdict);
-  }
-  return list;
-}
-
-ReasonTable SweepReader::counted_reasons() const {
-  std::vector<std::uint64_t> counts(reasons_.size());
-  for_each_block({"reason"}, [&](const Block& block) {
-    for (const double code : block.columns.front())
-      if (code > 0.0) ++counts.at(static_cast<std::size_t>(code) - 1);
-  });
-  return {reasons_, counts};
+  file_.give_way_to(path);
 }
 
 }  // namespace wormdrive

@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "output/fixed_table.hpp"
 #include "output/part_file.hpp"
+#include "sweep/reason_table.hpp"
 #include "sweep/study.hpp"
 #include "sweep/trial.hpp"
 #include "sweep/trial_range.hpp"
@@ -16,36 +17,11 @@
 
 namespace wormdrive {
 
-/// Numbers the kinds of reasons for which trials are not done, as they occur; few enough to be kept in memory.
-class ReasonTable {
- public:
-  static constexpr std::size_t most = 100;
-
-  ReasonTable() = default;
-  /// Goes on with kinds that have their numbers already; counts: of each of them.
-  ReasonTable(const std::vector<std::string>& examples, const std::vector<std::uint64_t>& counts);
-
-  /// Counts a reason and returns its number, 0 for a trial that is done; kinds beyond the last number share it.
-  std::size_t code(const std::string& reason);
-  struct Entry {
-    std::string example;  ///< the first reason of its kind
-    std::uint64_t count = 0;
-  };
-  /// Every kind, number 1 first.
-  const std::vector<Entry>& entries() const { return entries_; }
-  /// How many trials are not done.
-  std::uint64_t total() const;
-
- private:
-  std::map<std::string, std::size_t> codes_;  ///< by kind
-  std::vector<Entry> entries_;
-};
-
 /// The columns of the table /trials.
 std::vector<ColumnDescription> trial_columns(const Study& study);
 
 /// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
-/// that the sweep can be resumed.
+/// that the sweep can be resumed. Who makes NAME holds its OutputLock meanwhile.
 class SweepFile {
  public:
   /// Leaves an empty NAME.part that has room for the trials of a range, all of the study or those of a shard.
@@ -53,40 +29,54 @@ class SweepFile {
   /// Opens NAME.part, to write the trials that it lacks. reasons: those of the trials that it has.
   SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons = {});
 
-  /// Writes a trial of the range; what is older than a second is safe if the program dies.
-  void append(const Trial& trial);
+  /// Takes a trial of the range, in any order.
+  void append(Trial trial);
+  /// Writes what has waited for half a second: called often enough, it leaves nothing older than a second that would be
+  /// lost if the program dies.
+  void keep_safe();
   /// Makes all trials safe.
   void flush();
+  /// Drops every trial from this one on.
+  void drop_from(std::uint64_t trial);
   /// Writes what a referee found.
   void write(const std::vector<RefereeVerdict>& verdicts);
-  /// Sums up the trials in /summary and gives the file its final name.
+  /// Sums up the trials in /summary and gives the file its final name. Where trials came in another order than that of
+  /// their indices, and kinds of reasons with them, the file is written once more, in order.
   void finish();
 
   const std::string& part_path() const { return file_.part_path(); }
-  const ReasonTable& reasons() const { return reasons_; }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// Writes some trials one after the other, all but how they ended, or that alone.
+  enum class Part { all_but_status, status };
+  void write(std::span<const Trial> trials, Part part);
+  void write_reasons();
+  void finish_in_order();
 
   TrialRange range_;
   PartFile file_;
   std::optional<FixedTable> table_;
   std::optional<FixedTexts> reason_texts_;
-  std::vector<std::vector<double>> columns_;  ///< of trials one after the other that are not in the table yet
-  std::uint64_t row_ = 0;                     ///< of the first of these
+  std::size_t columns_;
+  std::vector<Trial> waiting_;  ///< trials that are not in the table yet
   ReasonTable reasons_;
-  std::size_t reasons_written_ = 0;
+  std::vector<std::string> reasons_written_;
   Clock::time_point flushed_;
 };
 
 /// A sweep file, complete or NAME.part, read back.
 class SweepReader {
  public:
-  /// Throws InputFault if it cannot be read or is no sweep.
-  explicit SweepReader(const std::string& path);
+  /// Throws InputFault if it cannot be read or is no sweep. while_written: another program may be writing trials in it;
+  /// those that it has by now can be read.
+  explicit SweepReader(const std::string& path, bool while_written = false);
 
   const std::string& path() const { return path_; }
   const Study& study() const { return study_; }
+  /// As it was typed to begin the sweep.
+  std::string command_line() const { return read_text_attribute(file_, "command_line"); }
   /// The trials for which it has room.
   TrialRange range() const { return range_; }
   /// The trials that it has, in rising order.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -86,41 +85,48 @@ bool Trials::prepare(std::size_t place, Trial& trial, const std::vector<double>&
   return trial.reason.empty();
 }
 
-void Trials::run(const std::vector<Trial*>& prepared) {
-  std::vector<BatchResult> results = run_batch(std::span(scenarios_).first(prepared.size()), lanes_);
-  for (std::size_t place = 0; place < prepared.size(); ++place) {
-    Trial& trial = *prepared[place];
-    if (auto* const summary = std::get_if<RunSummary>(&results[place])) {
+void Trials::run(std::vector<Trial>& prepared, const std::function<void(Trial)>& take) {
+  const auto finish = [&](std::size_t place, BatchResult result) {
+    Trial& trial = prepared[place];
+    if (auto* const summary = std::get_if<RunSummary>(&result)) {
       trial.status = TrialStatus::done;
       const Outcome outcome{std::move(*summary), lemma1_conditions(scenarios_[place])};
       for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics[k] = study_.metrics[k].of(outcome);
     } else {
       trial.status = TrialStatus::halted;
-      trial.reason = std::get<std::string>(results[place]);
+      trial.reason = std::get<std::string>(result);
     }
+    take(std::move(trial));
+  };
+  run_batch(std::span(scenarios_).first(prepared.size()), finish, lanes_);
+  prepared.clear();
+}
+
+void Trials::make(TrialRange range, const std::function<void(Trial)>& take) {
+  std::vector<Trial> prepared;
+  for (std::uint64_t index = range.first; index < range.end; ++index) {
+    Trial trial = row(index);
+    if (prepare(prepared.size(), trial, probabilities(index)))
+      prepared.push_back(std::move(trial));
+    else
+      take(std::move(trial));
+    if (prepared.size() == scenarios_.size()) run(prepared, take);
   }
+  run(prepared, take);
 }
 
 std::vector<Trial> Trials::operator()(TrialRange range) {
-  std::vector<Trial> trials;
-  trials.reserve(range.size());
-  std::vector<Trial*> prepared;
-  for (std::uint64_t index = range.first; index < range.end; ++index) {
-    Trial& trial = trials.emplace_back(row(index));
-    if (prepare(prepared.size(), trial, probabilities(index))) prepared.push_back(&trial);
-    if (prepared.size() == scenarios_.size()) {
-      run(prepared);
-      prepared.clear();
-    }
-  }
-  run(prepared);
+  std::vector<Trial> trials(range.size());
+  make(range, [&](Trial trial) { trials[trial.index - range.first] = std::move(trial); });
   return trials;
 }
 
 Trial Trials::at(std::vector<double> point, std::uint64_t index) {
   study_.copula.apply(point);
   Trial trial = row(index);
-  if (prepare(0, trial, point)) run({&trial});
+  if (!prepare(0, trial, point)) return trial;
+  std::vector<Trial> prepared{std::move(trial)};
+  run(prepared, [&](Trial made) { trial = std::move(made); });
   return trial;
 }
 
@@ -129,12 +135,6 @@ const Scenario& Trials::scenario(std::uint64_t index) {
   draw_noise(0, index);
   set_up(0, trial, probabilities(index));
   return scenarios_.front();
-}
-
-std::string kind_of_reason(const std::string& reason) {
-  static const std::regex halted("^cannot go on at t = .*: "), numbers("(= |^|[ (])-?[0-9][0-9.e+-]*");
-  std::string kind = std::regex_replace(reason, halted, "", std::regex_constants::format_first_only);
-  return std::regex_replace(kind, numbers, "$1...");
 }
 
 }  // namespace wormdrive

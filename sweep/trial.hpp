@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Trials {
   /// How many trials gain from being made together; 1 where each has a register to itself.
   std::uint64_t together() const { return scenarios_.size(); }
 
+  /// Makes trials and hands each over as soon as it is done, those that are made together at once.
+  void make(TrialRange range, const std::function<void(Trial)>& take);
   Trial operator()(std::uint64_t index) { return std::move((*this)({index, index + 1}).front()); }
   std::vector<Trial> operator()(TrialRange range);
   /// A trial at another point of the unit cube than those of the design, with the noise of one of its trials and under
@@ -61,8 +64,8 @@ class Trials {
   void draw_noise(std::size_t place, std::uint64_t index);
   /// Sets a trial up with its noise; whether it can run.
   bool prepare(std::size_t place, Trial& trial, const std::vector<double>& u);
-  /// Runs trials whose scenarios have been set up, one after the other from the first place on.
-  void run(const std::vector<Trial*>& prepared);
+  /// Runs trials whose scenarios have been set up, one after the other from the first place on, and hands them over.
+  void run(std::vector<Trial>& prepared, const std::function<void(Trial)>& take);
 
   const Study& study_;
   Design design_;
@@ -70,8 +73,5 @@ class Trials {
   std::vector<Scenario> scenarios_;               ///< of trials that are made together
   std::vector<std::vector<Variable>> variables_;  ///< of each scenario, of each parameter
 };
-
-/// Reasons that differ in their numbers alone are one kind: the numbers replaced, what led up to a halt cut off.
-std::string kind_of_reason(const std::string& reason);
 
 }  // namespace wormdrive

@@ -13,15 +13,17 @@ SweepResult::SweepResult(Study study)
 
 void SweepResult::run(unsigned threads, const std::function<void()>& between) {
   std::optional<TrialRange> all = TrialRange{0, study_.trials()};
-  for (std::vector<double>& column : values_) column.reserve(all->size());
+  for (std::vector<double>& column : values_) column.resize(all->size());
   run_ensemble(
       study_, [&] { return std::exchange(all, std::nullopt); }, threads,
       [&](const Trial& trial) {
         between();
         take(trial);
-        return true;
       },
       [] { return false; });
+  const std::vector<std::size_t> numbers = reasons_.put_in_order();
+  for (double& number : *(values_.rbegin() + 1))
+    number = static_cast<double>(numbers[static_cast<std::size_t>(number)]);
 }
 
 void SweepResult::restore(std::vector<std::vector<double>> columns, const std::vector<std::string>& reasons) {
@@ -33,11 +35,12 @@ void SweepResult::restore(std::vector<std::vector<double>> columns, const std::v
 
 void SweepResult::take(const Trial& trial) {
   auto column = values_.begin();
-  (column++)->push_back(static_cast<double>(trial.index));
-  for (const double value : trial.parameters) (column++)->push_back(value);
-  for (const double value : trial.metrics) (column++)->push_back(value);
-  (column++)->push_back(static_cast<double>(reasons_.code(trial.reason)));
-  column->push_back(static_cast<double>(trial.status));
+  const auto put = [&](double value) { (*column++)[trial.index] = value; };
+  put(static_cast<double>(trial.index));
+  for (const double value : trial.parameters) put(value);
+  for (const double value : trial.metrics) put(value);
+  put(static_cast<double>(reasons_.code(trial.reason, trial.index)));
+  put(static_cast<double>(trial.status));
 }
 
 Trial SweepResult::trial(std::size_t row) const {
@@ -62,6 +65,7 @@ std::vector<std::string> SweepResult::reasons() const {
 void SweepResult::write(const std::string& path, const std::string& command_line, std::size_t judged,
                         unsigned threads) const {
   const TrialRange all{0, study_.trials()};
+  const OutputLock lock(path);
   SweepFile::create(path, study_, all, command_line);
   SweepFile file(path, study_, all);
   for (std::size_t row = 0; row < values_.front().size(); ++row) file.append(trial(row));

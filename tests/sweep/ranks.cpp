@@ -1,9 +1,15 @@
 // Ranks that share a sweep make the rows that one process makes, also when one of them is lost.
+#include "sweep/ranks.hpp"
+
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 #include <unistd.h>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 
@@ -29,6 +35,21 @@ std::vector<std::string> on_ranks(const char* count, std::vector<std::string> wo
   words.insert(words.begin(), {mpirun, "-n", count, WORMDRIVE_PROGRAM, "sweep", "study.toml", "--threads", "1"});
   return words;
 }
+
+/// Variables of the environment, as long as it lives.
+class Environment {
+ public:
+  explicit Environment(std::vector<std::pair<std::string, std::string>> variables) : variables_(std::move(variables)) {
+    for (const auto& [name, value] : variables_) setenv(name.c_str(), value.c_str(), 1);
+  }
+  Environment(const Environment&) = delete;
+  ~Environment() {
+    for (const auto& [name, value] : variables_) unsetenv(name.c_str());
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> variables_;
+};
 
 /// The processes that a process has started.
 std::vector<pid_t> children(pid_t parent) {
@@ -138,6 +159,102 @@ TEST_CASE("ranks end for as many failures, and say so in the words, of a single 
         Process(on_ranks(count, {"-o", file, "--max-failures", "10", "--resume"}), folder.path()).wait();
     CHECK(again.exit == 3);
     CHECK(told(again.err) == told(alone.err));
+  }
+}
+
+/// What each of some ranks does in the test that follows: portions of a time in which it does not call MPI.
+TEST_CASE("a rank takes portions that take long", "[.]") {
+  Ranks ranks(false);
+  int made = 0;
+  for (; ranks.add({1, 0}).portions < 40; ++made) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  CHECK(ranks.sum(static_cast<std::uint64_t>(made)) == 40);
+  std::cout << fmt::format("rank {} of {} made {}\n", ranks.rank(), ranks.count(), made);
+}
+
+TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "[sweep]") {
+  if (!has_mpi()) return;
+  using Variables = std::vector<std::pair<std::string, std::string>>;
+  const auto variables =
+      GENERATE(Variables{}, Variables{{"OMPI_MCA_osc", "pt2pt"}}, Variables{{"OMPI_MCA_btl", "tcp,self"}});
+  const Environment environment(variables);
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  const Outcome outcome = Process({mpirun, "-n", "2", self, "a rank takes portions that take long"}, "/").wait();
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  for (const std::string rank : {"rank 0 of 2 made ", "rank 1 of 2 made "}) {
+    const std::size_t at = outcome.out.find(rank);
+    REQUIRE(at != std::string::npos);
+    const int made = std::stoi(outcome.out.substr(at + rank.size()));
+    CHECK(made >= 15);
+    CHECK(made <= 25);
+  }
+}
+
+TEST_CASE("a sweep on ranks tells how many trials they have made", "[sweep]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder;
+  const Outcome outcome = Process(on_ranks("2", {"-o", "o.h5"}), folder.path()).wait();
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  const std::size_t at = outcome.out.find(" on 2 ranks, ");
+  REQUIRE(at != std::string::npos);
+  const std::string told = outcome.out.substr(at, outcome.out.find('\n', at) - at);
+  CHECK((told.find(" to ") != std::string::npos || told.find(" on 2 ranks, 100 each, ") == 0));
+}
+
+TEST_CASE("the processes of srun find each other by PMIx", "[sweep]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
+  // mpirun is a server of PMIx as srun --mpi=pmix is: what it says beside is taken away
+  const std::string as_srun =
+      "export SLURM_STEP_NUM_TASKS=2 SLURM_PROCID=$OMPI_COMM_WORLD_RANK; unset OMPI_COMM_WORLD_SIZE "
+      "OMPI_COMM_WORLD_RANK; exec \"$0\" sweep study.toml --threads 1 -o o.h5";
+  const Outcome outcome =
+      Process({mpirun, "-n", "2", "/bin/sh", "-c", as_srun, WORMDRIVE_PROGRAM}, folder.path()).wait();
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  CHECK(outcome.out.find(" on 2 ranks, ") != std::string::npos);
+  CHECK(folder.rows("o.h5") == folder.rows("alone.h5"));
+  CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "o.h5"});
+}
+
+TEST_CASE("processes that cannot find each other are told apart from a single one, in one line", "[sweep]") {
+  const StudyFolder folder;
+  const std::string cure =
+      mpirun.empty() ? "this wormdrive was built without MPI; install libopenmpi-dev and build it again, or give every "
+                       "process a --shard of its own\n"
+                     : "";
+  {
+    const Environment srun({{"SLURM_STEP_NUM_TASKS", "4"}, {"SLURM_PROCID", "0"}});
+    const Outcome outcome = folder.sweep({"-o", "o.h5"});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.err ==
+          "srun: error: " + (cure.empty() ? "has started 4 processes that cannot find each other; start them with srun "
+                                            "--mpi=pmix or with mpirun, or give every process a --shard of its own\n"
+                                          : cure));
+    CHECK(folder.sweep({"-o", "shard.h5", "--shard", "1/4"}).exit == 0);
+  }
+  {
+    const Environment srun({{"SLURM_STEP_NUM_TASKS", "4"}, {"SLURM_PROCID", "3"}});
+    const Outcome outcome = folder.sweep({"-o", "o.h5"});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.err.empty());  // the first one has told it
+  }
+  if (has_mpi()) {
+    const Environment of_another_mpi({{"PMI_SIZE", "4"}, {"PMI_RANK", "0"}});
+    const Outcome outcome = folder.sweep({"-o", "o.h5"});
+    CHECK(outcome.exit == 2);
+    CHECK(
+        outcome.err.starts_with("mpirun: error: has started 4 processes, of which MPI finds 1: it is not of the MPI "
+                                "with which wormdrive was built, "));
+    CHECK(outcome.err.ends_with("; start them with its mpirun, or give every process a --shard of its own\n"));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  }
+  CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "shard.h5"});
+  {
+    const Environment batch_script({{"SLURM_JOB_ID", "1"}, {"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}});
+    CHECK(folder.sweep({"-o", "o.h5"}).exit == 0);
   }
 }
 
