@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/describe.hpp"
+#include "cli/diff_sweeps.hpp"
 #include "cli/help_commands.hpp"
 #include "cli/result_file.hpp"
 #include "output/trajectory.hpp"
@@ -168,6 +169,7 @@ nlohmann::json as_json(const FileComparison& result) {
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
+  if (is_sweep(options.first) && is_sweep(options.second)) return diff_sweeps(options);
   std::vector<std::string> paths{options.first};
   if (options.second != options.first) paths.push_back(options.second);
   std::vector<ResultFile> files;

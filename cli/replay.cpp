@@ -10,6 +10,7 @@
 #include "events/halt.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/faults.hpp"
+#include "sweep/so_far.hpp"
 
 namespace wormdrive {
 namespace {
@@ -54,7 +55,8 @@ int replay_command(const ReplayOptions& options) {
   RunOptions run;
   run.scenario.quiet = options.quiet;
   run.scenario.command_line = options.command_line;
-  replay_trial(SweepReader(options.sweep), options.trial, options.output, run);
+  const SweepSoFar so_far(options.sweep);
+  replay_trial(SweepReader(so_far.path()), options.trial, options.output, run);
   if (!options.quiet) print_item("replay", "every metric is that of the sweep, to the last bit");
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "output/text_file.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
+#include "sweep/so_far.hpp"
 
 namespace wormdrive {
 namespace {
@@ -47,14 +48,15 @@ int report_command(const ReportOptions& options) {
       folder ? std::filesystem::path(options.file) / "diagnosis.h5" : std::filesystem::path(options.file);
   if (folder && !std::filesystem::exists(path))
     refuse({options.file}, "holds no diagnosis.h5; wormdrive diagnose -o writes one");
-  const ResultFile file(path.string());
+  const SweepSoFar so_far(path.string());
+  const ResultFile file(so_far.path());
   std::string output = options.output;
   if (output.empty() && folder) output = (std::filesystem::path(options.file) / "report.html").string();
   if (output.empty()) output = std::filesystem::path(path).replace_extension(".html").filename().string();
   refuse_to_overwrite(output, path.string());
 
   ReportPage page = page_of(file);
-  const Scenario scenario = load_scenario(path.string(), {}, Purpose::show);
+  const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   page.title = file.attribute("/", "title");
   page.tables.push_back(table_of("Parameters", parameters(scenario)));
   if (const auto list = derived(scenario); !list.empty()) page.tables.push_back(table_of("What follows", list));

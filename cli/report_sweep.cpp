@@ -168,9 +168,9 @@ ReportPage report_of_sweep(const ResultFile& file) {
   const SweepSummary summary = summarise(sweep, {.worst = 10});
   const Study& study = sweep.study();
   ReportPage page;
-  page.summary =
-      fmt::format("{} of {} trials, {} parameters; {} done, {} refused, {} halted", summary.trials,
-                  sweep.range().size(), study.parameters.size(), summary.done, summary.refused, summary.halted);
+  page.summary = fmt::format("{} of {} trials{}, {} parameters; {} done, {} refused, {} halted", summary.trials,
+                             sweep.range().size(), sweep.complete() ? "" : " so far", study.parameters.size(),
+                             summary.done, summary.refused, summary.halted);
   page.verdict = verdict(summary);
   page.remarks = sweep.reasons();
   for (const ConditionSummary& c : summary.conditions)

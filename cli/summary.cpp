@@ -9,6 +9,7 @@
 #include "cli/describe.hpp"
 #include "cli/describe_sweep.hpp"
 #include "cli/shell_words.hpp"
+#include "sweep/so_far.hpp"
 
 namespace wormdrive {
 namespace {
@@ -59,7 +60,7 @@ void print_influences(const SweepSummary& summary) {
                sobol.used + sobol.left_out);
 }
 
-void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
+void print_worst(const SweepReader& sweep, const SweepSummary& summary, const std::string& path) {
   if (summary.worst.empty()) return;
   fmt::print("\n  worst trials\n");
   const Study& study = sweep.study();
@@ -73,7 +74,7 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary) {
   const auto ran = std::find_if(summary.worst.begin(), summary.worst.end(),
                                 [](const Trial& trial) { return trial.status != TrialStatus::refused; });
   if (ran != summary.worst.end())
-    fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(sweep.path()), ran->index);
+    fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(path), ran->index);
 }
 
 void print_conditions(const SweepSummary& summary) {
@@ -132,16 +133,21 @@ nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
 }  // namespace
 
 int summary_command(const SummaryOptions& options) {
-  const SweepReader sweep(options.sweep);
+  const SweepSoFar so_far(options.sweep);
+  const SweepReader sweep(so_far.path());
   const SweepSummary summary =
       summarise(sweep, {.ranked_by = options.metric, .worst = options.worst, .done_only = options.done_only});
   if (options.json) {
-    print_json(as_json(sweep, summary));
+    nlohmann::json json = as_json(sweep, summary);
+    json.update({{"of", sweep.range().size()}, {"running", so_far.running()}});
+    print_json(json);
     return 0;
   }
   fmt::print("{}\n", sweep.study().title);
   print_item("trials", fmt::format("{} of {}{}", summary.trials, sweep.range().size(),
-                                   sweep.complete() ? "" : ", the sweep is not complete"));
+                                   sweep.complete()   ? ""
+                                   : so_far.running() ? " so far; the sweep is still running"
+                                                      : " so far; the sweep was interrupted"));
   if (summary.done < summary.trials)
     print_item("failed",
                fmt::format("{} refused, {} halted; {}", summary.refused, summary.halted,
@@ -153,7 +159,7 @@ int summary_command(const SummaryOptions& options) {
   print_conditions(summary);
   print_metrics(summary);
   print_influences(summary);
-  print_worst(sweep, summary);
+  print_worst(sweep, summary, options.sweep);
   return 0;
 }
 

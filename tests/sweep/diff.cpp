@@ -1,0 +1,113 @@
+// What `diff` says of two sweeps: which trials, which columns, beyond what is allowed.
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "sweep/studies.hpp"
+
+namespace wormdrive::test::sweep_diff {
+
+namespace {
+
+/// Changes values of a column of a sweep.
+void change(const StudyFolder& folder, const std::string& file, const std::string& column,
+            const std::vector<std::pair<std::size_t, double>>& values) {
+  const Hdf5Handle sweep = reopen_hdf5(folder / file);
+  const Hdf5Handle dataset(H5Dopen2(sweep, ("trials/" + column).c_str(), H5P_DEFAULT), H5Dclose, "no column");
+  std::vector<double> all = read_column(sweep, "trials/" + column);
+  for (const auto& [row, value] : values) all[row] = value;
+  check_hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), "cannot change");
+}
+
+/// The line of what was printed that has a text.
+std::string line_with(const std::string& out, const std::string& text) {
+  const std::size_t at = out.find(text);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = out.rfind('\n', at) + 1;
+  return out.substr(begin, out.find('\n', at) - begin);
+}
+
+}  // namespace
+
+TEST_CASE("diff of two sweeps names the columns and the trials that differ", "[sweep]") {
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "a.h5"}).exit == 0);
+  for (const char* copy : {"same.h5", "other.h5", "failed.h5"})
+    std::filesystem::copy_file(folder / "a.h5", folder / copy);
+  const Outcome same = folder.run({"diff", "a.h5", "same.h5", "--relative", "0"});
+  INFO(same.out << same.err);
+  CHECK(same.exit == 0);
+  CHECK(same.out.ends_with("they agree: 200 trials compared\n"));
+
+  const std::vector<double> speed = folder.column("a.h5", "final_gear_speed");
+  change(folder, "other.h5", "final_gear_speed", {{7, speed[7] + 0.5}, {150, speed[150] - 0.25}});
+  const Outcome other = folder.run({"diff", "a.h5", "other.h5"});
+  CHECK(other.exit == 1);
+  CHECK(line_with(other.out, "trials/final_gear_speed").find(" 0.5 in trial 7 ") != std::string::npos);
+  CHECK(line_with(other.out, "trials/final_gear_speed").ends_with("DIFFERS in 2 trials: 7, 150"));
+  CHECK(line_with(other.out, "trials/mesh.friction").find("DIFFERS") == std::string::npos);
+  CHECK(other.out.ends_with("they differ: 200 trials compared\n"));
+  CHECK(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.5000001"}).exit == 0);
+  CHECK(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.3", "-q"}).out.empty());
+  const auto json = nlohmann::json::parse(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.3", "--json"}).out);
+  CHECK(json.at("agree") == false);
+  for (const auto& signal : json.at("signals"))
+    CHECK(signal.at("trials") ==
+          (signal.at("signal") == "trials/final_gear_speed" ? std::vector<int>{7} : std::vector<int>{}));
+
+  // not a number is another value than any number, and the same as not a number
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  change(folder, "other.h5", "final_gear_speed", {{7, none}, {150, speed[150]}});
+  CHECK(folder.run({"diff", "a.h5", "other.h5", "--absolute", "1e9"}).exit == 1);
+  std::filesystem::copy_file(folder / "other.h5", folder / "nan.h5");
+  CHECK(folder.run({"diff", "nan.h5", "other.h5"}).exit == 0);
+
+  change(folder, "failed.h5", "status", {{3, 2.0}, {4, 3.0}});
+  const Outcome failed = folder.run({"diff", "a.h5", "failed.h5"});
+  CHECK(failed.exit == 1);
+  CHECK(failed.out.find("  another end of 2 trials: 3, 4; 3 done, then refused\n") != std::string::npos);
+}
+
+TEST_CASE("diff of two sweeps tells trials and columns that one of them lacks, and what else is another", "[sweep]") {
+  const StudyFolder folder;
+  REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
+  REQUIRE(folder.sweep({"-o", "shard.h5", "--shard", "2/4"}).exit == 0);
+  const Outcome shard = folder.run({"diff", "whole.h5", "shard.h5"});
+  INFO(shard.out << shard.err);
+  CHECK(shard.exit == 1);
+  CHECK(shard.out.find("  150 trials in whole.h5 only: 0 to 49, 100 to 199\n") != std::string::npos);
+  CHECK(shard.out.ends_with("they differ: 50 trials compared\n"));
+
+  // another order of the kinds of reasons is no difference
+  const StudyFolder failures(R"(scenario = "s.toml"
+set = ["run.solver=taylor"]
+[sweep]
+design = "monte_carlo"
+trials = 40
+seed = 1
+[[parameter]]
+path = "mesh.friction"
+distribution = "discrete"
+values = [0.25, -0.1, 20]
+weights = [60, 20, 20]
+)");
+  REQUIRE(failures.sweep({"-o", "a.h5"}).exit == 0);
+  REQUIRE(failures.sweep({"-o", "second.h5", "--shard", "2/2"}).exit == 0);
+  const Outcome half = failures.run({"diff", "second.h5", "a.h5"});
+  CHECK(half.out.find("another reason") == std::string::npos);
+  CHECK(half.out.find("  20 trials in a.h5 only: 0 to 19\n") != std::string::npos);
+
+  folder.write("study.toml", study_but("seed = 3", "seed = 4"));
+  REQUIRE(folder.sweep({"-o", "seed.h5"}).exit == 0);
+  const Outcome seed = folder.run({"diff", "whole.h5", "seed.h5"});
+  CHECK(seed.exit == 1);
+  CHECK(seed.out.find("  note: the study differs in sweep.seed: 3, then 4\n") != std::string::npos);
+  CHECK(line_with(seed.out, "trials/mesh.friction").find("DIFFERS in 200 trials: 0, 1, 2, 3, 4, ...") !=
+        std::string::npos);
+  REQUIRE(folder.run({"run", "s.toml", "-o", "run.h5"}).exit == 0);
+  CHECK(folder.run({"diff", "whole.h5", "run.h5"}).exit == 1);
+}
+
+}  // namespace wormdrive::test::sweep_diff
