@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <stdlib.h>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -52,8 +51,19 @@ void copy(const SweepPieces& pieces, const std::string& path) {
 }  // namespace
 
 SweepSoFar::SweepSoFar(const std::string& path) : path_(path) {
-  const std::vector<std::string> parts = parts_of(path);
-  if (parts.empty()) return;
+  for (std::vector<std::string> parts = parts_of(path); !parts.empty();) {
+    try {
+      copy_of(parts, path);
+      return;
+    } catch (const InputFault&) {
+      if (parts_of(path) == parts) throw;  // else it has become NAME meanwhile
+      parts = parts_of(path);
+    }
+  }
+  running_ = false;
+}
+
+void SweepSoFar::copy_of(const std::vector<std::string>& parts, const std::string& path) {
   running_ = std::any_of(parts.begin(), parts.end(), is_being_written);
   const SweepPieces pieces(parts, true);
   folder_ = folder_of_its_own();

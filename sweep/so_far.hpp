@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace wormdrive {
 
@@ -21,6 +22,8 @@ class SweepSoFar {
   bool running() const { return running_; }
 
  private:
+  void copy_of(const std::vector<std::string>& parts, const std::string& path);
+
   std::string path_;
   std::filesystem::path folder_;  ///< of the copy; empty without one
   bool running_ = false;
