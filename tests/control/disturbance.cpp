@@ -121,7 +121,7 @@ TEST_CASE("without a reference there is no tracking error to tell") {
   const std::string law =
       "[controller]\nkind = \"open_loop\"\nsample_time_s = 1e-3\n[controller.torque]\nkind = \"constant\"\n"
       "torque_Nm = -0.04\n";
-  const std::string reference = "[reference]\nkind = \"step\"\nangle_rad = 0.1\n";
+  const std::string reference = "[reference]\nkind = \"step\"\nangle_rad = 0.1\ntime_s = 0\n";
   for (const bool follows : {false, true}) {
     folder.write("s.toml", good_but(motor, law + (follows ? reference : "")));
     const Outcome outcome = folder.run({"run", "s.toml", "-o", "r.h5"});

@@ -135,7 +135,7 @@ TEST_CASE("jumps of the load are events that the FMU announces, jumps of the tor
 }
 
 TEST_CASE("an importer that restarts its solver only where it is told follows a drive through steps of its torque") {
-  agrees(shipped("measured_worm_drive.toml"), {"run.relative_tolerance=1e-12"}, 5);
+  agrees(shipped("measured_worm_drive.toml"), {"run.relative_tolerance=1e-12"}, 4);
 }
 
 TEST_CASE("a parameter that the importer sets is that of the scenario") {
