@@ -171,9 +171,9 @@ TEST_CASE("check shows gains and Lemma 1, and names what fails with the value th
   REQUIRE(bad.out.find("FAILS by 0.5; controller.beta1 = 2 would satisfy it") != std::string::npos);
   REQUIRE(bad.out.find("warning  Lemma 1 does not hold (wormdrive check says why): beta1 >= 2; eta >= M b_hat/2 - E") !=
           std::string::npos);
-  const Outcome rough = folder.run({"check", sliding, "--set", "controller.variation.C1=0", "--set",
-                                    "controller.variation.C2=0", "--set", "controller.variation.friction=0.1", "--set",
-                                    "effect.mesh_friction.change=0.05"});
+  const Outcome rough =
+      folder.run({"check", sliding, "--set", "controller.variation.C1=0", "--set", "controller.variation.C2=0", "--set",
+                  "controller.variation.friction=0.1", "--set", "effect.mesh_friction.change=0.05"});
   INFO(rough.out << rough.err);
   REQUIRE(rough.exit == 0);
   REQUIRE(rough.out.find("|C1 - C1_hat| ") != std::string::npos);
