@@ -65,6 +65,7 @@ class Course {
     Ahead found{list(angle), list(speed), list(e.tape[e.beyond]), longest};
     shorten(found.step, found.omega);
     if (drive_.teeth) shorten(found.step, found.beyond);
+    keep_small_exponentials(e, found.step);
     count();
     return found;
   }
@@ -188,6 +189,17 @@ class Course {
       return (abs(c[order - 1]) + abs(c[order]) * h) * power > Real(Precision<Real>::rest) * bound(c, h);
     };
     while (rest(step)) step *= Real(0.7);
+  }
+  /// An exponential that is too small to show in the sums above has either to stay so or to be followed itself.
+  static void keep_small_exponentials(const Expression& e, Real& step) {
+    for (const auto& [value, of] : e.tape.exponentials()) {
+      const Polynomial x = list(e.tape[of]);
+      const auto grows = [&](Real h) { return x[0] - abs(x[0]) + bound(x, h) > Real(-80); };
+      Real followed = e.tape[value][0] > 0 ? step : Real(0), unseen = step;  // 0 where it is below all numbers
+      shorten(followed, list(e.tape[value]));
+      while (followed < unseen && grows(unseen)) unseen *= Real(0.7);
+      step = std::max(followed, unseen);
+    }
   }
   void count() {
     if (++steps_ > most_steps_) throw GivesUp("too many steps");

@@ -42,6 +42,12 @@ class Tape {
   Series& operator[](Value v) { return series_[v.at]; }
   const Series& operator[](Value v) const { return series_[v.at]; }
 
+  /// An exponential and what it is of: one of nothing may grow beyond everything else within a step.
+  struct Exponential {
+    Value value, of;
+  };
+  const std::vector<Exponential>& exponentials() const { return exponentials_; }
+
   /// Works out the k-th coefficient of everything but the inputs, out of those up to k.
   void expand(int k) {
     for (std::size_t at = 0; at < nodes_.size(); ++at)
@@ -52,7 +58,9 @@ class Tape {
   Value add(Op op, int a, int b, Real constant = 0) {
     nodes_.push_back({op, a, b, constant});
     series_.push_back({});
-    return {this, static_cast<int>(nodes_.size()) - 1};
+    const Value made{this, static_cast<int>(nodes_.size()) - 1};
+    if (op == Op::exponential) exponentials_.push_back({made, {this, a}});
+    return made;
   }
   /// The sine of a value, followed by its cosine.
   int sine_and_cosine(int of) {
@@ -108,6 +116,7 @@ class Tape {
 
   std::vector<Node> nodes_;
   std::vector<Series> series_;
+  std::vector<Exponential> exponentials_;
 };
 
 }  // namespace judge

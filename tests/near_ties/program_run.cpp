@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
@@ -126,8 +127,10 @@ ProgramRun run_drive(Drive drive, const Scenario& s, const Case& tie) {
     });
   } catch (const Halt& halt) {
     result.halt = halt.what();
+  } catch (const std::exception& error) {
+    result.broken = fmt::format("ends in an exception: {}", error.what());
   }
-  if (result.broken.empty()) result.broken = broken<Drive>(last);
+  if (result.halt.empty() && result.broken.empty()) result.broken = broken<Drive>(last);
   constexpr int gear = Drive::state_size - 2;
   result.theta = last.x[gear];
   result.omega = last.x[gear + 1];

@@ -1,6 +1,7 @@
 #include "near_ties/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,12 @@ bool same_modes(const ProgramRun& a, const ProgramRun& b) {
   return a.start == b.start &&
          std::equal(a.changes.begin(), a.changes.end(), b.changes.begin(), b.changes.end(),
                     [](const Change& x, const Change& y) { return x.before == y.before && x.after == y.after; });
+}
+
+double largest_delay(const ProgramRun& a, const ProgramRun& b) {
+  double delay = 0.0;
+  for (std::size_t k = 0; k < a.changes.size(); ++k) delay = std::max(delay, std::abs(a.changes[k].t - b.changes[k].t));
+  return delay;
 }
 
 judge::Mode rigid(const Modes& modes) { return {modes[0], modes[1]}; }
@@ -41,7 +48,13 @@ Judgement judgement(const Case& tie, bool judged) {
     if (!runs[k].halt.empty()) return {Verdict::halt, fmt::format("{}: {}", name(solvers[k]), runs[k].halt)};
 
   const bool same = std::all_of(runs.begin(), runs.end(), [&](const ProgramRun& r) { return same_modes(r, runs[0]); });
-  if (tie.elastic) return same ? Judgement{Verdict::agree} : Judgement{Verdict::silent, "elastic: lists differ"};
+  if (tie.elastic) {
+    if (!same) return {Verdict::silent, "the lists of elastic teeth differ"};
+    const double apart = largest_delay(runs[0], runs[1]);
+    if (apart > 1e-6 * tie.drive.end)
+      return {Verdict::silent, fmt::format("elastic teeth: events {:.3g} s apart", apart)};
+    return {Verdict::agree};
+  }
   if (same && !judged) return {Verdict::not_judged};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     try {
