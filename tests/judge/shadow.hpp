@@ -23,7 +23,9 @@ struct Exactness {
 /// by roundings; what is missed, invented, or decided the other way contradicts the state sooner or later.
 class Shadow {
  public:
-  Shadow(const Drive& drive, Exactness exactness) : course_(drive), exactness_(exactness) {}
+  /// It gives up after so many steps.
+  Shadow(const Drive& drive, Exactness exactness, long most_steps = 6000)
+      : course_(drive, most_steps), exactness_(exactness) {}
 
   /// The first contradiction in a run that begins in a mode; empty if there is none.
   std::string contradiction(Mode start, const std::vector<Event>& events) {

@@ -26,12 +26,12 @@ double largest_delay(const ProgramRun& a, const ProgramRun& b) {
 
 judge::Mode rigid(const Modes& modes) { return {modes[0], modes[1]}; }
 
-std::string contradiction(const Case& tie, By by, const ProgramRun& run) {
+std::string contradiction(const Case& tie, By by, const ProgramRun& run, long most_steps) {
   std::vector<judge::Event> events;
   for (const Change& change : run.changes) events.push_back({change.t, rigid(change.before), rigid(change.after)});
   const double slower = std::max(1.0, tie.drive.end), per_second = by == By::taylor ? 10.0 * tolerance * slower : 0.0;
   const judge::Exactness exactness{.relative = 1e-9 + per_second, .absolute = 1e-11 / slower};
-  return judge::Shadow(tie.drive, exactness).contradiction(rigid(run.start), events);
+  return judge::Shadow(tie.drive, exactness, most_steps).contradiction(rigid(run.start), events);
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ Judgement judgement(const Case& tie, bool judged) {
   if (same && !judged) return {Verdict::not_judged};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     try {
-      const std::string found = contradiction(tie, solvers[k], runs[k]);
+      const std::string found = contradiction(tie, solvers[k], runs[k], same ? 6000 : 100'000);
       if (!found.empty()) return {Verdict::silent, fmt::format("{}: {}", name(solvers[k]), found)};
     } catch (const judge::GivesUp&) {
       if (same) return {Verdict::not_judged};
