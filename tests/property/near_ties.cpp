@@ -31,8 +31,7 @@ TEST_CASE("near ties: 300 random drives at the edge of an event end as they must
   CHECK(verdicts[Verdict::rounding] <= 30);
 }
 
-TEST_CASE(
-    "the judge of near ties finds the events of fig. 9 where the closed reference has them, and follows its own") {
+TEST_CASE("the judge of near ties has the events of fig. 9 to the last digit, and objects to a missed or a late one") {
   judge::Drive drive;
   drive.lambda = 4 * (std::numbers::pi / 180);
   drive.phi_n = 20 * (std::numbers::pi / 180);
