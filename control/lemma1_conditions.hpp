@@ -51,7 +51,7 @@ inline std::vector<Condition> conditions(const SlidingParameters& p, const Lemma
 /// Whether C1 or C2 of a drive lies within its variation: as a share of its estimate, or, where it was stated by the
 /// friction or the estimate is 0, as it is.
 inline Condition condition_on_C(std::size_t k, double actual, double estimate, const Variations& v) {
-  const std::string n = "C" + std::to_string(k + 1);
+  const std::string n = k == 0 ? "C1" : "C2";
   if (!v.by_friction && estimate != 0.0)
     return {"|" + n + "/" + n + "_hat - 1|",
             std::abs(actual / estimate - 1.0),

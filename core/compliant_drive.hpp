@@ -170,6 +170,13 @@ class CompliantDrive {
     return (now.mode.worm != Motion::stuck && now.x[1] == T(0)) || (now.mode.gear != Motion::stuck && now.x[3] == T(0));
   }
 
+  /// A state with its speeds as the mode has them: rounding leaves them on either side of zero.
+  static Instant within_mode(Instant now) {
+    for (const Shaft shaft : {Shaft::worm, Shaft::gear})
+      if (T(sign(now.mode[shaft])) * now.x[speed_of(shaft)] < T(0)) now.x[speed_of(shaft)] = T(0);
+    return now;
+  }
+
   /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,
   /// in the gap the distance to each flank; for a moving shaft its speed, for a stuck one its two margins to break-in.
   template <class S>

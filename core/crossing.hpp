@@ -12,7 +12,7 @@ namespace wormdrive {
 template <class F>
 double root_between(F&& f, double a, double fa, double b, double fb) {
   if (fa == 0.0) return a;
-  if (fb == 0.0) return b;
+  if (fb == 0.0 || !(a < b)) return b;
   std::uintmax_t iterations = 200;
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(), iterations)
       .second;

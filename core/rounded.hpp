@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -73,22 +74,38 @@ void widen(Series<Rounded, N>& x, double rounding) {
 /// How well the time of an event at t is known [s]: root finders stop within a few roundings of it.
 inline double time_resolution(double t) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
+/// What is not known of a coefficient: some of its roundings, for the state at an event carries those of the solver's
+/// polynomials, and what it changes within the resolution of time [s].
+template <int N>
+double blur(const Series<Rounded, N>& x, int k, double resolution) {
+  const double rate = k < N ? (k + 1) * std::abs(x[k < N ? k + 1 : k].value) : 0.0;
+  return 8.0 * x[k].rounding + rate * resolution;
+}
+
 /// How many leading coefficients do not decide the sign of a series just after the present moment: they vanish within
-/// their rounding, or a later one outweighs them before the sum has left the rounding of its value. N + 1 where nothing
-/// is left. resolution [s]: how well the present moment is known, as that of a root that was found.
+/// what is known of them, or a later one outweighs them before they show. More than N where nothing decides.
+/// resolution [s]: how well the present moment is known, as that of a root that was found.
+///
+/// Four coefficients are looked at, whatever the order, so that all who judge one quantity come to one result; a value
+/// that is exactly zero, as a speed that starts, is judged by its rate, as whoever let it start judged that.
 template <int N>
 int undecided(const Series<Rounded, N>& x, double resolution) {
-  const double next = N > 0 ? std::abs(x[N > 0 ? 1 : 0].value) * resolution : 0.0;
-  const double blur = x[0].rounding + next;  // what is not known of the value
-  if (std::abs(x[0].value) > blur) return 0;
-  for (int k = 1; k <= N; ++k) {
-    if (x[k].vanishes()) continue;
-    // within this time [s] it has left the blur, and a dip of that depth would have turned
-    const double size = std::abs(x[k].value), left = std::pow(4.0 * blur / size, 1.0 / k);
+  if constexpr (N > 0)
+    if (x[0].value == 0.0 && x[0].rounding == 0.0) {
+      Series<Rounded, N - 1> rate;
+      for (int k = 0; k < N; ++k) rate[k] = {(k + 1) * x[k + 1].value, (k + 1) * x[k + 1].rounding};
+      return 1 + undecided(rate, resolution);
+    }
+  constexpr int last = N < 3 ? N : 3;
+  for (int k = 0; k <= last; ++k) {
+    const double size = std::abs(x[k].value);
+    if (size <= blur(x, k, resolution)) continue;
+    double hidden = 0.0;  // how long [s] what is not known of the others hides this term, and the dip that it makes
+    for (int j = 0; j < k; ++j) hidden = std::max(hidden, std::pow(4.0 * blur(x, j, resolution) / size, 1.0 / (k - j)));
     bool outweighed = false;
-    double power = left;
-    for (int j = k + 1; j <= N; ++j, power *= left)
-      outweighed = outweighed || (!x[j].vanishes() && std::abs(x[j].value) * power > size);
+    double power = hidden;
+    for (int j = k + 1; j <= last; ++j, power *= hidden)
+      outweighed = outweighed || (std::abs(x[j].value) > blur(x, j, resolution) && std::abs(x[j].value) * power > size);
     if (!outweighed) return k;
   }
   return N + 1;

@@ -94,6 +94,12 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Whether the gear moves and has no speed yet.
   static bool leaves_rest(const Instant& now) { return !at_rest(now.mode) && now.x[1] == T(0); }
 
+  /// A state with its speed as the mode has it: rounding leaves it on either side of zero at a reversal.
+  static Instant within_mode(Instant now) {
+    if (T(sign(now.mode.motion)) * now.x[1] < T(0)) now.x[1] = T(0);
+    return now;
+  }
+
   /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in
   /// its direction and the distance to the switching surface, while stuck the margins to break-in, in rad/s^2.
   template <class S>
@@ -221,8 +227,7 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
   Flank flank_after_crossing(const Instant& now) const {
-    auto beyond = beyond_surface(ahead<order, Rounded>(now), now.mode.motion);
-    beyond[0] = {0.0, beyond[0].rounding + 2.0 * std::abs(beyond[0].value)};  // as was found, and how well
+    const auto beyond = beyond_surface(ahead<order, Rounded>(now), now.mode.motion);
     return flank_just_after(beyond, now.t, across_surface(now.mode).flank);
   }
   /// The flank that carries the load just after t; the other argument where nothing decides.

@@ -163,8 +163,8 @@ class Audit {
         guard.armed = here[g][0] > 0.0;
       }
     }
-    judge(start, end, here, watched, mode_ended && !input_ended,
-          span / static_cast<double>(std::max(1L, solver_steps)), std::max(h, 4.0 * time_resolution(end.t)));
+    judge(start, end, here, watched, mode_ended && !input_ended, span / static_cast<double>(std::max(1L, solver_steps)),
+          std::max(h, 4.0 * time_resolution(end.t)));
     for (int k = 0; k < System::state_size; k += 2) {
       report_.largest_angle_error = std::max(report_.largest_angle_error, std::abs(now.x[k] - end.x[k]));
       report_.largest_speed_error = std::max(report_.largest_speed_error, std::abs(now.x[k + 1] - end.x[k + 1]));

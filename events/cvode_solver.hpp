@@ -27,8 +27,8 @@ namespace wormdrive {
 ///
 /// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial. After
 /// every step all guards are looked at with value and rate, so that one that dips below zero and comes back is seen as
-/// well as one that ends below, and their roots are found on the polynomial to a few roundings of the time. (CVODE's own
-/// roots are a hundred times coarser, which is microseconds after a day.) No step ends in a mode that its state
+/// well as one that ends below, and their roots are found on the polynomial to a few roundings of the time. (CVODE's
+/// own roots are a hundred times coarser, which is microseconds after a day.) No step ends in a mode that its state
 /// contradicts.
 template <class System>
 class CvodeSolver {
@@ -184,6 +184,7 @@ class CvodeSolver {
     guards_ = there;
     if (fired_ == no_guard) return;
     ahead_ = at(first);
+    if constexpr (Foresees<System>) ahead_ = System::within_mode(ahead_);
   }
   /// Where the motion was at a time of the latest step.
   Instant at(double t) {
@@ -224,9 +225,9 @@ class CvodeSolver {
   CvodeOwned<SUNLinearSolver> linear_;
   CvodeOwned<SUNNonlinearSolver> fixed_point_;
   CvodeMemory memory_;
-  Instant ahead_{};       ///< how far CVODE has gone without a guard firing ...
-  int fired_ = no_guard;  ///< ... or the guard that fired there
-  bool finite_ = true;    ///< every acceleration since the latest restart was a number
+  Instant ahead_{};                                  ///< how far CVODE has gone without a guard firing ...
+  int fired_ = no_guard;                             ///< ... or the guard that fired there
+  bool finite_ = true;                               ///< every acceleration since the latest restart was a number
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
   Guards guards_{};                                  ///< where CVODE is ...

@@ -34,6 +34,7 @@ class FirstStep {
       e.order = order;
       take(flow[2 * shaft], e.theta);
       take(flow[2 * shaft + 1], e.omega);
+      rounding_[shaft] = 16.0 * flow[2 * shaft + 1][1].rounding;
       for (int g = 0; g < System::guard_count; ++g) take(guards[g], e.guards[g]);
       h = accuracy_.step(e, h);
     }
@@ -54,7 +55,7 @@ class FirstStep {
       then.x[2 * shaft] = value(motion_[shaft].angle(), t - begin_.t);
       then.x[2 * shaft + 1] = value(motion_[shaft].speed(), t - begin_.t);
     }
-    return then;
+    return System::within_mode(then);
   }
 
  private:
@@ -78,9 +79,9 @@ class FirstStep {
         rate += k * c[k] * power;
         size += std::abs(k * c[k] * power);
       }
-      const double found = rates[2 * shaft + 1], rounding = 64.0 * std::numeric_limits<double>::epsilon();
+      const double found = rates[2 * shaft + 1], rounding = 64.0 * std::numeric_limits<double>::epsilon() * size;
       const double allowed = order * accuracy_.allowed(there.x[2 * shaft + 1]) + accuracy_.relative() * size;
-      if (!(std::abs(found - rate) <= allowed + rounding * (size + std::abs(found)))) return false;
+      if (!(std::abs(found - rate) <= allowed + rounding + rounding_[shaft])) return false;
     }
     return true;
   }
@@ -101,6 +102,7 @@ class FirstStep {
   Instant begin_;
   TaylorAccuracy accuracy_;
   std::array<Motion, shafts> motion_{};
+  std::array<double, shafts> rounding_{};  ///< of the accelerations, whose torques may all but cancel [rad/s^2]
   double end_ = 0.0;
   int fired_ = no_guard;
   long looks_ = 0;

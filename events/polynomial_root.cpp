@@ -75,7 +75,7 @@ std::size_t start_roots(Polynomial c) {
 
 }  // namespace
 
-bool falls_through(Polynomial c, double s, double resolution) {
+bool falls_through(Polynomial c, double s, double rounding, double resolution) {
   double slope = 0.0, bend = 0.0, value = 0.0, size = 0.0;  // bend: half the second derivative
   for (std::size_t k = c.size(); k-- > 0;) {
     bend = bend * s + slope;
@@ -83,7 +83,7 @@ bool falls_through(Polynomial c, double s, double resolution) {
     value = value * s + c[k];
     size = size * s + std::abs(c[k]);
   }
-  const double blur = 64.0 * precision * size + std::abs(slope) * resolution;
+  const double blur = rounding + 64.0 * precision * size + std::abs(slope) * resolution;
   return slope < 0.0 && slope * slope > 4.0 * std::abs(bend) * blur;  // the minimum is slope^2/(4 bend) below zero
 }
 

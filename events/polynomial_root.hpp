@@ -6,8 +6,8 @@
 namespace wormdrive {
 
 /// Whether a polynomial that has a root at s certainly falls there: its next minimum is lower than rounding could make
-/// it, and than it changes within the resolution of time [s].
-bool falls_through(Polynomial c, double s, double resolution);
+/// it, that of its value included, and than it changes within the resolution of time [s].
+bool falls_through(Polynomial c, double s, double rounding, double resolution);
 
 /// Finds where guards fall through zero within a step, and counts how often a guard had to be evaluated for it.
 class RootSearch {
@@ -24,8 +24,8 @@ class RootSearch {
   Fall fall_from_start(Polynomial guard, double h, std::size_t vanishing);
 
   /// The first fall of a guard through zero within h, where the guard is known to an event's resolution of 10 ps only,
-  /// as one that is interpolated. A guard that is not armed yet counts once it has been positive; what it is at the very
-  /// start does not count.
+  /// as one that is interpolated. A guard that is not armed yet counts once it has been positive; what it is at the
+  /// very start does not count.
   Fall first_fall(Polynomial guard, double h, bool armed) {
     if (!armed) return start_of_segment(guard, h);
     // An armed guard that starts below zero got there by the rounding between two steps.

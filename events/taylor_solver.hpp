@@ -36,7 +36,8 @@ class TaylorSolver {
   Instant jump(const Instant& now, int guard) {
     if constexpr (NominalFlow<System>::known)
       if (!System::at_rest(now.mode) && guard == System::flank_guard &&
-          falls_through(series_.guard(guard), now.t - begin_.t, time_resolution(now.t)))
+          falls_through(series_.guard(guard), now.t - begin_.t, 16.0 * guard_series<0>(system_, now)[guard][0].rounding,
+                        time_resolution(now.t)))
         return {now.t, now.x, System::across_surface(now.mode), now.since};
     return system_.jump(now, guard);
   }
@@ -119,7 +120,7 @@ class TaylorSolver {
       }
     }
     const double s = t - begin_.t;
-    return {t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode};
+    return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
   }
 
   /// The polynomials from now on to the first event, or to as far as they are accurate.
@@ -166,7 +167,7 @@ class TaylorSolver {
     const Polynomial c = series_.guard(guard);
     const double size = system_.guard_terms(system_.moment(now), now.mode)[guard], resolution = time_resolution(now.t);
     if (c[0] > 1e-9 * size && c[0] > std::abs(c[1]) * resolution) return 0;  // rounding is far below
-    constexpr int last = 8;
+    constexpr int last = 4;
     const int vanishing = undecided(guard_series<last>(system_, now)[guard], resolution);
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
   }

@@ -95,9 +95,9 @@ TEST_CASE("the sign just after now is that of the first coefficient that is more
 }
 
 TEST_CASE("a surface that is touched and not crossed has the sign of its curvature") {
-  // a dip of rate^2/(4 curvature) = 2.5e-17 below zero, less than the rounding of the value
+  // a dip of rate^2/(4 curvature) = 2.5e-17 below zero, less than the rounding of the value; one of 2.5e-13
   REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-8, 1e-16}, {1.0, 1e-16}}), 0.0) == 1);
-  REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-7, 1e-16}, {1.0, 1e-16}}), 0.0) == -1);
+  REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-6, 1e-16}, {1.0, 1e-16}}), 0.0) == -1);
 }
 
 TEST_CASE("what a value changes within the resolution of time does not count as its sign") {

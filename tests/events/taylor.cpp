@@ -217,9 +217,10 @@ TEST_CASE("sine and cosine of turns are within two units in the last place after
 
 TEST_CASE("a polynomial falls through its root unless rounding decides between falling and touching") {
   const double falls[] = {0.3, -1.0, 0.5}, rises[] = {-0.02, 0.3, -1.0}, touches[] = {0.25 - 1e-17, -1.0, 1.0};
-  REQUIRE(falls_through(falls, 1.0 - std::sqrt(0.4), 0.0));
-  REQUIRE(!falls_through(rises, 0.1, 0.0));
-  REQUIRE(!falls_through(touches, 0.5 - 3e-9, 0.0));
+  REQUIRE(falls_through(falls, 1.0 - std::sqrt(0.4), 0.0, 0.0));
+  REQUIRE(!falls_through(falls, 1.0 - std::sqrt(0.4), 1.0, 0.0));
+  REQUIRE(!falls_through(rises, 0.1, 0.0, 0.0));
+  REQUIRE(!falls_through(touches, 0.5 - 3e-9, 0.0, 0.0));
 }
 
 TEST_CASE("the first root of a polynomial is found where others follow, and none where it only comes near") {
