@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "output/replacing.hpp"
+
 namespace wormdrive {
 
 /// Options that every command which reads a scenario shares.
@@ -19,6 +21,7 @@ struct RunOptions {
   ScenarioOptions scenario;
   std::string output;  ///< empty: named after the scenario
   bool audit = false;
+  Replace replace = Replace::same_kind;
 };
 int run_command(const RunOptions& options);
 
@@ -29,6 +32,7 @@ struct StaticsOptions {
   std::string output;
   std::optional<double> max_load;  ///< [N m]
   int points = 41;
+  Replace replace = Replace::same_kind;
 };
 int statics_command(const StaticsOptions& options);
 
@@ -38,6 +42,7 @@ struct SteadyOptions {
   std::string data;                 ///< CSV of records at constant speed
   std::optional<double> max_speed;  ///< worm speed [rad/s]
   int points = 41;
+  Replace replace = Replace::same_kind;
 };
 int steady_command(const SteadyOptions& options);
 
@@ -49,6 +54,7 @@ struct DiagnoseOptions {
   double seed = 1;                 ///< of bootstraps
   unsigned threads = 0;            ///< 0: as many as the machine has
   bool pictures = true;
+  Replace replace = Replace::same_kind;
 };
 int diagnose_command(const DiagnoseOptions& options);
 
@@ -57,12 +63,13 @@ struct PlotOptions {
   std::string output;              ///< empty: named after the first file
   std::string over;                ///< what runs are drawn over instead of time
   std::string part = {};           ///< which picture of a diagnosis
+  Replace replace = Replace::same_kind;
 };
 int plot_command(const PlotOptions& options);
 /// Draws files into a picture; the exit code of the program that draws.
 int draw(const PlotOptions& options);
 /// Draws every picture of a diagnosis into a folder, PART.png, some at a time; the exit code likewise.
-int draw_all(const std::string& file, const std::string& folder, int at_a_time);
+int draw_all(const std::string& file, const std::string& folder, int at_a_time, Replace replace);
 
 struct SweepOptions {
   std::string study;
@@ -73,6 +80,7 @@ struct SweepOptions {
   std::optional<std::uint64_t> referee;  ///< trials that CVODE judges; else what fits into 5 % of the time
   bool resume = false;
   bool quiet = false;
+  Replace replace = Replace::same_kind;
   std::string command_line;
 };
 int sweep_command(const SweepOptions& options);
@@ -80,6 +88,7 @@ int sweep_command(const SweepOptions& options);
 struct MergeOptions {
   std::vector<std::string> shards;
   std::string output;
+  Replace replace = Replace::same_kind;
   bool quiet = false;
   std::string command_line;
 };
@@ -89,6 +98,7 @@ struct ReplayOptions {
   std::string sweep;
   std::uint64_t trial = 0;
   std::string output;
+  Replace replace = Replace::same_kind;
   bool quiet = false;
   std::string command_line;
 };
@@ -109,6 +119,7 @@ struct WorstOptions {
   std::uint64_t evaluations = 400;
   double tail = 1e-3;      ///< probability left out at either end of each parameter
   bool done_only = false;  ///< look among drives alone that run to the end
+  Replace replace = Replace::same_kind;
   unsigned threads = 0;
   std::string output;
   bool quiet = false;
@@ -119,6 +130,7 @@ int worst_command(const WorstOptions& options);
 struct FmuOptions {
   ScenarioOptions scenario;
   std::string output;  ///< empty: named after the scenario
+  Replace replace = Replace::same_kind;
 };
 int fmu_command(const FmuOptions& options);
 

@@ -89,8 +89,8 @@ void print(const Diagnosis& d) {
 }
 
 /// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
-std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_time) {
-  if (draw_all(folder.inside("diagnosis.h5"), folder.path(), at_a_time) != 0) return {};
+std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_time, Replace replace) {
+  if (draw_all(folder.inside("diagnosis.h5"), folder.path(), at_a_time, replace) != 0) return {};
   std::vector<std::string> pictures;
   for (const char* const part : {"prediction", "residual", "ranking", "certificate"})
     pictures.push_back(folder.inside(std::string(part) + ".png"));
@@ -125,7 +125,7 @@ int diagnose_command(const DiagnoseOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   std::vector<std::string> inputs = options.data;
   inputs.push_back(options.scenario.file);
-  const DiagnosisFolder folder(options.output, inputs);
+  const DiagnosisFolder folder(options.output, inputs, options.replace);
   const DataKind kind = kind_of_data(options.data, scenario);
   const std::map<std::string, LoadParameters> loads = own_loads(options, kind);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
@@ -141,9 +141,9 @@ int diagnose_command(const DiagnoseOptions& options) {
 
   if (talk) print(diagnosis);
   const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
-  const std::vector<std::string> written =
-      folder.write(diagnosis, json, scenario.title, options.scenario.command_line,
-                   [&] { return options.pictures ? draw_pictures(folder, threads) : std::vector<std::string>{}; });
+  const std::vector<std::string> written = folder.write(
+      diagnosis, json, scenario.title, options.scenario.command_line,
+      [&] { return options.pictures ? draw_pictures(folder, threads, options.replace) : std::vector<std::string>{}; });
   if (options.scenario.json) print_json(json);
   if (talk)
     print_item("wrote",

@@ -64,6 +64,9 @@ void compare_table(const ResultFile& a, const ResultFile& b, const std::string& 
     return;
   }
   result.rows += rows.size();
+  if (over == "time")
+    if (const double end_a = at_a.back(), end_b = at_b.back(); !(std::abs(end_a - end_b) <= allowed.time))
+      result.faults.push_back(fmt::format("{}: ends at {:.9g} s against {:.9g} s", table, end_a, end_b));
   const std::vector<std::string> of_b = b.columns(table);
   for (const std::string& name : a.columns(table)) {
     if (name == over) continue;

@@ -19,7 +19,7 @@ int fmu_command(const FmuOptions& options) {
   if (const auto why = not_exportable(scenario)) refuse({options.scenario.file}, *why);
   const std::string output = options.output.empty() ? default_output(options.scenario.file, ".fmu") : options.output;
   refuse_to_overwrite(output, options.scenario.file);
-  export_fmu(scenario, output);
+  export_fmu(scenario, output, options.replace);
   const InterfaceNames ports(has_elastic_teeth(scenario.effects));
   int parameters = 0;
   for_each_plant_parameter(scenario, [&](const std::string&, const auto&, const double&) { ++parameters; });

@@ -7,6 +7,13 @@
 
 namespace wormdrive {
 
+/// The option that every command with an output has.
+inline void add_force(CLI::App& command, Replace& replace) {
+  command.add_flag_callback(
+      "--force", [&replace] { replace = Replace::anything; },
+      "replace what is there, even if it is no older result of the same kind");
+}
+
 /// The commands that help with scenarios and results, as the command line states them.
 class HelpArguments {
  public:
@@ -41,6 +48,7 @@ class HelpArguments {
     report_app_ = app.add_subcommand("report", "make one HTML page of a result, which needs no network");
     report_app_->add_option("file", report_.file, "result (.h5), or the folder of a diagnosis")->required();
     report_app_->add_option("-o,--output", report_.output, "page; default: the file's name with .html");
+    add_force(*report_app_, report_.replace);
   }
 
   /// The exit code of the one that was typed; nothing if it was another.

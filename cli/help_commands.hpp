@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "output/replacing.hpp"
+
 namespace wormdrive {
 
 /// Prints the JSON schema of scenarios.
@@ -29,6 +31,7 @@ int diff_command(const DiffOptions& options);
 struct ReportOptions {
   std::string file;
   std::string output;  ///< empty: named after the file
+  Replace replace = Replace::same_kind;
 };
 int report_command(const ReportOptions& options);
 

@@ -28,11 +28,12 @@ std::set<std::uint64_t> wanted(const SweepReader& sweep) {
 
 }  // namespace
 
-void keep_trajectories(const std::string& path, const std::string& command_line, bool quiet) {
+void keep_trajectories(const std::string& path, const std::string& command_line, bool quiet, Replace replace) {
   const SweepReader sweep(path);
   RunOptions options;
   options.scenario.quiet = true;
   options.scenario.command_line = command_line;
+  options.replace = replace;
   const std::filesystem::path file(path);
   std::vector<std::uint64_t> kept;
   for (const std::uint64_t trial : wanted(sweep)) {

@@ -1,22 +1,17 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
-#include <functional>
 #include <iostream>
 #include <optional>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/help_arguments.hpp"
 #include "cli/shell_words.hpp"
-#include "events/halt.hpp"
 #include "output/part_file.hpp"
 #include "output/program.hpp"
 #include "scenarios/faults.hpp"
@@ -25,7 +20,6 @@
 namespace {
 
 using namespace wormdrive;
-constexpr int bad_input = 2, cannot_go_on = 3, cannot_write = 4;
 
 /// "wormdrive run 'my arm.toml'", as one could type it again.
 std::string command_line(int argc, char** argv) {
@@ -47,34 +41,6 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
                "motor.torque[1].amplitude_Nm=0.06; may be repeated");
   command.add_flag("-q,--quiet", options.quiet, "print faults only");
   command.add_flag("--json", options.json, "print the result as JSON");
-}
-
-int guarded(const std::function<int()>& command) {
-  try {
-    return command();
-  } catch (const InputFault& fault) {
-    std::cerr << fault.what() << '\n';
-    return bad_input;
-  } catch (const Halt& halt) {
-    std::cerr << "wormdrive: " << halt.what() << '\n';
-    return cannot_go_on;
-  } catch (const OutputFault& fault) {
-    std::cerr << "wormdrive: " << fault.what() << '\n';
-    return cannot_write;
-  } catch (const std::system_error& fault) {  // from printing
-    std::cerr << "wormdrive: " << fault.what() << '\n';
-    return cannot_write;
-  } catch (const std::exception& other) {  // out of memory, or something that nobody foresaw
-    std::cerr << "wormdrive: cannot go on: " << other.what() << '\n';
-    return cannot_go_on;
-  }
-}
-
-/// The exit code, unless what was printed could not be written.
-int if_printed(int code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  std::cerr << "wormdrive: cannot write to standard output: " << std::strerror(errno) << '\n';
-  return cannot_write;
 }
 
 /// CLI11 takes a misspelled command for a superfluous argument and asks for one.
@@ -127,6 +93,7 @@ int main(int argc, char** argv) {
   add_scenario_options(*run_app, run.scenario);
   run_app->add_option("-o,--output", run.output, "result file; default: the scenario's name with .h5");
   run_app->add_flag("--audit", run.audit, "integrate again with another method and look for missed events");
+  add_force(*run_app, run.replace);
 
   ScenarioOptions check;
   CLI::App* const check_app =
@@ -145,6 +112,7 @@ int main(int argc, char** argv) {
   statics_app->add_option("--points", statics.points, "loads from -max to +max")
       ->check(CLI::Range(3, 100000))
       ->capture_default_str();
+  add_force(*statics_app, statics.replace);
 
   SteadyOptions steady;
   CLI::App* const steady_app = app.add_subcommand("steady", "motor torque needed to run at constant speed");
@@ -158,6 +126,7 @@ int main(int argc, char** argv) {
   steady_app->add_option("--points", steady.points, "speeds in each direction")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+  add_force(*steady_app, steady.replace);
 
   DiagnoseOptions diagnose;
   CLI::App* const diagnose_app =
@@ -178,6 +147,7 @@ int main(int argc, char** argv) {
   diagnose_app->add_option("--threads", diagnose.threads, "default: as many as there are")->check(CLI::Range(1, 1024));
   diagnose_app->add_flag_callback(
       "--no-pictures", [&] { diagnose.pictures = false; }, "write no pictures");
+  add_force(*diagnose_app, diagnose.replace);
 
   PlotOptions plot;
   CLI::App* const plot_app = app.add_subcommand("plot", "draw a result file as PNG");
@@ -194,6 +164,7 @@ int main(int argc, char** argv) {
   plot_app->add_option("--part", plot.part, "which picture of a diagnosis; default: prediction")
       ->check(CLI::IsMember({"prediction", "residual", "ranking", "certificate"}));
   plot_app->add_option("-o,--output", plot.output, "picture; default: the file's name with .png");
+  add_force(*plot_app, plot.replace);
 
   SweepOptions sweep;
   CLI::App* const sweep_app =
@@ -209,12 +180,14 @@ int main(int argc, char** argv) {
                         "the time, at least 8");
   sweep_app->add_flag("--resume", sweep.resume, "keep the trials of an interrupted sweep and make the missing ones");
   sweep_app->add_flag("-q,--quiet", sweep.quiet, "print faults only");
+  add_force(*sweep_app, sweep.replace);
 
   MergeOptions merge;
   CLI::App* const merge_app = app.add_subcommand("merge", "put the shards of a sweep together");
   merge_app->add_option("shards", merge.shards, "all shards of one sweep (.h5), in any order")->required();
   merge_app->add_option("-o,--output", merge.output, "result file")->required();
   merge_app->add_flag("-q,--quiet", merge.quiet, "print faults only");
+  add_force(*merge_app, merge.replace);
 
   ReplayOptions replay;
   CLI::App* const replay_app = app.add_subcommand("replay", "run one trial of a sweep again, with its trajectory");
@@ -222,6 +195,7 @@ int main(int argc, char** argv) {
   replay_app->add_option("--trial", replay.trial, "index of the trial")->required();
   replay_app->add_option("-o,--output", replay.output, "result file of the run")->required();
   replay_app->add_flag("-q,--quiet", replay.quiet, "print faults only");
+  add_force(*replay_app, replay.replace);
 
   SummaryOptions summary;
   CLI::App* const summary_app = app.add_subcommand("summary", "what a sweep comes to: quantiles, risks, influences");
@@ -247,11 +221,14 @@ int main(int argc, char** argv) {
   worst_app->add_flag("--done-only", worst.done_only, "look among drives alone that run to the end");
   worst_app->add_option("--threads", worst.threads, "default: as many as the machine has")->check(CLI::Range(1, 4096));
   worst_app->add_flag("-q,--quiet", worst.quiet, "print faults only");
+  add_force(*worst_app, worst.replace);
+
   FmuOptions fmu;
   CLI::App* const fmu_app =
       app.add_subcommand("fmu", "write the plant of a scenario as an FMU (FMI 2.0, model exchange)");
   add_scenario_options(*fmu_app, fmu.scenario);
   fmu_app->add_option("-o,--output", fmu.output, "FMU; default: the scenario's name with .fmu");
+  add_force(*fmu_app, fmu.replace);
 
   const HelpArguments help(app, not_negative);
 

@@ -11,9 +11,10 @@ namespace wormdrive {
 
 int merge_command(const MergeOptions& options) {
   for (const std::string& shard : options.shards) refuse_to_overwrite(options.output, shard);
+  const std::string output = followed(options.output);
   const std::uint64_t trials =
-      merge_shards(options.shards, options.output, OutputLock(options.output), options.command_line);
-  keep_trajectories(options.output, options.command_line, options.quiet);
+      merge_shards(options.shards, output, OutputLock(output), options.command_line, options.replace);
+  keep_trajectories(output, options.command_line, options.quiet, options.replace);
   if (options.quiet) return 0;
   print_item("merged", fmt::format("{} shards, {} trials", options.shards.size(), trials));
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", options.output, shell_path(options.output)));

@@ -190,7 +190,11 @@ int new_command(const NewOptions& options) {
   if (!file && errno == EEXIST) refuse({options.file}, "it exists; choose another name");
   const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = file && std::fclose(file) == 0;
-  if (!written || !closed) throw OutputFault(fmt::format("cannot write {}: {}", options.file, std::strerror(errno)));
+  if (!written || !closed) {
+    const int reason = errno;
+    if (file) std::remove(options.file.c_str());
+    throw OutputFault(fmt::format("cannot write {}: {}", options.file, std::strerror(reason)));
+  }
   print_item("wrote", fmt::format("{}    run it: wormdrive {} {}", options.file, kind->command, options.file));
   return 0;
 }

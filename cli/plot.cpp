@@ -7,7 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
-#include "output/hdf5.hpp"
+#include "cli/result_file.hpp"
 #include "scenarios/faults.hpp"
 
 extern char** environ;
@@ -52,6 +52,7 @@ int plot_command(const PlotOptions& options) {
     else if (!is_hdf5(file))
       faults.add({file}, "not an HDF5 file; wormdrive run writes one");
   faults.raise();
+  for (const std::string& file : options.files) ResultFile{file};  // refuses a damaged one
   const int code = draw(options);
   if (code == 0) print_item("wrote", picture(options));
   return code;
@@ -61,13 +62,17 @@ int draw(const PlotOptions& options) {
   std::vector<std::string> words{"--output=" + picture(options)};
   if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
   if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
+  if (options.replace == Replace::anything) words.emplace_back("--force");
   words.emplace_back("--");  // a file may be called like an option
   words.insert(words.end(), options.files.begin(), options.files.end());
   return run_script(words);
 }
 
-int draw_all(const std::string& file, const std::string& folder, int at_a_time) {
-  return run_script({"--output=" + folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time), "--", file});
+int draw_all(const std::string& file, const std::string& folder, int at_a_time, Replace replace) {
+  std::vector<std::string> words{"--output=" + folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time)};
+  if (replace == Replace::anything) words.emplace_back("--force");
+  words.insert(words.end(), {"--", file});
+  return run_script(words);
 }
 
 }  // namespace wormdrive

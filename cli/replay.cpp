@@ -55,6 +55,7 @@ int replay_command(const ReplayOptions& options) {
   RunOptions run;
   run.scenario.quiet = options.quiet;
   run.scenario.command_line = options.command_line;
+  run.replace = options.replace;
   const SweepSoFar so_far(options.sweep);
   replay_trial(SweepReader(so_far.path()), options.trial, options.output, run);
   if (!options.quiet) print_item("replay", "every metric is that of the sweep, to the last bit");

@@ -13,6 +13,6 @@ void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::stri
 
 /// Writes the runs that the study wants to be kept beside a sweep that is complete, as NAME_trial_INDEX.h5, and tells
 /// which.
-void keep_trajectories(const std::string& sweep, const std::string& command_line, bool quiet);
+void keep_trajectories(const std::string& sweep, const std::string& command_line, bool quiet, Replace replace);
 
 }  // namespace wormdrive

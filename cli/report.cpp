@@ -5,6 +5,7 @@
 #include "cli/describe.hpp"
 #include "cli/help_commands.hpp"
 #include "cli/report_kinds.hpp"
+#include "output/replacing.hpp"
 #include "output/text_file.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
@@ -12,6 +13,9 @@
 
 namespace wormdrive {
 namespace {
+
+/// What tells a page of this program, in cli/report/page.html.
+constexpr std::string_view page_mark = R"(<meta name="generator" content="wormdrive">)";
 
 struct KindOfPage {
   std::string_view name;
@@ -27,8 +31,7 @@ ReportPage page_of(const ResultFile& file) {
   const std::string kind = file.attribute("/", "kind");
   for (const KindOfPage& known : pages)
     if (known.name == kind) return known.page(file);
-  refuse({file.path()},
-         fmt::format("is the result of '{}'; a report shows a run, statics, steady, a sweep or a diagnosis", kind));
+  refuse({file.path()}, fmt::format("is the result of '{}', of which there is no report", kind));
 }
 
 ReportTable provenance(const ResultFile& file) {
@@ -63,6 +66,7 @@ int report_command(const ReportOptions& options) {
   page.tables.push_back(provenance(file));
   page.texts.push_back({"Scenario", file.attribute("/", "scenario")});
   for (const std::string& warning : warnings(scenario)) page.remarks.push_back(warning);
+  refuse_to_replace_unmarked(followed(output), page_mark, options.replace);
   write_text_file(output, to_html(page));
   print_item("wrote", fmt::format("{}    open it in a browser; it needs nothing else", output));
   return 0;

@@ -82,9 +82,11 @@ std::vector<ReportEvent> events(const ResultFile& file) {
                     mode_text(motion_before[k], flank_before[k]),
                     mode_text(motion_after[k], flank_after[k]),
                     {}});
-  for (const std::string& name : file.columns("events")) {
+  const std::vector<std::string> names = file.columns("events");
+  for (const std::string& name : names) {
     const std::string end = "_before", stem = name.ends_with(end) ? name.substr(0, name.size() - end.size()) : "";
     if (stem.empty() || stem == "motion" || stem == "flank") continue;
+    if (std::find(names.begin(), names.end(), stem + "_after") == names.end()) continue;
     const std::vector<double> before = column(name), after = column(stem + "_after");
     const std::string units = file.attribute("events/" + name, "units");
     for (std::size_t k = 0; k < list.size(); ++k) list[k].changes.push_back({words(stem), units, before[k], after[k]});
@@ -102,8 +104,7 @@ ReportTable control_table(const ResultFile& file) {
 }  // namespace
 
 ReportPage report_of_run(const ResultFile& file) {
-  if (!file.has("trajectory") || !file.has("events") || file.column("trajectory/time").empty())
-    refuse({file.path()}, "holds no run");
+  if (file.column("trajectory/time").empty()) refuse({file.path()}, "holds a run without a row");
   const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   using enum ReportPanel::Style;
   ReportGroup group{"", "time", "s",

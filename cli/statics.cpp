@@ -43,10 +43,10 @@ double sensible_load(const Scenario& scenario) {
   return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
 }
 
-void write(const std::string& output, const Scenario& scenario, const StaticsMap& map, const ScenarioOptions& options) {
+void write(const std::string& output, const Scenario& scenario, const StaticsMap& map, const StaticsOptions& options) {
   const GearMesh<double> mesh = make_mesh(scenario);
-  PartFile file(output);
-  write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.command_line});
+  PartFile file(output, "statics", options.replace);
+  write_provenance(file.file(), {"statics", scenario.title, to_toml(scenario), options.scenario.command_line});
   write_attribute(file.file(), "regime", name(mesh.regime()));
   for (const auto& [key, value] : {std::pair{"C1", mesh.C1()},
                                    {"C2", mesh.C2()},
@@ -94,7 +94,7 @@ int statics_command(const StaticsOptions& options) {
   const StaticsMap map = make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
                                   options.max_load.value_or(sensible_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
-  if (!options.output.empty()) write(options.output, scenario, map, options.scenario);
+  if (!options.output.empty()) write(options.output, scenario, map, options);
   if (options.scenario.json) {
     print_json({{"title", scenario.title},
                 {"regime", name(mesh.regime())},

@@ -65,9 +65,9 @@ Curve make_curve(const Scenario& scenario, double max_speed, int points) {
 }
 
 void write(const std::string& output, const Scenario& scenario, const Curve& curve,
-           const std::optional<Comparison>& comparison, const ScenarioOptions& options) {
-  PartFile file(output);
-  write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.command_line});
+           const std::optional<Comparison>& comparison, const SteadyOptions& options) {
+  PartFile file(output, "steady", options.replace);
+  write_provenance(file.file(), {"steady", scenario.title, to_toml(scenario), options.scenario.command_line});
   GrowingTable(
       file.file(), "model",
       {{"worm_speed", units_on(scenario.axis, "rad/s"), in_words_of(scenario.axis, "worm speed")},
@@ -163,7 +163,7 @@ int steady_command(const SteadyOptions& options) {
       max_speed = std::max(max_speed, 1.05 * std::abs(record.worm_speed));
   }
   const Curve curve = make_curve(scenario, options.max_speed.value_or(max_speed), options.points);
-  if (!options.output.empty()) write(options.output, scenario, curve, comparison, options.scenario);
+  if (!options.output.empty()) write(options.output, scenario, curve, comparison, options);
   if (options.scenario.json) {
     print_json(as_json(scenario, curve, comparison));
     return 0;

@@ -32,7 +32,8 @@ void print_cost(const SweepCost& cost) {
 
 int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
   const TrialRange range = range_of(options.shard, study.trials());
-  const OpenSweep open = open_sweep(output, OutputLock(output), study, range, options.command_line, options.resume);
+  const OpenSweep open =
+      open_sweep(output, OutputLock(output), study, range, options.command_line, options.resume, options.replace);
   if (!options.quiet) print_study(study, range);
   if (!open.file) {
     if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
@@ -95,7 +96,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
                range.size(), file.part_path(), how_to_resume(options));
     return 128 + Interruptible::signal();
   }
-  keep_trajectories(output, options.command_line, options.quiet);
+  keep_trajectories(output, options.command_line, options.quiet, options.replace);
   if (options.quiet) return 0;
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
@@ -122,7 +123,7 @@ bool looks_good(Ranks& ranks, Look&& look) {
 }
 
 int sweep_together(Ranks& ranks, const SweepOptions& options) {
-  const std::string output = options.output.empty() ? default_output(options.study, ".h5") : options.output;
+  const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
   const bool good = looks_good(ranks, [&] {
     load_study(options.study);
     refuse_to_overwrite(output, options.study);
@@ -148,6 +149,10 @@ int sweep_command(const SweepOptions& options) {
     if (ranks && ranks->count() == 1) throw;
     if (!fault.faults.empty()) fmt::print(stderr, "{}\n", fault.what());
     return 2;
+  } catch (const OutputFault& fault) {
+    if (!ranks || ranks->count() == 1) throw;
+    fmt::print(stderr, "wormdrive: {}\n", fault.what());
+    return 4;
   }
 }
 

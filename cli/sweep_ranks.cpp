@@ -131,7 +131,7 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
   if (ranks.first()) {
     try {
       lock = OutputLock(output);
-      plan = plan_ranks(output, study, options.resume);
+      plan = plan_ranks(output, study, options.resume, options.replace);
       ranks.add({0, plan.failed});
     } catch (...) {
       ranks.told(told);
@@ -153,7 +153,7 @@ void join(const SweepOptions& options, const std::string& output, OutputLock loc
   std::vector<std::string> used;
   for (const std::string& part : parts)
     if (SweepReader(part).trials() > 0) used.push_back(part);
-  merge_shards(used, output, std::move(lock), options.command_line);
+  merge_shards(used, output, std::move(lock), options.command_line, options.replace);
   for (const std::string& part : parts) std::filesystem::remove(part);
 }
 
@@ -210,7 +210,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   if (ranks.first()) {
     each = shares(output, plan.generation, ranks.count());
     join(options, output, std::move(lock));
-    keep_trajectories(output, options.command_line, options.quiet);
+    keep_trajectories(output, options.command_line, options.quiet, options.replace);
   }
   if (!talks) return 0;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

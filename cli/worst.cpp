@@ -31,6 +31,7 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
 
 int worst_command(const WorstOptions& options) {
   refuse_to_overwrite(options.output, options.sweep);
+  refuse_to_replace(followed(options.output), "run", options.replace);  // before the search, which takes its time
   const SweepReader sweep(options.sweep);
   const Study& study = sweep.study();
   const WorstCase worst = find_worst(
@@ -56,6 +57,7 @@ int worst_command(const WorstOptions& options) {
   RunOptions run;
   run.scenario.quiet = true;
   run.scenario.command_line = options.command_line;
+  run.replace = options.replace;
   run_and_write(scenario, options.output, run);
   if (options.quiet) return 0;
   print_item("referee", second_opinion_on(scenario, study, worst.metric));

@@ -142,8 +142,9 @@ std::vector<ColumnDescription> on_axis(Axis axis, std::vector<ColumnDescription>
   return columns;
 }
 
-void write_diagnosis(const std::string& path, const Diagnosis& diagnosis, const Provenance& provenance) {
-  PartFile file(path);
+void write_diagnosis(const std::string& path, const Diagnosis& diagnosis, const Provenance& provenance,
+                     Replace replace) {
+  PartFile file(path, provenance.kind, replace);
   write_provenance(file.file(), provenance);
   write_attribute(file.file(), "sentence", diagnosis.sentence);
   write_residual(file.file(), diagnosis.residual, diagnosis.extended.axis);

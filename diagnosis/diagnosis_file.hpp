@@ -12,6 +12,7 @@ namespace wormdrive {
 std::vector<ColumnDescription> on_axis(Axis axis, std::vector<ColumnDescription> columns);
 
 /// Writes what a diagnosis found as tables of an HDF5 file; see output/schema.md. Throws OutputFault.
-void write_diagnosis(const std::string& path, const Diagnosis& diagnosis, const Provenance& provenance);
+void write_diagnosis(const std::string& path, const Diagnosis& diagnosis, const Provenance& provenance,
+                     Replace replace = Replace::same_kind);
 
 }  // namespace wormdrive

@@ -23,6 +23,11 @@ std::string ids(const std::vector<EstimatedEffect>& effects) {
 
 }  // namespace
 
+namespace {
+/// diagnosis.h5 is the first: it tells that the others are of a diagnosis too.
+constexpr const char* file_names[] = {"diagnosis.h5", "extended.toml", "experiment.toml", "diagnosis.json"};
+}  // namespace
+
 std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
   if (!d.equivalents.empty())
@@ -31,11 +36,18 @@ std::string extended_file(const Diagnosis& d) {
   return text + to_toml(d.extended);
 }
 
-DiagnosisFolder::DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs)
-    : path_((std::filesystem::path(path) / "").parent_path().string()) {
+DiagnosisFolder::DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs, Replace replace)
+    : path_((std::filesystem::path(path) / "").parent_path().string()), replace_(replace) {
   for (const std::string& input : inputs)
-    for (const char* const name : {"diagnosis.json", "extended.toml", "experiment.toml", "diagnosis.h5"})
-      refuse_to_overwrite(inside(name), input);
+    for (const char* const name : file_names) refuse_to_overwrite(inside(name), input);
+  refuse_to_replace(followed(inside("diagnosis.h5")), "diagnosis", replace);
+  if (replace == Replace::anything || std::filesystem::exists(inside("diagnosis.h5"))) return;
+  for (const char* const name : file_names)
+    if (std::filesystem::exists(inside(name)))
+      throw OutputFault(
+          fmt::format("cannot write {}: it exists and is not of a diagnosis; choose another folder, or "
+                      "replace it with --force",
+                      inside(name)));
 }
 
 std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nlohmann::json& json,
@@ -43,12 +55,12 @@ std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nl
                                                 const std::function<std::vector<std::string>()>& pictures) const {
   make_folder(path_);
   std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
+  write_diagnosis(written[1], found, {"diagnosis", title, to_toml(found.extended), command_line}, replace_);
   write_text_file(written[0], extended_file(found));
   if (found.experiment) {
     written.push_back(inside("experiment.toml"));
     write_text_file(written.back(), to_toml(*found.experiment));
   }
-  write_diagnosis(written[1], found, {"diagnosis", title, to_toml(found.extended), command_line});
   for (const std::string& picture : pictures()) written.push_back(picture);
   written.push_back(inside("diagnosis.json"));
   write_text_file(written.back(), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "diagnosis/diagnosis.hpp"
+#include "output/replacing.hpp"
 
 namespace wormdrive {
 
@@ -15,8 +16,10 @@ std::string extended_file(const Diagnosis& found);
 /// The folder in which a diagnosis is kept, docs/diagnosis_json.md, whoever asks for it.
 class DiagnosisFolder {
  public:
-  /// Throws InputFault if what is written would destroy one of the files that are read.
-  DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs);
+  /// Throws InputFault if what is written would destroy one of the files that are read, OutputFault if it would destroy
+  /// files of a folder that no diagnosis has written.
+  DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs,
+                  Replace replace = Replace::same_kind);
 
   const std::string& path() const { return path_; }
   std::string inside(const std::string& name) const { return path_ + "/" + name; }
@@ -29,6 +32,7 @@ class DiagnosisFolder {
 
  private:
   std::string path_;
+  Replace replace_;
 };
 
 }  // namespace wormdrive

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "output/hdf5.hpp"
+#include "output/read_ahead.hpp"
+#include "output/stored_table.hpp"
 #include "scenarios/keys.hpp"
 
 namespace wormdrive {
@@ -70,25 +71,28 @@ void keep_even_rows(RecordedTable& table) {
   }
 }
 
+/// What is recorded of a run, by whoever wrote it: the columns that are needed, all of them equally long.
 RecordedTable from_run(const std::string& path, Axis axis) {
+  read_ahead(path);
   const Hdf5Handle file = open_hdf5(path);
-  const auto has = [&](const char* name) { return H5Lexists(file, name, H5P_DEFAULT) > 0; };
-  const auto column = [&](const std::string& name) { return RecordedValues{name, 1.0, read_column(file, name)}; };
-  if (!has("/trajectory")) refuse({path}, "there is no run in this file: a recording has a group /trajectory");
+  if (!has_member(file, "trajectory"))
+    refuse({path}, "there is no run in this file: a recording has a group /trajectory");
+  const bool controlled = has_member(file, "controller");
+  const StoredTable run(file, controlled ? "controller" : "trajectory");
+  run.check({"time", "", ""}, Range::rising);
+  const auto column = [&](const char* name) {
+    run.check({name, "", ""}, Range::any);
+    return RecordedValues{fmt::format("/{}", run.column(name).path()), 1.0, run.column(name).values()};
+  };
   RecordedTable table;
   table.path = path;
   table.has_lines = false;
   table.axis = axis;
-  if (has("/controller")) {
-    table.time = column("/controller/time");
-    table.torque = column("/controller/torque");
-    table.angle = column("/controller/measured_angle");
-    return table;
-  }
-  table.time = column("/trajectory/time");
-  table.torque = column("/trajectory/motor_torque");
-  table.angle = column("/trajectory/gear_angle");
-  if (has("/trajectory/worm_angle")) table.worm_angle = column("/trajectory/worm_angle");
+  table.time = column("time");
+  table.torque = column(controlled ? "torque" : "motor_torque");
+  table.angle = column(controlled ? "measured_angle" : "gear_angle");
+  if (controlled) return table;
+  if (run.has("worm_angle")) table.worm_angle = column("worm_angle");
   keep_even_rows(table);
   return table;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "output/stored_column.hpp"
+
 namespace wormdrive {
 namespace {
 
@@ -95,20 +97,8 @@ void FixedTexts::write(std::uint64_t row, const std::string& text) {
 }
 
 std::vector<std::string> read_fixed_texts(hid_t parent, const std::string& name) {
-  const std::string action = "it has no dataset '" + name + "'";
-  errno = 0;
-  const Hdf5Handle dataset(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, action);
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, action);
-  const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  std::string all(rows * FixedTexts::longest, '\0');
-  check_hdf5(H5Dread(dataset, text_type(action), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), action);
-  std::vector<std::string> texts;
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::string text = all.substr(row * FixedTexts::longest, FixedTexts::longest);
-    text.resize(std::min(text.find('\0'), text.size()));
-    if (text.empty()) break;
-    texts.push_back(std::move(text));
-  }
+  std::vector<std::string> texts = StoredColumn(parent, name).texts();
+  texts.erase(std::find(texts.begin(), texts.end(), ""), texts.end());
   return texts;
 }
 

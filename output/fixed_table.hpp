@@ -37,7 +37,7 @@ class FixedTexts {
   Hdf5Handle dataset_;
 };
 
-/// All texts of such a column up to the first empty one.
+/// All texts of such a column up to the first empty one. Throws ReadFault.
 std::vector<std::string> read_fixed_texts(hid_t parent, const std::string& name);
 
 }  // namespace wormdrive

@@ -1,9 +1,7 @@
 #include "output/hdf5.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 
 namespace wormdrive {
 namespace {
@@ -58,7 +56,9 @@ void check_hdf5(herr_t status, const std::string& action) {
 }
 
 std::string file_of(hid_t object) {
-  std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, H5Fget_name(object, nullptr, 0))), ' ');
+  const ssize_t length = H5Fget_name(object, nullptr, 0);
+  if (length <= 0) return "";
+  std::string name(static_cast<std::size_t>(length), ' ');
   H5Fget_name(object, name.data(), name.size() + 1);
   return name;
 }
@@ -77,7 +77,11 @@ Hdf5Handle create_hdf5(const std::string& path) {
 Hdf5Handle open_hdf5(const std::string& path) {
   prepare_hdf5();
   errno = 0;
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
+  try {
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
+  } catch (const OutputFault& fault) {
+    throw ReadFault(path, fault.what());
+  }
 }
 
 Hdf5Handle open_hdf5_while_written(const std::string& path) {
@@ -116,56 +120,6 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_INT8, space, H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose, action);
   check_hdf5(H5Awrite(attribute, H5T_NATIVE_INT8, values.data()), action);
-}
-
-std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
-  const std::string action = "it has no attribute '" + name + "'";
-  errno = 0;
-  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, action);
-  std::int64_t value = 0;
-  check_hdf5(H5Aread(attribute, H5T_NATIVE_INT64, &value), action);
-  return value;
-}
-
-std::string read_text_attribute(hid_t object, const std::string& name) {
-  const std::string action = "it has no attribute '" + name + "'";
-  errno = 0;
-  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, action);
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, action), space(H5Aget_space(attribute), H5Sclose, action);
-  if (H5Tis_variable_str(type) <= 0 || H5Sget_simple_extent_npoints(space) != 1)
-    throw OutputFault("its attribute '" + name + "' is not a text");
-  char* text = nullptr;
-  check_hdf5(H5Aread(attribute, text_type(), &text), action);
-  std::string copy(text ? text : "");
-  H5free_memory(text);
-  return copy;
-}
-
-namespace {
-
-/// count: how many, or all that follow.
-std::vector<double> read_values(hid_t file, const std::string& path, hsize_t first, std::optional<hsize_t> count) {
-  const std::string action = "it has no dataset '" + path + "'";
-  errno = 0;
-  const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, action);
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, action);
-  const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
-  const hsize_t wanted = count.value_or(size - first);
-  std::vector<double> values(wanted);
-  if (wanted == 0) return values;
-  if (first + wanted > size) throw OutputFault("its dataset '" + path + "' is too short");
-  const Hdf5Handle memory(H5Screate_simple(1, &wanted, nullptr), H5Sclose, action);
-  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &wanted, nullptr), action);
-  check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()), action);
-  return values;
-}
-
-}  // namespace
-
-std::vector<double> read_column(hid_t file, const std::string& path) { return read_values(file, path, 0, {}); }
-
-std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count) {
-  return read_values(file, path, first, count);
 }
 
 }  // namespace wormdrive

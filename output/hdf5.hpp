@@ -14,6 +14,12 @@ struct OutputFault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that is not what a result is: its name as it was given, and what() is wrong with it.
+struct ReadFault : OutputFault {
+  ReadFault(std::string file, const std::string& what) : OutputFault(what), path(std::move(file)) {}
+  std::string path;
+};
+
 /// An HDF5 identifier that closes itself.
 class Hdf5Handle {
  public:
@@ -63,13 +69,14 @@ void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int8_t>& values);
 
-/// Whole number of an attribute of an object; throws OutputFault if it is absent.
+/// Whole number of an attribute of an object; throws ReadFault if it is absent or something else.
 std::int64_t read_integer_attribute(hid_t object, const std::string& name);
-/// Text of a string attribute of an object; throws OutputFault if it is absent or something else.
+/// Number of an attribute; throws ReadFault if it is absent or something else.
+double read_number_attribute(hid_t object, const std::string& name);
+/// Text of a string attribute of an object; throws ReadFault if it is absent or something else.
 std::string read_text_attribute(hid_t object, const std::string& name);
-/// All values of a one-dimensional dataset, converted to double.
-std::vector<double> read_column(hid_t file, const std::string& path);
-/// So many of them from the first one on.
-std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count);
+/// Opens what a path leads to; throws ReadFault if that is nothing, or behind a link: links lead to other files, or in
+/// circles, and no result has any.
+Hdf5Handle open_object(hid_t file, const std::string& path);
 
 }  // namespace wormdrive

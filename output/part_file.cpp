@@ -18,17 +18,6 @@
 namespace wormdrive {
 namespace {
 
-/// A slip of the hand must not cost a scenario or a measurement.
-void refuse_to_replace_other_things(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return;
-  if (!std::filesystem::is_regular_file(status))
-    throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path));
-  if (std::filesystem::file_size(path, error) > 0 && !is_hdf5(path))
-    throw OutputFault(fmt::format("cannot write {}: it exists and is not an HDF5 file; choose another name", path));
-}
-
 void rename(const std::string& from, const std::string& to) {
   if (std::rename(from.c_str(), to.c_str()) != 0)
     throw OutputFault(fmt::format("cannot rename {} to {}: {}", from, to, std::strerror(errno)));
@@ -66,20 +55,21 @@ void synchronise(const std::string& path) {
   if (lost) throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(reason)));
 }
 
-PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(path_ + ".part") {
-  refuse_to_replace_other_things(path_);
+PartFile::PartFile(const std::string& path, std::string_view kind, Replace replace)
+    : path_(followed(path)), part_path_(path_ + ".part") {
+  refuse_what_is_no_file(path_);
   lock_ = OutputLock(path_);
-  create();
+  create(kind, replace);
 }
 
-PartFile::PartFile(std::string path, OutputLock lock)
-    : path_(std::move(path)), part_path_(path_ + ".part"), lock_(std::move(lock)) {
-  refuse_to_replace_other_things(path_);
-  create();
+PartFile::PartFile(const std::string& path, OutputLock lock, std::string_view kind, Replace replace)
+    : path_(followed(path)), part_path_(path_ + ".part"), lock_(std::move(lock)) {
+  create(kind, replace);
 }
 
-void PartFile::create() {
+void PartFile::create(std::string_view kind, Replace replace) {
   refuse_to_disturb_a_writer(part_path_);
+  refuse_to_replace(path_, kind, replace);
   try {
     file_ = create_hdf5(part_path_);
   } catch (const OutputFault&) {
@@ -88,9 +78,10 @@ void PartFile::create() {
   }
 }
 
-PartFile::PartFile(std::string path, Left) : path_(std::move(path)), part_path_(path_ + ".part"), stays_(true) {
-  refuse_to_replace_other_things(path_);
+PartFile::PartFile(const std::string& path, std::string_view kind, Replace replace, Left)
+    : path_(followed(path)), part_path_(path_ + ".part"), stays_(true) {
   refuse_to_disturb_a_writer(part_path_);
+  refuse_to_replace(path_, kind, replace);
   file_ = reopen_hdf5(part_path_);
 }
 

@@ -3,19 +3,23 @@
 
 #include "output/hdf5.hpp"
 #include "output/output_lock.hpp"
+#include "output/replacing.hpp"
 
 namespace wormdrive {
 
-/// An HDF5 file that exists as NAME.part until it is complete: the final name never holds a partial file.
+/// An HDF5 file that exists as NAME.part until it is complete: the final name never holds a partial file. Where NAME is
+/// a symbolic link it is the file at its end that is written.
 class PartFile {
  public:
-  /// Creates NAME.part; throws OutputFault if the place cannot be written, or if NAME is something that no result may
-  /// replace: neither a plain file nor absent, or a file that is not HDF5.
-  explicit PartFile(std::string path);
+  /// Creates NAME.part for a result of a kind; throws OutputFault if the place cannot be written, or if what is there
+  /// may not be replaced.
+  PartFile(const std::string& path, std::string_view kind, Replace replace = Replace::same_kind);
   /// The same for one who holds the lock of what it becomes.
-  PartFile(std::string path, OutputLock lock);
+  PartFile(const std::string& path, OutputLock lock, std::string_view kind, Replace replace);
   /// Opens the NAME.part that a program left, to go on with it, for one who holds the lock; it stays whatever happens.
-  static PartFile reopened(std::string path) { return {std::move(path), Left{}}; }
+  static PartFile reopened(const std::string& path, std::string_view kind, Replace replace = Replace::same_kind) {
+    return {path, kind, replace, Left{}};
+  }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
   /// Deletes a part that was neither finished nor kept: what could not be written whole is not left behind.
@@ -36,9 +40,9 @@ class PartFile {
 
  private:
   struct Left {};
-  PartFile(std::string path, Left);
+  PartFile(const std::string& path, std::string_view kind, Replace replace, Left);
 
-  void create();
+  void create(std::string_view kind, Replace replace);
 
   std::string path_, part_path_;
   OutputLock lock_;  ///< given back after all else

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "output/read_ahead.hpp"
 #include "output/run_columns.hpp"
 
 namespace wormdrive {
@@ -14,8 +15,9 @@ std::string units_on(Axis axis, const std::string& rotary) {
   return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
 }
 
-RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents)
-    : file_(path), elastic_(contents.elastic) {
+RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents,
+                 Replace replace)
+    : file_(path, provenance.kind, replace), elastic_(contents.elastic) {
   write_provenance(file_.file(), provenance);
   trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(elastic_), axis));
   events_.emplace(file_.file(), "events", descriptions(event_columns(elastic_), axis));
@@ -70,6 +72,7 @@ void RunFile::finish(const std::string& solver, const SolverStatistics& statisti
 }
 
 std::string read_stored_scenario(const std::string& path) {
+  read_ahead(path);
   const Hdf5Handle file = open_hdf5(path);
   try {
     return read_text_attribute(file, "scenario");

@@ -28,7 +28,8 @@ struct RunContents {
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.
 class RunFile {
  public:
-  RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents = {});
+  RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents = {},
+          Replace replace = Replace::same_kind);
 
   /// Appends rows and events; what is older than a second is safe if the program dies.
   void append(const Trajectory& part);

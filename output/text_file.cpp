@@ -9,23 +9,29 @@
 
 #include "output/hdf5.hpp"
 #include "output/part_file.hpp"
+#include "output/replacing.hpp"
 
 namespace wormdrive {
 
-void write_text_file(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  std::error_code none;
-  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-    throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path));
+void write_text_file(const std::string& link, const std::string& text) {
+  const std::string path = followed(link), part = path + ".part";
+  refuse_what_is_no_file(path);
+  refuse_what_is_no_file(part);
   errno = 0;
   std::FILE* const file = std::fopen(part.c_str(), "wb");
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file) written = std::fclose(file) == 0 && written;
   const int reason = errno;
-  if (written) synchronise(part);
+  try {
+    if (written) synchronise(part);
+  } catch (const OutputFault&) {
+    std::remove(part.c_str());
+    throw;
+  }
   if (written && std::rename(part.c_str(), path.c_str()) == 0) return;
-  if (file) std::filesystem::remove(part, none);
-  throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(written ? errno : reason)));
+  const int last = written ? errno : reason;
+  if (file) std::remove(part.c_str());
+  throw OutputFault(fmt::format("cannot write {}: {}", path, std::strerror(last)));
 }
 
 void make_folder(const std::string& path) {

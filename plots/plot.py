@@ -18,6 +18,8 @@ from result import NotAResult, attribute, text
 PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "sweep": sweep.draw,
             "diagnosis": diagnosis.draw}
 NOT_A_RESULT, NOT_WRITTEN = 2, 4  # exit codes
+SOFTWARE = "wormdrive plot"  # as the pictures say
+MARK = b"Software\0" + SOFTWARE.encode()  # where a PNG file says so
 
 
 def fail(code, message):
@@ -42,6 +44,8 @@ def read(path, reader):
         fail(NOT_A_RESULT, f"{path} is not a wormdrive result that can be drawn: {error}")
     except OSError as error:
         fail(NOT_A_RESULT, f"cannot read {path}: {reason(error)}")
+    except (ArithmeticError, LookupError, MemoryError, RuntimeError, TypeError, ValueError) as error:
+        fail(NOT_A_RESULT, f"{path} is not a wormdrive result that can be drawn: {error or type(error).__name__}")
 
 
 def kind(result):
@@ -87,21 +91,40 @@ def picture(paths, over_torque, part):
     return read(first, lambda result: statics.draw(result, runs))
 
 
-def save(figure, path):
-    """Writes the picture under a temporary name first, so that a picture is whole or absent."""
+def is_picture(path):
+    """Returns whether a file is a picture that this program drew; an empty one is nobody's."""
+    with open(path, "rb") as file:
+        start = file.read(4096)
+    return not start or MARK in start
+
+
+def refuse_to_replace(path, force):
+    """Ends the program if a picture may not take the place of what is there: only of an older picture, unless forced."""
+    for there in (path, path + ".part"):
+        if os.path.lexists(there) and not os.path.isfile(there):
+            fail(NOT_WRITTEN, f"cannot write {there}: it is not a plain file")
+        if not force and os.path.exists(there) and not is_picture(there):
+            fail(NOT_WRITTEN, f"cannot write {there}: it exists and is no picture of wormdrive; choose another name, or "
+                              "replace it with --force")
+    if os.path.islink(path + ".part"):
+        fail(NOT_WRITTEN, f"cannot write {path}.part: it is a symbolic link")
+
+
+def save(figure, path, force):
+    """Writes the picture under a temporary name first, so that a picture is whole or absent; a link stays one."""
+    path = os.path.realpath(path)
     part = path + ".part"
-    if os.path.exists(path) and not os.path.isfile(path):
-        fail(NOT_WRITTEN, f"cannot write {path}: it is not a plain file")
     try:
-        figure.savefig(part, format="png")
+        refuse_to_replace(path, force)
+        figure.savefig(part, format="png", metadata={"Software": SOFTWARE})
         os.replace(part, path)
     except OSError as error:
-        if os.path.isfile(part):
+        if os.path.isfile(part) and not os.path.islink(part):
             os.remove(part)
         fail(NOT_WRITTEN, f"cannot write {path}: {reason(error)}")
 
 
-def save_all(path, folder, at_a_time):
+def save_all(path, folder, at_a_time, force):
     """Draws every picture of a diagnosis into a folder, some at a time; returns the worst exit code."""
     parts = list(diagnosis.PARTS)
     children = []
@@ -109,7 +132,7 @@ def save_all(path, folder, at_a_time):
         child = os.fork()  # what is imported is shared
         if child == 0:
             for part in parts[first::at_a_time]:
-                save(picture([path], None, part), os.path.join(folder, part + ".png"))
+                save(picture([path], None, part), os.path.join(folder, part + ".png"), force)
             sys.exit(0)
         children.append(child)
     # of a child that was killed it is negative
@@ -127,14 +150,15 @@ def main():
     parser.add_argument("--part", choices=[*diagnosis.PARTS, "all"],
                         help="which picture of a diagnosis; all: every one, OUT.png is a folder then")
     parser.add_argument("--at-a-time", metavar="N", type=int, default=1, help="how many of all to draw at a time")
+    parser.add_argument("--force", action="store_true", help="replace what is there, even if it is no older picture")
     arguments = parser.parse_args()
     if arguments.part == "all":
-        sys.exit(save_all(arguments.files[0], arguments.output, arguments.at_a_time))
+        sys.exit(save_all(arguments.files[0], arguments.output, arguments.at_a_time, arguments.force))
     for target in (arguments.output, arguments.output + ".part"):
         for file in arguments.files:
             if os.path.exists(target) and os.path.exists(file) and os.path.samefile(target, file):
                 fail(NOT_WRITTEN, f"cannot write {arguments.output}: it would overwrite {file}")
-    save(picture(arguments.files, arguments.over, arguments.part), arguments.output)
+    save(picture(arguments.files, arguments.over, arguments.part), arguments.output, arguments.force)
 
 
 if __name__ == "__main__":

@@ -30,16 +30,28 @@ def number(node, name):
 
 def group(file, name):
     """Returns a group that has to be there."""
-    if not isinstance(file.get(name), h5py.Group):
+    found = member(file, name, h5py.Group)
+    if found is None:
         raise NotAResult(f"it has no group '{name}'")
-    return file[name]
+    return found
+
+
+def member(table, name, kind):
+    """Returns a member of a group, which lies in the file itself: links lead to other files, or in circles."""
+    found = isinstance(table.get(name, getlink=True), h5py.HardLink) and table.get(name)
+    return found if isinstance(found, kind) else None
 
 
 def dataset(table, name):
-    """Returns a one-dimensional dataset that has to be there."""
-    column = table.get(name)
-    if not isinstance(column, h5py.Dataset) or column.ndim != 1:
+    """Returns a one-dimensional dataset that has to be there, and for which the file is large enough: of a result every
+    row is written, and none is compressed."""
+    column = member(table, name, h5py.Dataset)
+    if column is None or column.ndim != 1:
         raise NotAResult(f"it has no column '{table.name}/{name}'")
+    if column.is_virtual or column.external or column.id.get_create_plist().get_nfilters():
+        raise NotAResult(f"column '{column.name}' is compressed or lies outside the file")
+    if column.size * column.id.get_type().get_size() > column.id.get_storage_size():
+        raise NotAResult(f"column '{column.name}' states more rows than the file holds")
     return column
 
 

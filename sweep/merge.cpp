@@ -49,6 +49,16 @@ void tell_missing(const Shards& shards, const SweepReader& beside, std::string_v
     faults.add({beside.path()}, fmt::format("{} {} it stand in no shard", trials(range), side));
 }
 
+/// Whether an older merge of the same sweep is there: nothing that it holds would be lost.
+bool holds_same_sweep(const std::string& output, const SweepReader& shard) {
+  try {
+    return std::filesystem::exists(output) && !std::filesystem::exists(output + ".part") &&
+           SweepReader(output).why_not_of(shard).empty();
+  } catch (const InputFault&) {
+    return false;
+  }
+}
+
 /// What the shards have, in the order of the trials, every one of the study once; every fault is told.
 std::vector<Stretch> in_order(const Shards& shards) {
   std::vector<Stretch> stretches;
@@ -75,13 +85,15 @@ std::vector<Stretch> in_order(const Shards& shards) {
 }  // namespace
 
 std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
-                           const std::string& command_line) {
+                           const std::string& command_line, Replace replace) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
   refuse_what_does_not_belong_together(shards);
   const std::vector<Stretch> stretches = in_order(shards);
   const Study& study = shards.front()->study();
-  const OpenSweep merged = open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false);
+  if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;
+  const OpenSweep merged =
+      open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false, replace);
   try {
     for (const auto& [shard, range] : stretches)
       for_each_trial(*shard, range, [&](const Trial& trial) { merged.file->append(trial); });

@@ -41,7 +41,7 @@ std::vector<std::string> rank_parts(const std::string& name) {
   return parts;
 }
 
-RankPlan plan_ranks(const std::string& name, const Study& study, bool resume) {
+RankPlan plan_ranks(const std::string& name, const Study& study, bool resume, Replace replace) {
   const TrialRange all{0, study.trials()};
   RankPlan plan;
   std::vector<std::string> parts = rank_parts(name);
@@ -68,6 +68,7 @@ RankPlan plan_ranks(const std::string& name, const Study& study, bool resume) {
     plan.complete = true;
     return plan;
   }
+  refuse_to_replace(name, "sweep", replace);
   std::sort(present.begin(), present.end(), ranges_rise);
   plan.missing = outside(present, all);
   return plan;

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "output/replacing.hpp"
 #include "sweep/study.hpp"
 #include "sweep/trial_range.hpp"
 
@@ -25,7 +26,7 @@ struct RankPlan {
 };
 
 /// Looks at what an interrupted sweep has left, by ranks or by a single process. Throws InputFault if that is of
-/// another study or program, or if it is there and resume is not wanted.
-RankPlan plan_ranks(const std::string& name, const Study& study, bool resume);
+/// another study or program, or if it is there and resume is not wanted, OutputFault if NAME may not be replaced.
+RankPlan plan_ranks(const std::string& name, const Study& study, bool resume, Replace replace);
 
 }  // namespace wormdrive

@@ -45,11 +45,12 @@ void refuse_to_begin_anew(const SweepReader& there) {
 }
 
 OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& study, TrialRange range,
-                     const std::string& command_line, bool resume) {
+                     const std::string& command_line, bool resume, Replace replace) {
   const std::string part_path = path + ".part";
   ReasonTable reasons;
   std::vector<TrialRange> present;
-  if (const auto part = trials_left(part_path, resume)) {
+  const bool anew = !resume && replace == Replace::anything;
+  if (const auto part = anew ? std::nullopt : trials_left(part_path, resume)) {
     if (!resume) refuse_to_begin_anew(*part);
     refuse_another(*part, study, range);
     reasons = part->counted_reasons();
@@ -60,11 +61,11 @@ OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& stud
       refuse_another(done, study, range);
       return {};
     }
-    SweepFile::create(path, study, range, command_line);
+    SweepFile::create(path, study, range, command_line, replace);
   }
   const std::uint64_t failed = reasons.total();
-  return {std::move(lock), std::make_unique<SweepFile>(path, study, range, std::move(reasons)), outside(present, range),
-          failed};
+  return {std::move(lock), std::make_unique<SweepFile>(path, study, range, std::move(reasons), replace),
+          outside(present, range), failed};
 }
 
 }  // namespace wormdrive

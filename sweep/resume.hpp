@@ -23,8 +23,9 @@ void refuse_another(const SweepReader& there, const Study& study, TrialRange ran
 
 /// Opens the file of a sweep for the trials that are missing. With resume it keeps what NAME.part has of the same study
 /// and program, and leaves a NAME that is complete as it is; without, a NAME.part with trials is refused, for it may
-/// hold hours of work. lock: of the path. Throws InputFault.
+/// hold hours of work, unless anything may be replaced. lock: of the path. Throws InputFault, and OutputFault if NAME
+/// may not be replaced.
 OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& study, TrialRange range,
-                     const std::string& command_line, bool resume);
+                     const std::string& command_line, bool resume, Replace replace = Replace::same_kind);
 
 }  // namespace wormdrive

@@ -17,22 +17,6 @@ namespace {
 constexpr std::size_t rows_at_once = 1 << 16;  ///< handed to the file, as far as some time does not pass before
 constexpr std::chrono::milliseconds longest_wait(500);
 
-/// Verdicts one after the other; a row of zeros is none.
-std::vector<ColumnDescription> verdict_descriptions() {
-  return {
-      {"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
-      {"trial", "1", "index of the trial"},
-      {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
-      {"speed_difference", "rad/s", "of the gear speed"},
-      {"time", "s", "when the angles differ most"},
-      {"closed_angle_difference", "rad",
-       "largest difference of the gear angle with the own controller; not a number where a sensor rounds to counts, or "
-       "it was not asked"},
-      {"closed_speed_difference", "rad/s", "of the gear speed"},
-      {"closed_time", "s", "when these angles differ most"},
-      {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
-}
-
 }  // namespace
 
 std::vector<ColumnDescription> trial_columns(const Study& study) {
@@ -51,8 +35,26 @@ std::vector<ColumnDescription> trial_columns(const Study& study) {
   return list;
 }
 
-void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line) {
-  PartFile file(path + ".part", OutputLock());  // so that NAME.part is whole from its first moment on
+std::vector<ColumnDescription> verdict_columns() {
+  return {
+      {"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
+      {"trial", "1", "index of the trial"},
+      {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
+      {"speed_difference", "rad/s", "of the gear speed"},
+      {"time", "s", "when the angles differ most"},
+      {"closed_angle_difference", "rad",
+       "largest difference of the gear angle with the own controller; not a number where a sensor rounds to counts, or "
+       "it was not asked"},
+      {"closed_speed_difference", "rad/s", "of the gear speed"},
+      {"closed_time", "s", "when these angles differ most"},
+      {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
+}
+
+void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
+                       Replace replace) {
+  refuse_to_replace(path, "sweep", replace);
+  // so that NAME.part is whole from its first moment on
+  PartFile file(path + ".part", OutputLock(), "sweep", Replace::anything);
   write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});
   write_attribute(file.file(), "study", study.text);
   write_attribute(file.file(), "build", program_identity());
@@ -61,14 +63,15 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
   FixedTable::create(file.file(), "trials", trial_columns(study), range.size());
-  FixedTable::create(file.file(), "referee", verdict_descriptions(), most_verdicts);
+  FixedTable::create(file.file(), "referee", verdict_columns(), most_verdicts);
   create_summary_tables(file.file(), study);
   file.finish();
 }
 
-SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons)
+SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons,
+                     Replace replace)
     : range_(range),
-      file_(PartFile::reopened(path)),
+      file_(PartFile::reopened(path, "sweep", replace)),
       columns_(study.parameters.size() + study.metrics.size() + 3),
       reasons_(std::move(reasons)),
       flushed_(Clock::now()) {
@@ -152,7 +155,7 @@ void SweepFile::drop_from(std::uint64_t trial) {
 
 void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
   const std::size_t count = std::min(verdicts.size(), most_verdicts);
-  std::vector<std::vector<double>> columns(verdict_descriptions().size());
+  std::vector<std::vector<double>> columns(verdict_columns().size());
   for (std::size_t k = 0; k < count; ++k) {
     const auto& [trial, found, in_loop, halted] = verdicts[k];
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -162,7 +165,7 @@ void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
                                closed.angle, closed.speed, closed.t, in_loop.parted.value_or(none)})
       (column++)->push_back(value);
   }
-  FixedTable table(file_.file(), "referee", verdict_descriptions());
+  FixedTable table(file_.file(), "referee", verdict_columns());
   for (std::size_t k = 0; k < columns.size(); ++k) table.write(k, 0, columns[k]);
 }
 
@@ -185,8 +188,8 @@ void SweepFile::finish_in_order() {
   const std::string path = file_.path() + ".in_order";
   try {
     const SweepReader all(part_path());
-    create(path, all.study(), range_, read_text_attribute(file_.file(), "command_line"));
-    SweepFile copy(path, all.study(), range_);
+    create(path, all.study(), range_, read_text_attribute(file_.file(), "command_line"), Replace::anything);
+    SweepFile copy(path, all.study(), range_, {}, Replace::anything);
     for (const TrialRange& range : all.present())
       for_each_trial(all, range, [&](const Trial& trial) { copy.append(trial); });
     copy.write(all.verdicts());

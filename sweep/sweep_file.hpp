@@ -19,15 +19,19 @@ namespace wormdrive {
 
 /// The columns of the table /trials.
 std::vector<ColumnDescription> trial_columns(const Study& study);
+/// The columns of the table /referee: verdicts one after the other; a row of zeros is none.
+std::vector<ColumnDescription> verdict_columns();
 
 /// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
 /// that the sweep can be resumed. Who makes NAME holds its OutputLock meanwhile.
 class SweepFile {
  public:
   /// Leaves an empty NAME.part that has room for the trials of a range, all of the study or those of a shard.
-  static void create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line);
+  static void create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
+                     Replace replace = Replace::same_kind);
   /// Opens NAME.part, to write the trials that it lacks. reasons: those of the trials that it has.
-  SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons = {});
+  SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons = {},
+            Replace replace = Replace::same_kind);
 
   /// Takes a trial of the range, in any order.
   void append(Trial trial);

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include "output/program.hpp"
+#include "output/read_ahead.hpp"
+#include "output/stored_column.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/write_scenario.hpp"
+#include "sweep/check_sweep.hpp"
 #include "sweep/load_study.hpp"
 #include "sweep/sweep_file.hpp"
 
@@ -13,13 +16,13 @@ namespace wormdrive {
 
 SweepReader::SweepReader(const std::string& path, bool while_written) : path_(path) {
   try {
+    read_ahead(path, while_written);
     file_ = while_written ? open_hdf5_while_written(path) : open_hdf5(path);
     if (read_text_attribute(file_, "kind") != "sweep") throw OutputFault("it is not the result of a sweep");
     scenario_ = read_text_attribute(file_, "scenario");
     build_ = read_text_attribute(file_, "build");
     study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
-    range_ = {static_cast<std::uint64_t>(read_integer_attribute(file_, "first_trial")),
-              static_cast<std::uint64_t>(read_integer_attribute(file_, "end_trial"))};
+    range_ = check_sweep(file_, study_);
     for_each_block({}, [&](const Block& block) {
       std::uint64_t trial = block.first;
       for (const double status : block.status) {

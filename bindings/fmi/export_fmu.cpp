@@ -24,8 +24,6 @@ class Zip {
   explicit Zip(std::string path)
       : path_(std::move(path)), part_(path_ + ".part"), archive_(archive_write_new(), archive_write_free) {
     if (!archive_) throw std::bad_alloc();
-    if (std::error_code none; std::filesystem::exists(path_, none) && !std::filesystem::is_regular_file(path_, none))
-      throw OutputFault(fmt::format("cannot write {}: it is not a plain file", path_));
     check(archive_write_set_format_zip(archive_.get()));
     check(archive_write_open_filename(archive_.get(), part_.c_str()));
   }
@@ -82,6 +80,9 @@ std::string read_library() {
                                 WORMDRIVE_FMU_INSTALLED, WORMDRIVE_FMU_BUILT));
 }
 
+/// The name of the first file in an archive of this program, by which it is known.
+constexpr std::string_view archive_mark = "documentation/wormdrive.txt";
+
 /// As the standard calls the platform [FMI 2.0.4, section 2.3].
 constexpr std::string_view platform = sizeof(void*) == 8 ? "linux64" : "linux32";
 
@@ -100,9 +101,11 @@ std::optional<std::string> not_exportable(const Scenario& scenario) {
       what, what);
 }
 
-void export_fmu(const Scenario& scenario, const std::string& path) {
-  const std::string plant = plant_to_json(scenario), library = read_library();
-  Zip zip(path);
+void export_fmu(const Scenario& scenario, const std::string& path, Replace replace) {
+  const std::string plant = plant_to_json(scenario), library = read_library(), file = followed(path);
+  refuse_to_replace_unmarked(file, archive_mark, replace);
+  Zip zip(file);
+  zip.add(std::string(archive_mark), "An FMU of a worm-gear drive, made by wormdrive.\n");
   zip.add("modelDescription.xml", model_description(scenario, guid_of(plant)));
   zip.add("resources/plant.json", plant);
   zip.add(fmt::format("binaries/{}/{}.so", platform, model_identifier), library);

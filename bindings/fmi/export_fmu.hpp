@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "output/replacing.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace wormdrive {
@@ -10,7 +11,7 @@ namespace wormdrive {
 std::optional<std::string> not_exportable(const Scenario& scenario);
 
 /// Writes the plant of a scenario as an FMU of FMI 2.0 for model exchange; as NAME.part until it is complete.
-/// Throws OutputFault.
-void export_fmu(const Scenario& scenario, const std::string& path);
+/// Throws OutputFault, also if what is there may not be replaced.
+void export_fmu(const Scenario& scenario, const std::string& path, Replace replace = Replace::same_kind);
 
 }  // namespace wormdrive

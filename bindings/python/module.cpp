@@ -94,7 +94,7 @@ PYBIND11_MODULE(_core, m) {
       .def_property_readonly("halted", &RunResult::halted)
       .def("metrics", &RunResult::metrics)
       .def("statistics", &RunResult::statistics)
-      .def("write", &RunResult::write, py::arg("path"), py::arg("command_line"));
+      .def("write", &RunResult::write, py::arg("path"), py::arg("command_line"), py::arg("force"));
 
   py::class_<Scenario, std::shared_ptr<Scenario>>(m, "Scenario")
       .def_static("load", [](const std::string& path, const std::vector<std::string>& overrides,

@@ -72,9 +72,9 @@ std::map<std::string, long> RunResult::statistics() const {
           {"restarts", s.restarts}};
 }
 
-void RunResult::write(const std::string& path, const std::string& command_line) const {
+void RunResult::write(const std::string& path, const std::string& command_line, bool force) const {
   RunFile file(path, {"run", scenario_->title, to_toml(*scenario_), command_line}, scenario_->axis,
-               {scenario_->control.has_value(), elastic()});
+               {scenario_->control.has_value(), elastic()}, force ? Replace::anything : Replace::same_kind);
   write_drive(file.file().file(), *scenario_);
   file.append(trajectory_);
   file.append(samples_);

@@ -31,7 +31,7 @@ class RunResult {
   /// What the solver did, likewise.
   std::map<std::string, long> statistics() const;
   /// Writes the result file that `wormdrive run` would write. Throws OutputFault.
-  void write(const std::string& path, const std::string& command_line) const;
+  void write(const std::string& path, const std::string& command_line, bool force) const;
 
  private:
   std::shared_ptr<const Scenario> scenario_;

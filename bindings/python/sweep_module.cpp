@@ -52,11 +52,12 @@ void add_sweep(py::module_& m) {
       .def("reasons", &SweepResult::reasons)
       .def(
           "write",
-          [](const SweepResult& r, const std::string& path, const std::string& command_line, std::size_t referee) {
+          [](const SweepResult& r, const std::string& path, const std::string& command_line, std::size_t referee,
+             bool force) {
             const py::gil_scoped_release others_may_run;
-            r.write(path, command_line, referee, threads_for(0));
+            r.write(path, command_line, referee, threads_for(0), force ? Replace::anything : Replace::same_kind);
           },
-          py::arg("path"), py::arg("command_line"), py::arg("referee"))
+          py::arg("path"), py::arg("command_line"), py::arg("referee"), py::arg("force"))
       .def(py::pickle(&state, &restored));
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
   m.def("sweep_text", [](const std::string& text, const std::string& name, unsigned threads) {

@@ -62,12 +62,13 @@ std::vector<std::string> SweepResult::reasons() const {
   return list;
 }
 
-void SweepResult::write(const std::string& path, const std::string& command_line, std::size_t judged,
-                        unsigned threads) const {
+void SweepResult::write(const std::string& name, const std::string& command_line, std::size_t judged, unsigned threads,
+                        Replace replace) const {
   const TrialRange all{0, study_.trials()};
+  const std::string path = followed(name);
   const OutputLock lock(path);
-  SweepFile::create(path, study_, all, command_line);
-  SweepFile file(path, study_, all);
+  SweepFile::create(path, study_, all, command_line, replace);
+  SweepFile file(path, study_, all, {}, replace);
   for (std::size_t row = 0; row < values_.front().size(); ++row) file.append(trial(row));
   if (judged > 0 && study_.scenario.run.solver != SolverKind::cvode) {
     file.flush();

@@ -27,7 +27,8 @@ class SweepResult {
   std::vector<std::string> reasons() const;
   /// Writes the result file that `wormdrive sweep` would write; so many trials, chosen by the seed, CVODE makes again
   /// beforehand, as a referee, where it has not made them itself. Throws OutputFault.
-  void write(const std::string& path, const std::string& command_line, std::size_t judged, unsigned threads) const;
+  void write(const std::string& path, const std::string& command_line, std::size_t judged, unsigned threads,
+             Replace replace) const;
 
  private:
   void take(const Trial& trial);

@@ -37,7 +37,7 @@ TEST_CASE("a place where no result can be written is told, and nothing else ther
         into(writer, "/dev/full", "wormdrive: cannot write /dev/full: it is not a plain file", 4),
         into(writer, "taken.h5", "wormdrive: cannot create taken.h5.part: Is a directory", 4),
         into(writer, long_name, "wormdrive: cannot create " + long_name + ".part: File name too long", 4),
-        into(writer, "notes.csv", "wormdrive: cannot write notes.csv: it exists and is not an HDF5 file; choose another name", 4),
+        into(writer, "notes.csv", "wormdrive: cannot write notes.csv: it exists and is not an HDF5 file; choose another name, or replace it with --force", 4),
         into(writer, "./s.toml", "./s.toml: error: the result would overwrite s.toml; choose another --output", 2)});
   CHECK(folder.read("s.toml") == good_scenario);
   CHECK(folder.read("notes.csv") == "a,b\n1,2\n");
@@ -69,11 +69,13 @@ TEST_CASE("steady is not written over the data that it reads") {
 TEST_CASE("a result that another program is writing is left to it") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  folder.write("r.h5.part", "half a result");
+  REQUIRE(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);
+  std::filesystem::rename(folder / "r.h5", folder / "r.h5.part");
+  const std::string part = folder.read("r.h5.part");
   const int other = open((folder / "r.h5.part").c_str(), O_RDWR);
   REQUIRE(flock(other, LOCK_EX) == 0);
   refuse_all(folder, {{"locked", "", "wormdrive: cannot write r.h5.part: another program is writing it", {"run", "s.toml", "-q", "-o", "r.h5"}, true, 4}});
-  CHECK(folder.read("r.h5.part") == "half a result");
+  CHECK(folder.read("r.h5.part") == part);
   close(other);
   CHECK(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);  // a part that nobody writes is from a run that died
   CHECK(folder.names() == std::set<std::string>{"r.h5", "s.toml"});

@@ -191,8 +191,7 @@ TEST_CASE("what is no result, or no longer whole, gets no report") {
   refuse_all(folder,
              {{"a result of another kind",
                "",
-               "other.h5: error: is the result of 'something'; a report shows a run, statics, steady, a sweep or a "
-               "diagnosis",
+               "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
                {"report", "other.h5"},
                true},
               {"a scenario",

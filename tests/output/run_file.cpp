@@ -183,17 +183,17 @@ TEST_CASE("a part disappears unless it is finished or kept") {
   const Folder folder;
   const std::string path = folder / "r.h5";
   {
-    const PartFile dropped(path);
+    const PartFile dropped(path, "run");
     CHECK(folder.names() == std::set<std::string>{"r.h5.part"});
   }
   CHECK(folder.names().empty());
   {
-    PartFile kept(path);
+    PartFile kept(path, "run");
     kept.keep();
   }
   CHECK(folder.names() == std::set<std::string>{"r.h5.part"});
   {
-    PartFile finished(path);
+    PartFile finished(path, "run", Replace::anything);  // the part says of no kind that it is one
     finished.finish();
   }
   CHECK(folder.names() == std::set<std::string>{"r.h5"});

@@ -169,9 +169,10 @@ class Result:
         dataset.attrs.update(title=self.title, scenario=self.toml)
         return dataset
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the HDF5 file that `wormdrive run` writes; raises OutputError."""
-        self._run.write(os.fspath(path), _command_line())
+    def write(self, path: Union[str, "os.PathLike[str]"], *, force: bool = False) -> None:
+        """Writes the HDF5 file that `wormdrive run` writes; raises OutputError, also where something else than an older run
+        is in the way, unless it is forced."""
+        self._run.write(os.fspath(path), _command_line(), force)
 
     def __repr__(self) -> str:
         return f"<wormdrive.Result '{self.title}': {len(self.trajectory.time)} rows, {len(self.events.time)} events>"
@@ -194,10 +195,10 @@ class Sweep:
         """The trials as an xarray.Dataset over their index."""
         return self.trials.to_xarray()
 
-    def write(self, path: Union[str, "os.PathLike[str]"], *, referee: int = 8) -> None:
-        """Writes the HDF5 file that `wormdrive sweep` writes; raises OutputError. referee: so many trials are made again by
-        CVODE, and how far it is from them stands in the file."""
-        self._sweep.write(os.fspath(path), _command_line(), referee)
+    def write(self, path: Union[str, "os.PathLike[str]"], *, referee: int = 8, force: bool = False) -> None:
+        """Writes the HDF5 file that `wormdrive sweep` writes; raises OutputError, also where something is in the way, unless
+        it is forced. referee: so many trials are made again by CVODE, and how far it is from them stands in the file."""
+        self._sweep.write(os.fspath(path), _command_line(), referee, force)
 
     def __repr__(self) -> str:
         return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"

@@ -1,0 +1,45 @@
+#include "cli/exit_code.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <system_error>
+
+#include "events/halt.hpp"
+#include "output/hdf5.hpp"
+#include "scenarios/faults.hpp"
+
+namespace wormdrive {
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputFault& fault) {
+    std::cerr << fault.what() << '\n';
+    return bad_input;
+  } catch (const Halt& halt) {
+    std::cerr << "wormdrive: " << halt.what() << '\n';
+    return cannot_go_on;
+  } catch (const ReadFault& fault) {
+    std::cerr << fault.path << ": error: " << fault.what() << '\n';
+    return bad_input;
+  } catch (const OutputFault& fault) {
+    std::cerr << "wormdrive: " << fault.what() << '\n';
+    return cannot_write;
+  } catch (const std::system_error& fault) {  // from printing
+    std::cerr << "wormdrive: " << fault.what() << '\n';
+    return cannot_write;
+  } catch (const std::exception& other) {  // out of memory, or something that nobody foresaw
+    std::cerr << "wormdrive: cannot go on: " << other.what() << '\n';
+    return cannot_go_on;
+  }
+}
+
+int if_printed(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::cerr << "wormdrive: cannot write to standard output: " << std::strerror(errno) << '\n';
+  return cannot_write;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,109 @@
+#include "output/check_result.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "output/run_columns.hpp"
+
+namespace wormdrive {
+namespace {
+
+using Columns = std::vector<ColumnDescription>;
+
+/// The first column is the one over which the others stand.
+void check_table(const StoredTable& table, const Columns& columns, Range first, Range others) {
+  for (const ColumnDescription& column : columns) table.check(column, &column == &columns.front() ? first : others);
+}
+
+Columns numbers(std::initializer_list<const char*> names) {
+  Columns list;
+  for (const char* const name : names) list.push_back({name, "", ""});
+  return list;
+}
+ColumnDescription yes_or_no(const std::string& name) { return {name, "", "", "no yes", {0, 1}}; }
+
+void check_statics(hid_t file) {
+  check_table(StoredTable(file, "statics"), numbers({"load_torque", "stick_low", "stick_high", "static_surface"}),
+              Range::rising, Range::finite);
+  read_text_attribute(file, "regime");
+}
+
+void check_steady(hid_t file) {
+  check_table(StoredTable(file, "model"), numbers({"worm_speed", "motor_torque"}), Range::finite, Range::finite);
+  if (!has_member(file, "records")) return;
+  const StoredTable records(file, "records");
+  check_table(records, numbers({"worm_speed", "motor_torque", "motor_torque_model", "samples", "left_out"}),
+              Range::finite, Range::finite);
+  records.check_texts("record");
+  for (const char* const name : {"rms_error", "rms_torque"}) read_number_attribute(file, name);
+}
+
+/// Its rows are those of a study, which whoever knows the study looks at.
+void check_sweep(hid_t file) {
+  const StoredTable trials(file, "trials");
+  for (const char* const name : {"first_trial", "end_trial"}) read_integer_attribute(file, name);
+  for (const char* const name : {"study", "build"}) read_text_attribute(file, name);
+}
+
+void check_diagnosis(hid_t file) {
+  const StoredTable residual(file, "residual"), torques(file, "torques"), prediction(file, "prediction"),
+      ranking(file, "ranking"), certificate(file, "certificate");
+  check_table(residual, numbers({"time", "gear_angle", "gear_speed", "load_torque", "worm_phase", "before", "after"}),
+              Range::any, Range::any);
+  residual.check(yes_or_no("held_out"), Range::any);
+  const StoredTable examples(file, "examples");
+  check_table(examples, numbers({"time", "example", "horizon"}), Range::finite, Range::finite);
+  check_table(examples, numbers({"measured", "before", "after"}), Range::any, Range::any);
+  check_table(torques, numbers({"worm_speed", "load_torque"}), Range::finite, Range::finite);
+  check_table(torques, numbers({"measured", "before", "after"}), Range::any, Range::any);
+  check_table(prediction, numbers({"horizon", "before", "after", "after_low", "after_high", "noise_floor"}), Range::any,
+              Range::any);
+  check_table(ranking, numbers({"delta_bic", "held_out_gain"}), Range::any, Range::any);
+  ranking.check(yes_or_no("named"), Range::any);
+  check_table(certificate, numbers({"detectable", "nameable", "likeness"}), Range::any, Range::any);
+  certificate.check(yes_or_no("observable"), Range::any);
+  torques.check_texts("point");
+  prediction.check_texts("unit");
+  for (const char* const name : {"effect", "outcome"}) ranking.check_texts(name);
+  for (const char* const name : {"effect", "parameter", "chosen", "unit", "nearest"}) certificate.check_texts(name);
+}
+
+}  // namespace
+
+void check_run(hid_t file) {
+  const StoredTable trajectory(file, "trajectory"), events(file, "events");
+  const bool elastic = trajectory.has("gear_motion");
+  check_table(trajectory, descriptions(trajectory_columns(elastic), Axis::rotary), Range::rising, Range::finite);
+  check_table(events, descriptions(event_columns(elastic), Axis::rotary), Range::ordered, Range::finite);
+  if (!has_member(file, "controller")) return;
+  const StoredTable controller(file, "controller");
+  Columns columns = descriptions(controller_columns(), Axis::rotary);
+  std::erase_if(columns, [&](const ColumnDescription& column) {  // results of older programs have none
+    return column.name == "disturbance_torque" && !controller.has(column.name);
+  });
+  check_table(controller, columns, Range::rising, Range::finite);
+}
+
+void check_result(hid_t file) {
+  struct Kind {
+    const char* name;
+    void (*check)(hid_t);
+  };
+  constexpr Kind kinds[] = {{"run", check_run},
+                            {"statics", check_statics},
+                            {"steady", check_steady},
+                            {"sweep", check_sweep},
+                            {"diagnosis", check_diagnosis}};
+  const std::string kind = read_text_attribute(file, "kind");
+  const auto* const known =
+      std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return kind == k.name; });
+  if (known == std::end(kinds))
+    throw ReadFault(file_of(file),
+                    fmt::format("its kind '{}' is none of run, statics, steady, sweep and diagnosis", kind));
+  for (const char* const name : {"title", "scenario"}) read_text_attribute(file, name);
+  known->check(file);
+}
+
+}  // namespace wormdrive
