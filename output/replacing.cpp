@@ -1,6 +1,7 @@
 #include "output/replacing.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -67,10 +68,11 @@ void refuse_another_kind(const std::string& path, std::string_view kind) {
 
 std::string followed(const std::string& path) {
   fs::path at = path;
+  std::error_code none;
   constexpr int most = 40;  // as the kernel follows
-  for (int links = 0; fs::is_symlink(fs::symlink_status(at)); ++links) {
+  for (int links = 0; fs::is_symlink(fs::symlink_status(at, none)); ++links) {
     if (links == most) refuse_place(path, std::strerror(ELOOP));
-    at = at.parent_path() / fs::read_symlink(at);  // an absolute target stands for itself
+    at = at.parent_path() / fs::read_symlink(at, none);  // an absolute target stands for itself
   }
   return at.string();
 }

@@ -137,7 +137,7 @@ TEST_CASE("a picture of what is no result is refused") {
   const Outcome outcome = folder.run({"plot", "other.h5"});
   INFO(outcome.err);
   CHECK(outcome.exit == 2);
-  CHECK(outcome.err.find("other.h5 is not a wormdrive result") != std::string::npos);
+  CHECK(outcome.err == "other.h5: error: it has no attribute 'kind'\n");
   CHECK(folder.names() == std::set<std::string>{"folder", "other.h5", "s.toml"});
 }
 
