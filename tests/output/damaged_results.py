@@ -101,7 +101,8 @@ def dataset_damages(path, values):
     yield "of one value", written(values[0] if n else 0.0)
     yield "of two dimensions", written(np.zeros((n, 2), values.dtype))
     yield "empty", written(values[:0])
-    yield "of one row", written(values[:1])
+    if n > 1:
+        yield "of one row", written(values[:1])
     yield "too short", written(values[:-1])
     yield "too long", written(np.append(values, values[-1:]))
     yield "much too long", written(np.resize(values, 50 * n))
