@@ -19,8 +19,12 @@ namespace {
 using nlohmann::json;
 using Cell = std::variant<std::string, double>;
 
+std::string findings_of(const ResultFile& file) {
+  return (std::filesystem::path(file.path()).parent_path() / "diagnosis.json").string();
+}
+
 json read_findings(const ResultFile& file) {
-  const std::string path = (std::filesystem::path(file.path()).parent_path() / "diagnosis.json").string();
+  const std::string path = findings_of(file);
   std::ifstream text(path);
   const ClassicLocale read_so;
   const json findings = json::parse(text, nullptr, false);
@@ -247,10 +251,7 @@ void add_torques(const ResultFile& file, ReportPage& page) {
                          {std::move(panel)}});
 }
 
-}  // namespace
-
-ReportPage report_of_diagnosis(const ResultFile& file) {
-  const json findings = read_findings(file);
+ReportPage page_of(const ResultFile& file, const json& findings) {
   ReportPage page;
   page.summary = fmt::format("Diagnosis of {}. Verdict {}", described_data(findings.at("data")),
                              explained(text(findings.at("verdict"))));
@@ -269,6 +270,17 @@ ReportPage report_of_diagnosis(const ResultFile& file) {
   }
   add_evidence(page, findings);
   return page;
+}
+
+}  // namespace
+
+ReportPage report_of_diagnosis(const ResultFile& file) {
+  const json findings = read_findings(file);
+  try {
+    return page_of(file, findings);
+  } catch (const json::exception&) {  // a key is missing, or of another type
+    refuse({findings_of(file)}, "is not what wormdrive diagnose writes beside diagnosis.h5");
+  }
 }
 
 }  // namespace wormdrive

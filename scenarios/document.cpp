@@ -5,7 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -57,8 +57,17 @@ std::string read_text(const std::string& path) {
     refuse({path}, "cannot be read: it is a directory");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) refuse({path}, fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO)));
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::vector<char> piece(1 << 16);
+  // what follows a NUL byte is not wanted: no text has one, and a device may never end
+  for (bool goes_on = file.good(); goes_on;) {
+    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    goes_on =
+        file.good() && text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) == std::string::npos;
+  }
+  if (!file && !file.eof()) refuse({path}, fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO)));
+  return text;
 }
 
 toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {

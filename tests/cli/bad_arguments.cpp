@@ -67,6 +67,7 @@ TEST_CASE("a file that is no scenario is told by name") {
     refuse_all(folder, {
         {"missing", "", "no.toml: error: cannot be read: No such file or directory", {command, "no.toml"}, true},
         {"folder", "", "folder: error: cannot be read: it is a directory", {command, "folder"}, true},
+        {"a device without end", "", "/dev/zero:1:1: error: a NUL byte; a scenario is plain text or a result file (.h5)", {command, "/dev/zero"}, true},
         {"name too long", "", long_name + ": error: cannot be read: File name too long", {command, long_name}, true},
         {"HDF5 without a scenario", "", "other.h5: error: it is not a wormdrive result: it has no attribute 'scenario'", {command, "other.h5"}, true},
         {"HDF5 cut off", "", "cut.h5: error: it cannot be opened as *", {command, "cut.h5"}, true},
