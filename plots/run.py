@@ -157,6 +157,8 @@ def draw(result):
     trajectory, events = group(result, "trajectory"), group(result, "events")
     names = "time", "gear_angle", "gear_speed", "motor_torque", "load_torque"
     time, angle, speed, motor, load = columns(trajectory, *names)
+    if not (np.diff(time) > 0).all():
+        raise NotAResult("its times do not rise")
     angle_factor, angle_unit = style.scale(units(trajectory, "gear_angle"), angle)
     speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
     linear = units(trajectory, "gear_angle") == "m"
