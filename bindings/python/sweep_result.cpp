@@ -29,8 +29,16 @@ void SweepResult::run(unsigned threads, const std::function<void()>& between) {
 void SweepResult::restore(std::vector<std::vector<double>> columns, const std::vector<std::string>& reasons) {
   if (columns.size() != values_.size()) throw std::invalid_argument("these are not the trials of this study");
   values_ = std::move(columns);
-  for (const double code : values_[values_.size() - 2])
-    if (code > 0.0) reasons_.code(reasons.at(static_cast<std::size_t>(code) - 1));
+  std::vector<ReasonTable::Entry> entries;
+  for (const std::string& reason : reasons) entries.push_back({reason, 0, ReasonTable::no_trial});
+  const std::vector<double>& codes = values_[values_.size() - 2];
+  for (std::size_t trial = 0; trial < codes.size(); ++trial) {
+    if (codes[trial] == 0.0) continue;
+    ReasonTable::Entry& entry = entries.at(static_cast<std::size_t>(codes[trial]) - 1);
+    ++entry.count;
+    entry.first = std::min<std::uint64_t>(entry.first, trial);
+  }
+  reasons_ = ReasonTable(std::move(entries));
 }
 
 void SweepResult::take(const Trial& trial) {
