@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -55,18 +54,12 @@ class CompliantDrive {
   const Effects<T>& effects() const { return rigid_.effects(); }
   double torque_limit() const { return rigid_.torque_limit(); }
   const ToothContact<T>& contact() const { return contact_; }
-
   void enter(double t) { rigid_.enter(t); }  // inputs are those of the rigid drive
   void rewind() { rigid_.rewind(); }
   bool command(double t, double tau_m) { return rigid_.command(t, tau_m); }
   void disturb(double torque) { rigid_.disturb(torque); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input(double t) const { return rigid_.fastest_input(t); }
-  /// The longest step [s] within which a guard of a shaft at rest, which the state does not show, turns at most once.
-  double longest_step(Mode mode) const {
-    const double omega = mode.worm == Motion::stuck || mode.gear == Motion::stuck ? rigid_.fastest_input() : 0.0;
-    return omega > 0.0 ? 0.05 / omega : std::numeric_limits<double>::infinity();
-  }
 
   template <class S>
   Moment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {

@@ -202,10 +202,8 @@ class CvodeSolver {
 
   /// Within the longest step [s] a guard turns at most once, whatever the tolerance lets pass.
   double longest_step(const Instant& now) const {
-    double step = settings_.max_step;
-    if constexpr (requires { system_.longest_step(now.mode); }) step = std::min(step, system_.longest_step(now.mode));
     const double omega = system_.fastest_input(now.t);
-    return omega > 0.0 ? std::min(step, turn / omega) : step;
+    return omega > 0.0 ? std::min(settings_.max_step, turn / omega) : settings_.max_step;
   }
   static constexpr double turn = 0.25;  ///< angle [rad] that the fastest input may pass within a step
 
