@@ -95,7 +95,8 @@ SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
   if (constant) return indices;
 
   IndexSums all(parameters);
-  std::vector<IndexSums> parts(Saltelli::replicates, all);
+  std::vector<IndexSums> parts;
+  for (std::size_t r = 0; r < Saltelli::replicates; ++r) parts.emplace_back(parameters);
   for_each_sample(values, parameters, [&](std::uint64_t sample, std::vector<double>& f) {
     if (!is_whole(f)) return;
     for (double& value : f) value -= centre;
@@ -104,8 +105,8 @@ SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
   std::erase_if(parts, [](const IndexSums& part) { return part.weight == 0.0; });
   for (const IndexSums& part : parts) all.add(part, 1.0);
   if (parts.size() < 2) return indices;
-  std::vector<IndexSums> without(parts.size(), all);
-  for (std::size_t r = 0; r < parts.size(); ++r) without[r].add(parts[r], -1.0);
+  std::vector<IndexSums> without;
+  for (const IndexSums& part : parts) without.emplace_back(all).add(part, -1.0);
 
   const boost::math::students_t student(static_cast<double>(parts.size() - 1));
   const double widths = quantile(student, 0.975);  // of half an interval, in standard errors
