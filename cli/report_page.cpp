@@ -39,17 +39,17 @@ Json as_json(const ReportPanel& panel) {
   std::vector<const std::vector<double>*> columns;
   for (const ReportSeries& s : panel.series) columns.push_back(&s.values);
   const std::vector<std::size_t> rows = rows_with_extremes(columns);
-  Json json{{"style", name(panel.style)},
+  Json made{{"style", name(panel.style)},
             {"filled", panel.filled},
             {"rows", panel.over.size()},
             {"limits", panel.limits},
             {"series", Json::array()}};
-  json["over"] = Json::array();
-  for (const std::size_t row : rows) json["over"].push_back(panel.over[row]);
+  made["over"] = Json::array();
+  for (const std::size_t row : rows) made["over"].push_back(panel.over[row]);
   for (const ReportSeries& s : panel.series)
-    json["series"].push_back(
+    made["series"].push_back(
         {{"name", s.name}, {"units", s.units}, {"meaning", s.meaning}, {"values", chosen(s.values, rows)}});
-  return json;
+  return made;
 }
 
 Json as_json(const ReportEvent& e) {
@@ -60,35 +60,35 @@ Json as_json(const ReportEvent& e) {
 }
 
 Json as_json(const ReportGroup& group) {
-  Json json{{"title", group.title},          {"over", group.over},     {"units", group.units},
+  Json made{{"title", group.title},          {"over", group.over},     {"units", group.units},
             {"panels", Json::array()},       {"bands", Json::array()}, {"events", Json::array()},
             {"all_events", group.all_events}};
-  for (const ReportPanel& panel : group.panels) json["panels"].push_back(as_json(panel));
-  for (const ReportBand& b : group.bands) json["bands"].push_back({b.from, b.to, b.kind, b.meaning});
-  for (const ReportEvent& e : group.events) json["events"].push_back(as_json(e));
-  return json;
+  for (const ReportPanel& panel : group.panels) made["panels"].push_back(as_json(panel));
+  for (const ReportBand& b : group.bands) made["bands"].push_back({b.from, b.to, b.kind, b.meaning});
+  for (const ReportEvent& e : group.events) made["events"].push_back(as_json(e));
+  return made;
 }
 
 Json as_json(const ReportTable& table) {
-  Json json{{"title", table.title}, {"note", table.note}, {"heads", Json::array()}, {"rows", Json::array()}};
-  for (const ReportTable::Head& head : table.heads) json["heads"].push_back({head.name, head.number});
+  Json made{{"title", table.title}, {"note", table.note}, {"heads", Json::array()}, {"rows", Json::array()}};
+  for (const ReportTable::Head& head : table.heads) made["heads"].push_back({head.name, head.number});
   for (const auto& row : table.rows) {
     Json cells = Json::array();
     for (const auto& cell : row)
       cells.push_back(std::holds_alternative<double>(cell) ? shortened(std::get<double>(cell))
                                                            : Json(std::get<std::string>(cell)));
-    json["rows"].push_back(std::move(cells));
+    made["rows"].push_back(std::move(cells));
   }
-  return json;
+  return made;
 }
 
 Json as_json(const ReportPage& page) {
-  Json json{{"title", page.title},     {"summary", page.summary}, {"verdict", page.verdict}, {"remarks", page.remarks},
+  Json made{{"title", page.title},     {"summary", page.summary}, {"verdict", page.verdict}, {"remarks", page.remarks},
             {"groups", Json::array()}, {"tables", Json::array()}, {"texts", Json::array()}};
-  for (const ReportGroup& group : page.groups) json["groups"].push_back(as_json(group));
-  for (const ReportTable& table : page.tables) json["tables"].push_back(as_json(table));
-  for (const ReportText& text : page.texts) json["texts"].push_back({text.title, text.text});
-  return json;
+  for (const ReportGroup& group : page.groups) made["groups"].push_back(as_json(group));
+  for (const ReportTable& table : page.tables) made["tables"].push_back(as_json(table));
+  for (const ReportText& text : page.texts) made["texts"].push_back({text.title, text.text});
+  return made;
 }
 
 std::string escaped(const std::string& text) {

@@ -12,7 +12,7 @@ namespace wormdrive {
 namespace {
 
 constexpr std::size_t most_metrics = 10, most_parameters = 4;  ///< that are drawn
-constexpr std::size_t points = 2000;                           ///< of a cloud, and of a distribution
+constexpr std::size_t dots_shown = 2000;                       ///< of a cloud, and of a distribution
 constexpr std::size_t bins = 25;                               ///< in which a cloud's quantiles are taken
 
 /// A metric of the trials that are there; infinite where one without it counts as the worst.
@@ -45,7 +45,7 @@ ReportPanel distribution(const Values& column, const SweepSummary& summary, cons
   std::vector<double> rising;
   for (const std::size_t row : column.rows) rising.push_back(column.values[row]);
   std::sort(rising.begin(), rising.end());
-  std::vector<std::size_t> shown = even_rows(rising.size(), points);
+  std::vector<std::size_t> shown = even_rows(rising.size(), dots_shown);
   for (std::size_t k = 0; k < std::min<std::size_t>(200, rising.size()); ++k)
     shown.insert(shown.end(), {k, rising.size() - 1 - k});
   std::sort(shown.begin(), shown.end());
@@ -85,7 +85,7 @@ ReportPanel cloud(const Values& y, const Metric& metric, const std::vector<doubl
     };
     quantiles.push_back({at(0.5), at(0.95)});
   }
-  for (const std::size_t k : even_rows(rows.size(), points)) {
+  for (const std::size_t k : even_rows(rows.size(), dots_shown)) {
     panel.over.push_back(x[rows[k]]);
     panel.series[0].values.push_back(drawable(y.values[rows[k]]));
     const auto& [median, most] = quantiles[std::min(bins - 1, k * bins / rows.size())];
