@@ -199,7 +199,7 @@ void take_damaged_sweep(const std::uint8_t* data, std::size_t size) {
     for (const TrialRange& range : sweep.present()) for_each_trial(sweep, range, [](const Trial&) {});
     sweep.verdicts();
     sweep.counted_reasons();
-    summarise(sweep, "", 5);
+    summarise(sweep, {.worst = 5});
   });
 }
 
