@@ -164,9 +164,9 @@ class CompliantDrive {
   }
 
   /// A state with its speeds as the mode has them: rounding leaves them on either side of zero.
-  static Instant within_mode(Instant now) {
+  Instant within_mode(Instant now) const {
     for (const Shaft shaft : {Shaft::worm, Shaft::gear})
-      if (T(sign(now.mode[shaft])) * now.x[speed_of(shaft)] < T(0)) now.x[speed_of(shaft)] = T(0);
+      if (T& speed = now.x[speed_of(shaft)]; is_dry(shaft) && T(sign(now.mode[shaft])) * speed < T(0)) speed = T(0);
     return now;
   }
 

@@ -184,7 +184,7 @@ class CvodeSolver {
     guards_ = there;
     if (fired_ == no_guard) return;
     ahead_ = at(first);
-    if constexpr (Foresees<System>) ahead_ = System::within_mode(ahead_);
+    if constexpr (Foresees<System>) ahead_ = system_.within_mode(ahead_);
   }
   /// Where the motion was at a time of the latest step.
   Instant at(double t) {

@@ -55,7 +55,7 @@ class FirstStep {
       then.x[2 * shaft] = value(motion_[shaft].angle(), t - begin_.t);
       then.x[2 * shaft + 1] = value(motion_[shaft].speed(), t - begin_.t);
     }
-    return System::within_mode(then);
+    return system_.within_mode(then);
   }
 
  private:

@@ -165,7 +165,7 @@ TEST_CASE("a trial runs again with its trajectory and the same metrics, with eit
     folder.write("study.toml",
                  study_but("[\"run.solver=taylor\", \"run.report_interval_s=0.01\"]",
                            fmt::format("[\"run.solver={}\", \"run.report_interval_s=0.00037\"]", solver)));
-    REQUIRE(folder.sweep({"-o", "sweep.h5"}).exit == 0);
+    REQUIRE(folder.sweep({"-o", "sweep.h5", "--force"}).exit == 0);
     const Outcome outcome = folder.run({"replay", "sweep.h5", "--trial", "123", "-o", "run.h5"});
     INFO(outcome.err);
     CHECK(outcome.exit == 0);

@@ -109,9 +109,9 @@ class _KeptRun:
     def statistics(self) -> dict[str, int]:
         return self._statistics
 
-    def write(self, path: str, command_line: str) -> None:
+    def write(self, path: str, command_line: str, force: bool) -> None:
         """Runs again, to the same bits."""
-        _core.Scenario.parse(self.toml, "scenario", [], False).run().write(path, command_line)
+        _core.Scenario.parse(self.toml, "scenario", [], False).run().write(path, command_line, force)
 
 
 class Result:
