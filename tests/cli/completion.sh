@@ -26,7 +26,7 @@ expect() {
 expect "wormdrive st" "statics steady"
 expect "wormdrive run --au" "--audit"
 expect "wormdrive run --s" "--set"
-expect "wormdrive run -" "--audit --help --json --output --quiet --set"
+expect "wormdrive run -" "--audit --force --help --json --output --quiet --set"
 expect "wormdrive run my" "my_arm.toml my_folder my_run.h5"
 expect "wormdrive run " "my_arm.toml my_folder my_run.h5"
 expect "wormdrive plot --over m" "motor_torque"
