@@ -28,7 +28,7 @@ namespace wormdrive {
 /// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial. After
 /// every step all guards are looked at with value and rate, so that one that dips below zero and comes back is seen as
 /// well as one that ends below, and their roots are found on the polynomial to a few roundings of the time. (CVODE's
-/// own roots are a hundred times coarser, which is microseconds after a day.) No step ends in a mode that its state
+/// own roots are a hundred units in the last place coarse, 2 ns after a day.) No step ends in a mode that its state
 /// contradicts.
 template <class System>
 class CvodeSolver {
