@@ -1,8 +1,10 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/rounded.hpp"
 #include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
 
@@ -21,10 +23,29 @@ class SeriesFlow {
   /// The motion from now on, accurate over a step of at most h.
   static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     to_order<8>(system, now, h, accuracy, e);
-    e.step = longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e); });
+    const auto step = [&](const Roundings& inputs) {
+      return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, inputs); });
+    };
+    const double within = step({});
+    if (within < e.step) e.step = step(roundings(system, now));
   }
 
  private:
+  /// What acceleration [rad/s^2] and guards [their units] may differ by because inputs and torques are rounded.
+  struct Roundings {
+    double acceleration = 0.0;
+    std::array<double, System::guard_count> guards{};
+  };
+  /// Where torques all but cancel, or a sinusoid passes zero, this is more than the tolerance of what is left.
+  static Roundings roundings(const System& system, const Instant& now) {
+    const auto ahead = system.template ahead<1, Rounded>(now);
+    const auto guards = system.guards(ahead, now.mode);
+    Roundings of{sixteenfold * ahead.omega_g[1].rounding, {}};
+    for (int g = 0; g < System::guard_count; ++g) of.guards[g] = sixteenfold * guards[g][0].rounding;
+    return of;
+  }
+  static constexpr double sixteenfold = 16.0;  ///< the rounding is that of the start, and the series adds its own
+
   template <int order>
   static void to_order(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const auto at = system.template ahead<order + 1>(now);
@@ -45,7 +66,7 @@ class SeriesFlow {
 
   /// Whether the equations at s are those that the series was made from.
   static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy,
-                    const Motion& e) {
+                    const Motion& e, const Roundings& inputs) {
     const double t = now.t + s;
     const auto near = [&](double found, Polynomial c, double allowed) {
       double size = 0.0, rate = 0.0, power = 1.0;
@@ -61,12 +82,12 @@ class SeriesFlow {
     Coefficients rate;
     for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * e.omega[k];
     const double a = system.acceleration(there, now.mode);
-    if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, e.order * accuracy.allowed(there.omega_g)))
-      return false;
+    const double allowed = e.order * accuracy.allowed(there.omega_g) + inputs.acceleration;
+    if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, allowed)) return false;
     const auto guards = system.guards(there, now.mode);
     const auto terms = system.guard_terms(there, now.mode);
     for (int g = 0; g < System::guard_count; ++g)
-      if (!near(guards[g], e.guard(g), rounding * terms[g])) return false;
+      if (!near(guards[g], e.guard(g), rounding * terms[g] + inputs.guards[g])) return false;
     return true;
   }
 
