@@ -27,7 +27,8 @@ std::optional<double> falling_crossing(F&& f, double a, const Series<double, 1>&
   if (right[0] < 0.0) {
     if (left[0] > 0.0) return root_between(value, a, left[0], b, right[0]);
     if (left[1] <= 0.0) return a;
-    // begins at zero, to rounding, and rises first: it falls behind its highest point
+    if (right[1] > 0.0) return std::nullopt;  // on its way up all along
+    // begins at zero, to rounding, and rises: it falls behind its highest point
     const double highest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);
     const double height = value(highest);
     return height > 0.0 ? root_between(value, highest, height, b, right[0]) : a;
@@ -37,7 +38,7 @@ std::optional<double> falling_crossing(F&& f, double a, const Series<double, 1>&
   const double lowest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);
   const double depth = value(lowest);
   if (depth >= 0.0) return std::nullopt;
-  return root_between(value, a, left[0], lowest, depth);
+  return left[0] > 0.0 ? root_between(value, a, left[0], lowest, depth) : a;
 }
 
 }  // namespace wormdrive

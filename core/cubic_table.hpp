@@ -38,6 +38,12 @@ class CubicTable {
 
   bool operator==(const CubicTable&) const = default;
 
+  /// Between two neighbouring points.
+  double least_interval() const {
+    double least = x_.back() - x_.front();
+    for (std::size_t k = 1; k < x_.size(); ++k) least = std::min(least, x_[k] - x_[k - 1]);
+    return least;
+  }
   /// Where one cubic ends and the next begins.
   const std::vector<double>& points() const { return x_; }
   const std::vector<double>& values() const { return y_; }

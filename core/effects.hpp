@@ -129,6 +129,11 @@ struct Effects {
   double fastest_at_rest() const {
     return through(0.0, [](const auto& e, double) -> decltype(e.fastest_at_rest()) { return e.fastest_at_rest(); });
   }
+  /// Highest number of periods per radian of the gear in what effects do over its angle, for a ratio i.
+  double ripple(double i) const {
+    return through(0.0,
+                   [&](const auto& e, double most) -> decltype(e.ripple(i)) { return std::max(most, e.ripple(i)); });
+  }
   /// Whether the worm does not follow the gear with the ratio i throughout.
   bool pitch_varies() const {
     bool any = false;

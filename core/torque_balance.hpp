@@ -73,6 +73,9 @@ class TorqueBalance {
     return std::max({motor_.fastest(t), load_.fastest(), effects_.fastest_at_rest()});
   }
 
+  /// Highest number of periods per radian of the gear in what depends on its angle.
+  double ripple() const { return std::max(effects_.ripple(static_cast<double>(value_of(mesh_.i))), load_.ripple()); }
+
   // ---- torques ------------------------------------------------------------------------------------------------
 
   template <class S>

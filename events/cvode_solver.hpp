@@ -14,6 +14,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "core/crossing.hpp"
+#include "core/ripple.hpp"
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
 #include "events/halt.hpp"
@@ -26,10 +27,11 @@ namespace wormdrive {
 /// SUNDIALS CVODE: BDF with Newton and the exact Jacobian, or Adams with fixed point.
 ///
 /// CVODE goes step by step, ahead of the reports that fall into a step; those are read off the step's polynomial. After
-/// every step all guards are looked at with value and rate, so that one that dips below zero and comes back is seen as
-/// well as one that ends below, and their roots are found on the polynomial to a few roundings of the time. (CVODE's
-/// own roots are a hundred units in the last place coarse, 2 ns after a day.) No step ends in a mode that its state
-/// contradicts.
+/// every step all guards are looked at with value and rate, at its end and so often on its way that they turn at most
+/// once in between, so that one that dips below zero and comes back is seen as well as one that ends below. Their roots
+/// are found on the polynomial to a few roundings of the time. (CVODE's own roots are a hundred units in the last place
+/// coarse, 2 ns after a day.) Its clock begins at zero with every segment, so that a step after a day is as fine as one
+/// at the start. No step ends in a mode that its state contradicts.
 template <class System>
 class CvodeSolver {
  public:
@@ -66,6 +68,7 @@ class CvodeSolver {
     fired_ = no_guard;
     finite_ = true;
     first_.reset();
+    first_steps_ = 0;
     if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now);
     if (!leaves_rest_) begin();
   }
@@ -80,7 +83,7 @@ class CvodeSolver {
       now.t = next;
       return no_guard;
     }
-    if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), limit_ = limit));
+    if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), (limit_ = limit) - origin_));
     for (long steps = 0; ahead_.t < next && fired_ == no_guard; ++steps) {
       if (steps == max_steps) throw SolverFault(cvode_reason(CV_TOO_MUCH_WORK));
       step(now, next);
@@ -90,7 +93,7 @@ class CvodeSolver {
       return fired_;
     }
     now.t = next;
-    now.x = state_at(next);
+    now.x = state_at(std::clamp(next - origin_, clock_ - step_, clock_));
     return no_guard;
   }
 
@@ -113,16 +116,18 @@ class CvodeSolver {
   using Guards = decltype(std::declval<const System&>().guards_ahead(std::declval<const Instant&>()));
   static constexpr long max_steps = 10'000'000;  ///< between two stops; a stalled run fails earlier for its step size
 
-  static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
+  static int right_hand_side(sunrealtype clock, N_Vector y, N_Vector ydot, void* self) {
     auto& solver = *static_cast<CvodeSolver*>(self);
+    const double t = solver.origin_ + clock;
     const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
     Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
     // once is for good: the fixed-point iteration would only shorten its step and try again, without end
     solver.finite_ = solver.finite_ && dx.allFinite();
     return solver.finite_ ? 0 : -1;
   }
-  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype clock, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
+    const double t = solver.origin_ + clock;
     Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) =
         solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
     return 0;
@@ -141,15 +146,25 @@ class CvodeSolver {
     }
     first_.reset();
     ahead_ = now;
+    leaves_rest_ = creeps(now) && ++first_steps_ < most_first_steps;
+    if (leaves_rest_) return first_step(now, next, limit);
     begin();
     return false;
   }
+  /// Whether a moving shaft is so slow that what CVODE may err by could turn it.
+  bool creeps(const Instant& now) const {
+    for (int speed = 1; speed < System::state_size; speed += 2)
+      if (now.x[speed] != 0.0 && std::abs(now.x[speed]) < 100.0 * settings_.absolute_tolerance) return true;
+    return false;
+  }
+  static constexpr int most_first_steps = 1000;  ///< at a standstill of that length CVODE may try
 
   /// Lets CVODE begin at ahead_.
   void begin() {
     total_ = statistics();
     state() = ahead_.x;
-    check_cvode(CVodeReInit(memory(), ahead_.t, y_.get()));
+    origin_ = ahead_.t;
+    check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
     const double step = longest_step(ahead_);
     check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0));
     limit_ = std::numeric_limits<double>::quiet_NaN();
@@ -165,20 +180,32 @@ class CvodeSolver {
   }
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
-    const double from = ahead_.t;
-    const int flag = CVode(memory(), next, y_.get(), &ahead_.t, CV_ONE_STEP);
+    const double from = clock_, before = ripple_rate(system_, ahead_.x);
+    const int flag = CVode(memory(), next - origin_, y_.get(), &clock_, CV_ONE_STEP);
+    ahead_.t = flag == CV_TSTOP_RETURN ? limit_ : origin_ + clock_;
     if (flag < 0) {
       now.t = ahead_.t;
       throw SolverFault(cvode_reason(finite_ ? flag : CV_RHSFUNC_FAIL));
     }
+    step_ = clock_ - from;
     ahead_.x = state();
-    const Guards there = guards_at(ahead_);
-    double first = ahead_.t;
+    const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
+    const double parts = std::clamp(std::ceil(ripple * step_ / turn), 1.0, 1e6);
+    for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
+      const double right = part == parts ? clock_ : from + step_ * (part / parts);
+      find_event(left, right);
+      left = right;
+    }
+  }
+  /// The first guard that falls through zero within a part of the latest step.
+  void find_event(double left, double right) {
+    const Guards there = guards_at(at(right));
+    double first = right;
     for (int g = 0; g < System::guard_count; ++g) {
-      const auto guard = [&](double t) { return guards_at(at(t))[g]; };
-      const auto t = falling_crossing(guard, from, guards_[g], ahead_.t, there[g]);
-      if (!t || (fired_ != no_guard && *t >= first)) continue;
-      first = *t;
+      const auto guard = [&](double clock) { return guards_at(at(clock))[g]; };
+      const auto fall = falling_crossing(guard, left, guards_[g], right, there[g]);
+      if (!fall || (fired_ != no_guard && *fall >= first)) continue;
+      first = *fall;
       fired_ = g;
     }
     guards_ = there;
@@ -186,11 +213,11 @@ class CvodeSolver {
     ahead_ = at(first);
     if constexpr (Foresees<System>) ahead_ = system_.within_mode(ahead_);
   }
-  /// Where the motion was at a time of the latest step.
-  Instant at(double t) {
+  /// Where the motion was when the clock showed a time of the latest step.
+  Instant at(double clock) {
     Instant then = ahead_;
-    then.t = t;
-    then.x = state_at(t);
+    if (clock < clock_) then.t = origin_ + clock;
+    then.x = state_at(clock);
     return then;
   }
   Guards guards_at(const Instant& at) {
@@ -205,13 +232,13 @@ class CvodeSolver {
     const double omega = system_.fastest_input(now.t);
     return omega > 0.0 ? std::min(settings_.max_step, turn / omega) : settings_.max_step;
   }
-  static constexpr double turn = 0.25;  ///< angle [rad] that the fastest input may pass within a step
+  static constexpr double turn = 0.25;  ///< angle [rad] that the fastest input may pass between two looks at the guards
 
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
-  /// At a time within the latest step.
-  Eigen::Map<State> state_at(double t) {
-    check_cvode(CVodeGetDky(memory(), t, 0, y_.get()));
+  /// When the clock showed a time of the latest step.
+  Eigen::Map<State> state_at(double clock) {
+    check_cvode(CVodeGetDky(memory(), clock, 0, y_.get()));
     return state();
   }
 
@@ -228,9 +255,13 @@ class CvodeSolver {
   bool finite_ = true;                               ///< every acceleration since the latest restart was a number
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
+  int first_steps_ = 0;                              ///< so many since the latest restart
   Guards guards_{};                                  ///< where CVODE is ...
   std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero
   double limit_ = std::numeric_limits<double>::quiet_NaN();
+  double origin_ = 0.0;  ///< where CVODE's clock began [s] ...
+  double clock_ = 0.0;   ///< ... what it shows [s] ...
+  double step_ = 0.0;    ///< ... and how far its latest step went [s]
   SolverStatistics total_{};
 };
 

@@ -26,6 +26,7 @@ struct TableLoad {
   void enter(double) {}
   double next_knot(double) const { return std::numeric_limits<double>::infinity(); }
   double fastest() const { return 0.0; }
+  double ripple() const { return 1.0 / table.least_interval(); }
 
   /// Load torque tau_l [N m] at the present gear angle.
   template <class S>

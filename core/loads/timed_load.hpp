@@ -13,6 +13,7 @@ struct TimedLoad {
   void enter(double t) { piece = signal.piece(t); }
   double next_knot(double t) const { return signal.next_knot(t); }
   double fastest() const { return piece.fastest(); }
+  double ripple() const { return 0.0; }
 
   /// Load torque tau_l [N m], positive in the direction of positive theta_g.
   template <class S>

@@ -29,6 +29,7 @@ struct SpiralSpring {
   void enter(double) {}
   double next_knot(double) const { return std::numeric_limits<double>::infinity(); }
   double fastest() const { return 0.0; }
+  double ripple() const { return 0.0; }
 
   /// Load torque tau_l [N m] at the present gear angle.
   template <class S>

@@ -91,6 +91,7 @@ struct FailingLoad {
   void enter(double) {}
   double next_knot(double) const { return never; }
   double fastest() const { return 0.0; }
+  double ripple() const { return 1.0; }
   template <class S>
   S torque(const Moment<S>& at) const {
     using std::cos;

@@ -35,6 +35,7 @@ struct BentLoad {
   void enter(double) {}
   double next_knot(double) const { return never; }
   double fastest() const { return 0.0; }
+  double ripple() const { return 0.0; }
   template <class S>
   S torque(const Moment<S>& at) const {
     if (at.theta_g > S(bend)) return S(jump) - 0.01 * (at.theta_g - bend);

@@ -1,0 +1,20 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+namespace wormdrive {
+
+/// How fast the phase of what depends on an angle passes in a state of motion [rad/s]: the swing of an arm, cogging,
+/// the runout of the gear. 0 for a system whose torques do not depend on an angle periodically.
+template <class System>
+double ripple_rate(const System& system, const typename System::State& x) {
+  using std::abs;
+  if constexpr (requires { system.rigid(); })
+    return system.rigid().ripple() * std::max(abs(x[1] / system.mesh().i), abs(x[3]));
+  else if constexpr (requires { system.ripple(); })
+    return system.ripple() * abs(x[1]);
+  else
+    return 0.0;
+}
+
+}  // namespace wormdrive
