@@ -203,12 +203,13 @@ class WormDrive : public TorqueBalance<T, Load> {
     return sign_just_after(beyond, 0.0) > 0 ? Flank::right : Flank::left;
   }
 
-  /// Whether the gear starts from rest in this direction. An acceleration that vanishes within its rounding starts
-  /// nothing: ties mean stick, and the guard of rest finds the moment at which they end.
+  /// Whether the gear starts from rest in this direction. An acceleration that is not more than what is not known of it
+  /// starts nothing: ties mean stick, and the guard of rest finds the moment at which they end.
   bool starts(const Instant& now, Motion motion) const {
     const Instant rest{now.t, {now.x[0], T(0)}, {}, now.since};
-    const Series<Rounded, 0> a = release_acceleration(ahead<0, Rounded>(rest), motion);
-    return !a[0].vanishes() && (a[0].value > 0.0) == (motion == Motion::forward);
+    const Series<Rounded, 1> a = release_acceleration(ahead<1, Rounded>(rest), motion);
+    if (!(std::abs(a[0].value) > blur(a, 0, time_resolution(now.t)))) return false;
+    return (a[0].value > 0.0) == (motion == Motion::forward);
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.

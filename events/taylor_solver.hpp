@@ -36,7 +36,7 @@ class TaylorSolver {
   Instant jump(const Instant& now, int guard) {
     if constexpr (NominalFlow<System>::known)
       if (!System::at_rest(now.mode) && guard == System::flank_guard &&
-          falls_through(series_.guard(guard), now.t - begin_.t, 16.0 * guard_series<0>(system_, now)[guard][0].rounding,
+          falls_through(series_.guard(guard), length_, 16.0 * guard_series<0>(system_, now)[guard][0].rounding,
                         time_resolution(now.t)))
         return {now.t, now.x, System::across_surface(now.mode), now.since};
     return system_.jump(now, guard);
@@ -47,6 +47,7 @@ class TaylorSolver {
     ++count_.restarts;
     armed_.fill(false);
     end_ = now.t;
+    waited_ = 0.0;
     fired_ = no_guard;
     if constexpr (NominalFlow<System>::known) nominal_.begin(now);
   }
@@ -119,7 +120,7 @@ class TaylorSolver {
         return then;
       }
     }
-    const double s = t - begin_.t;
+    const double s = t == end_ ? length_ : t - begin_.t;
     return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
   }
 
@@ -134,26 +135,32 @@ class TaylorSolver {
     std::array<std::size_t, System::guard_count> vanishing{};
     for (int g = 0; g < System::guard_count; ++g)
       if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(now, g);
-    if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest(vanishing[System::speed_guard]);
+    if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest(now, vanishing[System::speed_guard]);
 
     // The end of the step is a double, and the step ends there exactly.
     end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
-    stalled_ = end_ == now.t ? stalled_ + 1 : 0;
+    const double ulp = std::nextafter(now.t, limit) - now.t;
+    const bool brief = end_ == now.t;  // shorter than time is resolved: the state goes on, and the clock follows
+    stalled_ = brief ? stalled_ + 1 : 0;
     if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
-    if (end_ == now.t) end_ = std::nextafter(now.t, limit);
+    length_ = brief ? std::max(series_.step, ulp / most_stalled) : end_ - now.t;
     fired_ = no_guard;
     for (int g = 0; g < System::guard_count; ++g) {
       if (series_.positive[g]) {
         armed_[g] = true;
         continue;
       }
-      const RootSearch::Fall fall = armed_[g] ? search_.first_fall(series_.guard(g), end_ - now.t, true)
-                                              : search_.fall_from_start(series_.guard(g), end_ - now.t, vanishing[g]);
+      const RootSearch::Fall fall = armed_[g] ? search_.first_fall(series_.guard(g), length_, true)
+                                              : search_.fall_from_start(series_.guard(g), length_, vanishing[g]);
       armed_[g] = armed_[g] || fall.armed;
-      if (!fall.at || (fired_ != no_guard && now.t + *fall.at >= end_)) continue;
+      if (!fall.at || (fired_ != no_guard && *fall.at >= length_)) continue;
       end_ = std::min(now.t + *fall.at, end_);
+      length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
+    if (!brief || (waited_ += length_) < ulp) return;
+    end_ = now.t + ulp;
+    waited_ = 0.0;
   }
 
   void expand(const Instant& now, double h) {
@@ -172,23 +179,29 @@ class TaylorSolver {
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
   }
 
-  /// Motion from rest: what the start holds of speed and acceleration is rounding, and would point anywhere.
-  void leave_rest(std::size_t vanishing) {
-    const std::size_t roots = std::min(vanishing, static_cast<std::size_t>(series_.order));
-    for (std::size_t k = 0; k < roots; ++k)
-      series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
+  /// Motion from rest: what the start holds of speed and acceleration may be rounding, and would point anywhere. A
+  /// coefficient that is more than rounding counts, though another may outweigh it.
+  void leave_rest(const Instant& now, std::size_t vanishing) {
+    if (vanishing == 0) return;
+    constexpr int last = 4;
+    const auto speed = guard_series<last>(system_, now)[System::speed_guard];
+    for (int k = 0; k <= last && static_cast<std::size_t>(k) < vanishing; ++k)
+      if (std::abs(speed[k].value) <= blur(speed, k, time_resolution(now.t)))
+        series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
   }
 
-  static constexpr int most_stalled = 1000, most_steps = 100'000;
+  static constexpr int most_stalled = 10'000, most_steps = 100'000;
 
   const System& system_;
   TaylorAccuracy accuracy_;
   double max_step_;
   NominalFlow<System> nominal_;
   Expansion<System::guard_count> series_;
-  Instant begin_{};     ///< of the present step
-  double end_ = 0.0;    ///< of the present step [s]
-  bool leapt_ = false;  ///< the step is a leap to there_; else series_ describes it
+  Instant begin_{};      ///< of the present step
+  double end_ = 0.0;     ///< of the present step [s] ...
+  double length_ = 0.0;  ///< ... and how far it goes, which may be less than time resolves [s]
+  double waited_ = 0.0;  ///< how long the clock has stood [s]
+  bool leapt_ = false;   ///< the step is a leap to there_; else series_ describes it
   Instant there_{};
   int fired_ = no_guard;  ///< the guard that falls through zero at the end
   RootSearch search_;
