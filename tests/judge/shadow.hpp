@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "judge/course.hpp"
@@ -90,6 +91,8 @@ class Shadow {
   Quad move(double stop) {
     const auto ahead = course_.ahead(mode_, Quad(stop) - course_.t);
     const Quad h = ahead.step;
+    way_ += std::abs(number(value(ahead.theta, h) - course_.theta));
+    drift(number(h), value(ahead.theta, h), value(ahead.omega, h));
     for (const Quad s : looks(ahead.omega, h)) {
       const Quad speed = value(ahead.omega, s);
       fastest_ = std::max(fastest_, std::abs(number(speed)));
@@ -106,14 +109,30 @@ class Shadow {
         if (Quad(mode_.flank) * beyond > Quad(allowed))
           return fail("the other flank carries, " + text(beyond) + " N m beyond the surface", s, allowed);
       }
-    const Outcome<Sized> now = course_.now(mode_.motion, mode_.flank, false, course_.theta, course_.omega);
-    const double seconds = number(h);
-    drift_ += rounding * now.pull.size / std::abs(number(now.inertia.value)) * seconds;
-    way_ += std::abs(number(value(ahead.theta, h) - course_.theta));
-    theta_drift_ += omega_slack(h) * seconds;
     course_.theta = value(ahead.theta, h);
     course_.omega = value(ahead.omega, h);
     return h;
+  }
+
+  /// What errors of angle and speed, and roundings of the torques, become within the seconds of a step: a friction that
+  /// falls over the speed, or an arm that falls over, makes them grow.
+  void drift(double seconds, Quad theta, Quad omega) {
+    double growth = 0.0, push = 0.0;
+    for (const auto& [angle, speed] : {std::pair{course_.theta, course_.omega}, {theta, omega}}) {
+      const auto now = [&](double turned, double faster) {
+        return course_.now(mode_.motion, mode_.flank, false, angle + Quad(turned), speed + Quad(faster));
+      };
+      const auto acceleration = [](const Outcome<Sized>& o) { return o.pull.value / o.inertia.value; };
+      const Outcome<Sized> here = now(0.0, 0.0);
+      const Quad a = acceleration(here);
+      const double turned = theta_slack(), faster = mode_.motion * omega_slack(0);
+      growth = std::max(growth, number(acceleration(now(0.0, faster)) - a) / faster);
+      push = std::max(push, std::abs(number(acceleration(now(turned, 0.0)) - a)) +
+                                rounding * here.pull.size / std::abs(number(here.inertia.value)));
+    }
+    const double grown = std::expm1(growth * seconds);
+    theta_drift_ += omega_slack(0) * seconds * (1.0 + grown);
+    drift_ += omega_slack(0) * grown + push * (growth > 0.0 ? grown / growth : seconds);
   }
 
   /// Checks an event that happens now, and takes up the mode behind it.

@@ -36,7 +36,8 @@ struct ProgramRun {
   std::string broken;  ///< the first record that contradicts its own mode; empty if none does
   Modes start{};       ///< behind the settling at the start
   std::vector<Change> changes;
-  double theta = 0.0, omega = 0.0;  ///< of the gear at the end
+  double theta = 0.0, omega = 0.0;           ///< of the gear at the end
+  std::vector<std::vector<double>> reports;  ///< angle and speed of every shaft at every report
 };
 
 enum class By { bdf, adams, taylor };

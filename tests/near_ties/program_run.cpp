@@ -120,6 +120,11 @@ ProgramRun run_drive(Drive drive, const Scenario& s, const Case& tie) {
     if (!first && now.t > last.t && result.broken.empty()) result.broken = broken<Drive>(last);
     first = false;
     last = now;
+    const double report = now.t / tie.report, whole = std::round(report);
+    const auto row = static_cast<std::size_t>(whole);
+    if (std::abs(report - whole) > 1e-9) return;
+    if (row >= result.reports.size()) result.reports.resize(row + 1);
+    result.reports[row].assign(now.x.data(), now.x.data() + now.x.size());
   };
   try {
     with_solver(drive, s.run.solver_settings(), [&](auto& solver) {

@@ -10,10 +10,11 @@ enum class Verdict {
   rounding,    ///< lists differ, and each is right for torques that differ by roundings
   halt,        ///< a solver says that it cannot go on, and why
   not_judged,  ///< lists agree; the judge would have taken too long
+  undecided,   ///< lists differ; the judge would have taken too long
   silent,      ///< a solver went on in a mode that its state contradicts, or lists differ without a reason
 };
 inline constexpr const char* names[] = {"agree", "differ by rounding", "halt", "agree, not judged",
-                                        "silent difference"};
+                                        "differ, not judged", "silent difference"};
 
 struct Judgement {
   Verdict verdict;
