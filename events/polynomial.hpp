@@ -26,9 +26,9 @@ inline double value(Polynomial c, double s) {
   return sum[0] + s * sum[1];
 }
 
-/// Proof that a polynomial has no root in [0, h]: nothing it can lose outweighs what it has at 0. It may fail where
-/// there is no root either.
-inline bool stays_positive(Polynomial c, double h) {
+/// Proof that a polynomial, with a remainder that has been left out, has no root in [0, h]: nothing it can lose
+/// outweighs what it has at 0. It may fail where there is no root either.
+inline bool stays_positive(Polynomial c, double h, double left_out = 0.0) {
   const double square = h * h;
   Pair loss{0.0, 0.0}, power{1.0, h};
   std::size_t k = 0;
@@ -37,7 +37,7 @@ inline bool stays_positive(Polynomial c, double h) {
     loss += (term < 0.0 ? term : Pair{0.0, 0.0}) * power;
   }
   if (k < c.size()) loss[0] += std::min(c[k], 0.0) * power[0];
-  return c[0] + (loss[0] + loss[1]) >
+  return c[0] + (loss[0] + loss[1]) - left_out >
          1e-12 * c[0];  // far above rounding, so that the next step begins positive as well
 }
 

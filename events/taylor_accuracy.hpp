@@ -54,12 +54,12 @@ class TaylorAccuracy {
   template <class Expansion>
   bool suffices(Expansion& e, double h) const {
     if (e.order < least_order) return false;
-    double power = h;
-    for (int k = 2; k <= e.order - window; ++k) power *= h;
+    const double before = power_before_window(e, h);
+    double power = before;
     for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
       if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0], h))) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      if (guard_step(e, static_cast<int>(g), h) < h) return false;
+      if (guard_step(e, static_cast<int>(g), h, before) < h) return false;
     return true;
   }
 
@@ -76,29 +76,48 @@ class TaylorAccuracy {
     }
     h = std::min(h, rough_exp2(log2_step));
     double shortest = h;
+    const double before = power_before_window(e, h);
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      shortest = std::min(shortest, guard_step(e, static_cast<int>(g), h));
+      shortest = std::min(shortest, guard_step(e, static_cast<int>(g), h, before));
     return shortest;
   }
 
  private:
   static constexpr double coarsest = 1e-13;  ///< tolerance from which on a looser one does not lower the order
 
-  /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
-  /// the guard may only touch zero, would show as two events.
   template <class Expansion>
-  static double guard_step(Expansion& e, int g, double h) {
+  static double power_before_window(const Expansion& e, double h) {
+    double power = h;
+    for (int k = 2; k <= e.order - window; ++k) power *= h;
+    return power;
+  }
+
+  /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
+  /// the guard may only touch zero, would show as two events. What is left out is taken to be no more than the last
+  /// terms together. before: the power of h before these.
+  template <class Expansion>
+  static double guard_step(Expansion& e, int g, double h, double before) {
     const Polynomial guard = e.guard(g);
-    e.positive[g] = stays_positive(guard, h);
+    double left_out = 0.0, power = before;
+    for (int k = e.order - window + 1; k <= e.order; ++k) left_out += std::abs(guard[k]) * (power *= h);
+    e.positive[g] = stays_positive(guard, h, left_out);
     if (e.positive[g]) return h;
-    double size = 0.0, last = 0.0, before = 0.0, power = 1.0;
+    double size = 0.0;
+    power = 1.0;
     for (const double c : guard) {
-      before = last;
-      size += last = std::abs(c) * power;
+      size += std::abs(c) * power;
       power *= h;
     }
-    const double excess = std::max(before, last) / (4.0 * std::numeric_limits<double>::epsilon() * size);
-    return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / static_cast<double>(guard.size() - 2)) : h;
+    double longest = h;
+    power = before;
+    for (int k = e.order - window + 1; k <= e.order; ++k) {
+      // of the last two each has to be below rounding, of those before them as much less as terms fall
+      power *= h;
+      const double slack = k + 1 < e.order ? std::ldexp(1.0, 4 * (e.order - k)) : 1.0;
+      const double excess = std::abs(guard[k]) * power / (slack * 4.0 * std::numeric_limits<double>::epsilon() * size);
+      if (excess > 1.0) longest = std::min(longest, h * rough_exp2(-rough_log2(excess) / (e.order - 1)));
+    }
+    return longest;
   }
 
   double absolute_;  ///< of the speed [rad/s]
