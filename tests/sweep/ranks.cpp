@@ -25,9 +25,10 @@ const std::string mpirun = WORMDRIVE_MPIRUN;
 /// Whether the program knows MPI; else there is nothing to test.
 bool has_mpi() {
   if (mpirun.empty()) std::cout << "skipped: built without MPI\n";
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  std::ifstream variables(WORMDRIVE_TESTS "/sweep/mpirun.env");
+  for (std::string line; std::getline(variables, line);)
+    if (const std::size_t at = line.find('='); at != std::string::npos)
+      setenv(line.substr(0, at).c_str(), line.c_str() + at + 1, 1);
   return !mpirun.empty();
 }
 
