@@ -175,8 +175,7 @@ TEST_CASE("a rank takes portions that take long", "[.]") {
 TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "[sweep]") {
   if (!has_mpi()) return;
   using Variables = std::vector<std::pair<std::string, std::string>>;
-  const auto variables =
-      GENERATE(Variables{}, Variables{{"OMPI_MCA_osc", "pt2pt"}}, Variables{{"OMPI_MCA_btl", "tcp,self"}});
+  const auto variables = GENERATE(Variables{}, Variables{{"OMPI_MCA_btl", "tcp,self"}});
   const Environment environment(variables);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const Outcome outcome = Process({mpirun, "-n", "2", self, "a rank takes portions that take long"}, "/").wait();
