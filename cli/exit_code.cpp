@@ -37,8 +37,11 @@ int guarded(const std::function<int()>& command) {
 }
 
 int if_printed(int code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  std::cerr << "wormdrive: cannot write to standard output: " << std::strerror(errno) << '\n';
+  const int reason = std::fflush(stdout) == 0 ? 0 : errno;
+  if (reason == 0 && std::ferror(stdout) == 0) return code;
+  std::cerr << "wormdrive: cannot write to standard output";
+  if (reason != 0) std::cerr << ": " << std::strerror(reason);  // that of an earlier failure is not known any more
+  std::cerr << '\n';
   return cannot_write;
 }
 

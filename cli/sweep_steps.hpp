@@ -1,5 +1,6 @@
 #pragma once
 #include <csignal>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@
 
 namespace wormdrive {
 
-/// While it lives, SIGINT and SIGTERM ask for an end instead of being one; a second one ends at once.
+/// While it lives, SIGINT, SIGTERM and SIGUSR1 ask for an end instead of being one; a second one ends at once. mpirun
+/// passes SIGUSR1 on and lets the ranks live; after SIGTERM it kills them.
 class Interruptible {
  public:
   Interruptible();
@@ -19,8 +21,8 @@ class Interruptible {
   static int signal();
 
  private:
-  static constexpr int signals[] = {SIGINT, SIGTERM};
-  struct sigaction before_[2]{};
+  static constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1};
+  struct sigaction before_[std::size(signals)]{};
 };
 
 /// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.

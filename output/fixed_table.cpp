@@ -1,7 +1,6 @@
 #include "output/fixed_table.hpp"
 
 #include <algorithm>
-#include <cerrno>
 
 #include "output/stored_column.hpp"
 
@@ -33,7 +32,6 @@ Hdf5Handle rows_of(hid_t dataset, hsize_t first, hsize_t count, const std::strin
 
 void write_rows(hid_t dataset, hid_t type, hsize_t first, hsize_t count, const void* values,
                 const std::string& action) {
-  errno = 0;
   const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose, action),
       file = rows_of(dataset, first, count, action);
   check_hdf5(H5Dwrite(dataset, type, memory, file, H5P_DEFAULT, values), action);
@@ -63,9 +61,8 @@ FixedTable::FixedTable(hid_t parent, const std::string& group, const std::vector
     : group_(group) {
   for (const ColumnDescription& column : columns) {
     const std::string path = group + "/" + column.name;
-    errno = 0;
-    datasets_.emplace_back(H5Dopen2(parent, path.c_str(), H5P_DEFAULT), H5Dclose,
-                           "cannot open " + path + " of " + file_of(parent));
+    const std::string action = "cannot open " + path + " of " + file_of(parent);
+    datasets_.emplace_back(H5Dopen2(parent, path.c_str(), H5P_DEFAULT), H5Dclose, action);
   }
 }
 
@@ -85,9 +82,10 @@ void FixedTexts::create(hid_t parent, const std::string& name, const std::string
   write_attribute(dataset, "long_name", long_name);
 }
 
-FixedTexts::FixedTexts(hid_t parent, const std::string& name)
-    : dataset_(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose,
-               "cannot open " + name + " of " + file_of(parent)) {}
+FixedTexts::FixedTexts(hid_t parent, const std::string& name) {
+  const std::string action = "cannot open " + name + " of " + file_of(parent);
+  dataset_ = Hdf5Handle(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+}
 
 void FixedTexts::write(std::uint64_t row, const std::string& text) {
   const std::string action = "cannot write " + file_of(dataset_);

@@ -1,13 +1,31 @@
 #include "output/hdf5.hpp"
 
-#include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 namespace wormdrive {
 namespace {
 
+/// The errno of the call of the system that failed behind the last call of HDF5, as HDF5 has noted it down; 0 if it was
+/// HDF5 that refused. By now errno itself may be that of something else, as of the search for HDF5's plugins.
+int system_error() {
+  int number = 0;
+  const auto look = [](unsigned, const H5E_error2_t* entry, void* found) {
+    constexpr std::string_view before = "errno = ";
+    const std::string_view text = entry->desc;
+    const std::size_t at = text.rfind(before);  // a file's name with these words would stand before it
+    if (at == std::string_view::npos) return herr_t{0};
+    *static_cast<int*>(found) = std::atoi(text.data() + at + before.size());
+    return herr_t{1};  // the innermost is the cause
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &number);
+  return number;
+}
+
 std::string with_reason(const std::string& action) {
-  return errno != 0 ? action + ": " + std::strerror(errno) : action;
+  const int number = system_error();
+  return number != 0 ? action + ": " + std::strerror(number) : action;
 }
 
 /// Before anything is asked of HDF5. Faults are told once, by the exception. And its clean-up at the end of the program
@@ -25,7 +43,6 @@ std::string writing(hid_t object, const std::string& attribute) {
 
 template <class Value>
 void write_scalar(hid_t object, const std::string& name, hid_t type, const Value& value) {
-  errno = 0;
   const std::string action = writing(object, name);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, action);
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
@@ -47,7 +64,6 @@ Hdf5Handle::Hdf5Handle(hid_t id, Close closer, const std::string& action) : id_(
 
 void Hdf5Handle::close(const std::string& action) {
   if (id_ < 0) return;
-  errno = 0;
   check_hdf5(close_(std::exchange(id_, -1)), action);
 }
 
@@ -70,13 +86,11 @@ bool is_hdf5(const std::string& path) {
 
 Hdf5Handle create_hdf5(const std::string& path) {
   prepare_hdf5();
-  errno = 0;
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "cannot create " + path};
 }
 
 Hdf5Handle open_hdf5(const std::string& path) {
   prepare_hdf5();
-  errno = 0;
   try {
     return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened as HDF5"};
   } catch (const OutputFault& fault) {
@@ -89,13 +103,11 @@ Hdf5Handle open_hdf5_while_written(const std::string& path) {
   const std::string action = "it cannot be opened as HDF5";
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
   check_hdf5(H5Pset_file_locking(access, false, true), action);
-  errno = 0;
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, action};
 }
 
 Hdf5Handle reopen_hdf5(const std::string& path) {
   prepare_hdf5();
-  errno = 0;
   return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot open " + path};
 }
 

@@ -26,7 +26,8 @@ class Hdf5Handle {
   using Close = herr_t (*)(hid_t);
 
   Hdf5Handle() = default;
-  /// Takes over an identifier; throws OutputFault naming the action if HDF5 refused.
+  /// Takes over an identifier; throws OutputFault naming the action, with the system's reason, if HDF5 refused. The
+  /// action is put into words before the call: the next call of HDF5 forgets the reason.
   Hdf5Handle(hid_t id, Close closer, const std::string& action);
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {

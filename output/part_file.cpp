@@ -90,10 +90,7 @@ PartFile::~PartFile() {
   if (!stays_) remove_quietly(part_path_);
 }
 
-void PartFile::flush() {
-  errno = 0;
-  check_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "cannot write " + part_path_);
-}
+void PartFile::flush() { check_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "cannot write " + part_path_); }
 
 void PartFile::keep() {
   flush();

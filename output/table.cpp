@@ -1,6 +1,5 @@
 #include "output/table.hpp"
 
-#include <cerrno>
 #include <cmath>
 
 #include <hdf5_hl.h>
@@ -47,7 +46,6 @@ void GrowingTable::append(const std::vector<std::vector<double>>& columns) {
   if (count == 0) return;
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
     const std::string action = "cannot write " + descriptions_[k].name + " to " + file_of(group_);
-    errno = 0;
     check_hdf5(H5Dset_extent(datasets_[k], &total), action);
     const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose, action);
     const Hdf5Handle file(H5Dget_space(datasets_[k]), H5Sclose, action);

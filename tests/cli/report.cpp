@@ -109,15 +109,15 @@ TEST_CASE("a report of steady motion shows the model, and what was measured besi
   const nlohmann::json data = data_in(folder.read("both.html")), records = table_in(data, "Records").at("rows");
   REQUIRE(records.size() == 2);
   CHECK(records[0][0] == "down");
-  CHECK(records[1][2].get<double>() == Approx(0.04));
-  CHECK(records[1][4].get<double>() == Approx(0.04 - records[1][3].get<double>()));
+  CHECK(records[1][2].get<double>() == Catch::Approx(0.04));
+  CHECK(records[1][4].get<double>() == Catch::Approx(0.04 - records[1][3].get<double>()));
   CHECK(data.at("verdict").get<std::string>().starts_with("The model misses the mean torques of 2 records, "));
   CHECK(data.at("groups")[0].at("panels").size() == 2);
   const nlohmann::json panel = data.at("groups")[0].at("panels")[0];
   const auto over = panel.at("over").get<std::vector<double>>();
   const std::size_t up = static_cast<std::size_t>(std::find(over.begin(), over.end(), 20.0) - over.begin());
   REQUIRE(up < over.size());
-  CHECK(panel.at("series")[0].at("values")[up].get<double>() == Approx(0.04));
+  CHECK(panel.at("series")[0].at("values")[up].get<double>() == Catch::Approx(0.04));
 }
 
 TEST_CASE("a report of a run with many events says how many it leaves out") {

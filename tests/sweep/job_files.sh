@@ -7,6 +7,7 @@ program=$1
 shift
 for file; do bash -n "$file"; done
 jobs=$(dirname "$1")
+tests=$(dirname "$0")
 scenarios=$(dirname "$(dirname "$jobs")")
 
 folder=$(mktemp -d)
@@ -82,11 +83,12 @@ else
 fi
 
 if command -v mpirun > /dev/null && [[ $(ldd "$program") == *libmpi* ]]; then
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  set -a
+  source "$tests/mpirun.env"
+  set +a
   bash "$jobs/slurm_mpi.sh" study.toml mpi.h5
   is_whole mpi.h5
   rc=0
-  export OMPI_MCA_odls_base_sigkill_timeout=3
   until_time_is_over ranks.h5 "$jobs/slurm_mpi.sh" long.toml ranks.h5 || rc=$?
   grep -q "^wormdrive: ended after [1-9][0-9]* of 3000000 trials, all of them in ranks.h5.rank_\*;" job.err \
     || fail "the ranks ended with $rc: $(cat job.err)"
