@@ -1,6 +1,6 @@
 #include "output/hdf5.hpp"
 
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -16,7 +16,7 @@ int system_error() {
     const std::string_view text = entry->desc;
     const std::size_t at = text.rfind(before);  // a file's name with these words would stand before it
     if (at == std::string_view::npos) return herr_t{0};
-    *static_cast<int*>(found) = std::atoi(text.data() + at + before.size());
+    std::from_chars(text.data() + at + before.size(), text.data() + text.size(), *static_cast<int*>(found));
     return herr_t{1};  // the innermost is the cause
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &number);

@@ -60,7 +60,7 @@ int flank(const Observation& at) { return sign(at.mode.flank); }
 
 }  // namespace
 
-TEST_CASE("a day of the solar tracker: every solver has each event within 2e-9 s of 128-bit arithmetic") {
+TEST_CASE("a day of the solar tracker: every solver has each event within 1e-9 s of 128-bit arithmetic") {
   Scenario scenario = load_scenario(WORMDRIVE_SCENARIOS "/solar_tracker.toml", {}, Purpose::run);
   judge::Judge<judge::Quad> judge(judged(scenario), 200'000, 2000);
   const auto& events = judge.run();
@@ -81,7 +81,7 @@ TEST_CASE("a day of the solar tracker: every solver has each event within 2e-9 s
     }
     INFO(events.size() << " events, largest deviation " << times << " s");
     CHECK(other_modes == 0);
-    CHECK(times <= 2e-9);  // CVODE adds up its steps in a clock whose last place is 1.5e-11 s
+    CHECK(times <= 1e-9);
     Deviation angle;
     angle.add(found.rows.back().at.theta_g - static_cast<double>(judge.course().theta));
     CHECK(angle <= 1e-8);

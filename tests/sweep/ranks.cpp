@@ -104,7 +104,7 @@ TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up
     if (name.starts_with("ranks.h5.rank_")) {
       const int part = open((folder / name).c_str(), O_RDONLY);
       REQUIRE(flock(part, LOCK_SH) == 0);  // waits: the other rank may outlive mpirun for a moment
-      close(part);
+      ::close(part);
       kept += folder.present(name);
     }
   CHECK(kept > 0);
