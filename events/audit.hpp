@@ -12,6 +12,7 @@
 #include "core/compliant_energy.hpp"
 #include "core/crossing.hpp"
 #include "core/energy.hpp"
+#include "core/ripple.hpp"
 #include "core/rounded.hpp"
 #include "events/segment_start.hpp"
 
@@ -126,10 +127,12 @@ class Audit {
       return;
     }
     long steps = finer * std::max(least_steps, solver_steps);
-    // an input's own scale, which a loose tolerance may have passed over; as fine as where the drive rests and nothing
-    // else tells what happens in between
+    // the scale of an input or of what swings with an angle, which the solver may have passed over; as fine as where
+    // the drive rests and nothing else tells what happens in between
     const double turn = System::at_rest(start.mode) ? 0.05 : 0.25;
-    steps = std::max(steps, std::lround(finer * system_.fastest_input(start.t) * span / turn));
+    const double swing =
+        std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
+    steps = std::max(steps, std::lround(finer * swing * span / turn));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;

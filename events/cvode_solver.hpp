@@ -190,7 +190,7 @@ class CvodeSolver {
     step_ = clock_ - from;
     ahead_.x = state();
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
-    const double parts = std::clamp(std::ceil(ripple * step_ / turn), 1.0, 1e6);
+    const double parts = std::max(1.0, std::ceil(ripple * step_ / turn));
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
       const double right = part == parts ? clock_ : from + step_ * (part / parts);
       find_event(left, right);

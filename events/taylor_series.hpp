@@ -65,8 +65,8 @@ class SeriesFlow {
   }
 
   /// Whether the equations at s are those that the series was made from.
-  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy,
-                    const Motion& e, const Roundings& inputs) {
+  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy, const Motion& e,
+                    const Roundings& inputs) {
     const double t = now.t + s;
     const auto near = [&](double found, Polynomial c, double allowed) {
       double size = 0.0, rate = 0.0, power = 1.0;

@@ -25,7 +25,7 @@ struct PositionFriction {
                             "largest change as a share of the friction"},
                       Field{&PositionFriction::phase, "phase", unit::degrees, bounds::any, "phase at gear angle zero"}};
   }
-  double ripple(double) const { return 1.0; }
+  double ripple(double) const { return amplitude != T(0) ? 1.0 : 0.0; }
   /// Coefficient of friction out of that without this effect.
   template <class S>
   S friction(const S& mu, const SlidingContact<S>& at) const {

@@ -29,7 +29,7 @@ struct TransmissionError {
   }
   /// Smallest slope of the worm angle over the gear angle, per ratio i.
   double least_slope() const { return 1.0 - std::abs(amplitude); }
-  double ripple(double) const { return 1.0; }
+  double ripple(double) const { return amplitude != T(0) ? 1.0 : 0.0; }
   /// How the worm follows the gear, per ratio i.
   template <class S>
   Transmission<S> transmission(const S& theta_g) const {

@@ -60,7 +60,7 @@ struct GravityLoad {
   void enter(double) {}
   double next_knot(double) const { return std::numeric_limits<double>::infinity(); }
   double fastest() const { return 0.0; }
-  double ripple() const { return 1.0; }
+  double ripple() const { return amplitude != 0.0 ? 1.0 : 0.0; }
 
   /// Load torque tau_l [N m] = amplitude cos(theta_g + offset).
   template <class S>
