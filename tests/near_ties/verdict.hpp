@@ -13,12 +13,12 @@ enum class Verdict {
   undecided,   ///< lists differ; the judge would have taken too long
   silent,      ///< a solver went on in a mode that its state contradicts, or lists differ without a reason
 };
-inline constexpr const char* names[] = {"agree", "differ by rounding", "halt", "agree, not judged",
-                                        "differ, not judged", "silent difference"};
+inline constexpr const char* names[] = {
+    "agree", "differ by rounding", "halt", "agree, not judged", "differ, not judged", "silent difference"};
 
 struct Judgement {
   Verdict verdict;
-  std::string reason{};  ///< of a halt or of a difference, with the solver
+  std::string reason{};  ///< of a halt, and of a difference that is a fault or undecided
 };
 
 /// Runs a case by every solver that takes it; judged, or where lists differ, by the judge as well.

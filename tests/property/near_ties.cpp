@@ -22,7 +22,7 @@ TEST_CASE("near ties: 300 random drives at the edge of an event end as they must
     const Case tie = make_case(1, index);
     const Judgement found = judgement(tie, index % 3 == 0);
     ++verdicts[found.verdict];
-    if (found.verdict != Verdict::silent && found.verdict != Verdict::halt) continue;
+    if (found.reason.empty()) continue;
     faults += "case " + std::to_string(index) + ", " + tie.tie + ": " + found.reason + "\n";
   }
   INFO(faults);

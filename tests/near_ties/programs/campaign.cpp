@@ -71,7 +71,7 @@ int main(int count, char** words) {
       const std::scoped_lock hold(lock);
       ++verdicts[found.verdict];
       ++kinds[tie.tie + (tie.elastic ? ", elastic" : "")][found.verdict];
-      if (found.verdict >= Verdict::undecided || found.verdict == Verdict::halt) {
+      if (!found.reason.empty()) {
         std::printf("case %llu, %s, excess %.3g: %s: %s\n", static_cast<unsigned long long>(k), tie.tie.c_str(),
                     tie.excess, names[static_cast<int>(found.verdict)], found.reason.c_str());
         std::fflush(stdout);
