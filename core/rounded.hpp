@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/jet.hpp"
 #include "core/portable.hpp"
 #include "core/series.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -49,8 +51,12 @@ struct Rounded {
   friend bool operator>(const Rounded& a, const Rounded& b) { return b < a; }
 
   // portable:: is exact to two roundings
-  friend Rounded sin(const Rounded& x) { return of_function(portable::sin(x.value), portable::cos(x.value), x); }
-  friend Rounded cos(const Rounded& x) { return of_function(portable::cos(x.value), -portable::sin(x.value), x); }
+  friend SineAndCosineOf<Rounded> sine_and_cosine(const Rounded& x) {
+    const SineAndCosine at = wormdrive::sine_and_cosine(x.value);
+    return {of_function(at.sine, at.cosine, x), of_function(at.cosine, -at.sine, x)};
+  }
+  friend Rounded sin(const Rounded& x) { return sine_and_cosine(x).sine; }
+  friend Rounded cos(const Rounded& x) { return sine_and_cosine(x).cosine; }
   friend Rounded exp(const Rounded& x) {
     const double y = portable::exp(x.value);
     return of_function(y, y, x);
@@ -111,6 +117,20 @@ int undecided(const Series<Rounded, N>& x, double resolution) {
     if (!outweighed) return k;
   }
   return N + 1;
+}
+
+/// The same for what most starts come to: value or rate decide by far. Only these come with their rounding; second and
+/// third are the coefficients behind them, with some of their own. Nothing where it takes undecided() to tell.
+inline std::optional<int> undecided_at_once(const Series<Rounded, 1>& x, double second, double third,
+                                            double resolution) {
+  if (std::abs(x[0].value) > blur(x, 0, resolution)) return 0;
+  constexpr double far = 4.0;
+  const double size = std::abs(x[1].value);
+  const double unknown = blur(x, 1, resolution) + 2.0 * std::abs(second) * resolution;
+  if (!(size > far * unknown)) return std::nullopt;
+  const double hidden = 4.0 * blur(x, 0, resolution) / size;
+  const bool outweighed = far * hidden * std::max(std::abs(second), std::abs(third) * hidden) > size;
+  return outweighed ? std::nullopt : std::optional(1);
 }
 
 /// Sign of a series just after the present moment, 0 where it vanishes within its rounding. resolution as above.

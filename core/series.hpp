@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include "core/portable.hpp"
+#include "core/sine_cosine.hpp"
 
 namespace wormdrive {
 
@@ -62,11 +63,70 @@ struct Series {
     }
     return r;
   }
+  // A constant has one coefficient: the equations pay for a parameter what a parameter costs, not what a series does.
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator+(Series a, const Constant& b) {
+    a.c[0] += T(b);
+    return a;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator+(const Constant& a, Series b) {
+    b.c[0] = T(a) + b.c[0];
+    return b;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator-(Series a, const Constant& b) {
+    a.c[0] -= T(b);
+    return a;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator-(const Constant& a, const Series& b) {
+    Series r = -b;
+    r.c[0] = T(a) - b.c[0];
+    return r;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator*(Series a, const Constant& b) {
+    const T factor(b);
+    for (T& c : a.c) c = c * factor;
+    return a;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator*(const Constant& a, Series b) {
+    const T factor(a);
+    for (T& c : b.c) c = factor * c;
+    return b;
+  }
+  template <class Constant>
+  requires std::constructible_from<T, Constant>
+  friend Series operator/(Series a, const Constant& b) {
+    const T divisor(b);
+    for (T& c : a.c) c = c / divisor;
+    return a;
+  }
   friend bool operator<=(const Series& a, const Series& b) { return a.c[0] <= b.c[0]; }
   friend bool operator<(const Series& a, const Series& b) { return a.c[0] < b.c[0]; }
   friend bool operator>=(const Series& a, const Series& b) { return b <= a; }
   friend bool operator>(const Series& a, const Series& b) { return b < a; }
 };
+
+/// The scalar of what does not change along the motion: the coefficient of a series, any other scalar itself.
+template <class S>
+struct ConstantOfScalar {
+  using type = S;
+};
+template <class T, int N>
+struct ConstantOfScalar<Series<T, N>> {
+  using type = T;
+};
+template <class S>
+using ConstantOf = typename ConstantOfScalar<S>::type;
 
 /// Sine and cosine of one series, which need each other.
 template <class T, int N>
@@ -74,14 +134,21 @@ struct SineCosine {
   Series<T, N> sine, cosine;
 
   explicit SineCosine(const Series<T, N>& x) {
-    using portable::cos;
-    using portable::sin;
-    sine[0] = sin(x[0]);
-    cosine[0] = cos(x[0]);
+    if constexpr (requires { sine_and_cosine(x[0]); }) {
+      const auto start = sine_and_cosine(x[0]);
+      sine[0] = start.sine;
+      cosine[0] = start.cosine;
+    } else {
+      using std::cos, std::sin;  // Jets have their own
+      sine[0] = sin(x[0]);
+      cosine[0] = cos(x[0]);
+    }
+    std::array<T, N + 1> rate;  // k x[k]
     for (int k = 1; k <= N; ++k) {
+      rate[k] = T(k) * x[k];
       for (int j = 1; j <= k; ++j) {
-        sine[k] += T(j) * x[j] * cosine[k - j];
-        cosine[k] -= T(j) * x[j] * sine[k - j];
+        sine[k] += rate[j] * cosine[k - j];
+        cosine[k] -= rate[j] * sine[k - j];
       }
       sine[k] = sine[k] / T(k);
       cosine[k] = cosine[k] / T(k);

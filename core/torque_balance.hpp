@@ -28,6 +28,7 @@ class TorqueBalance {
     Jg_ = mesh_.Jg + load_.inertia();
     friction_changes_ = effects_.change_friction();
     pitch_varies_ = effects_.pitch_varies();
+    ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
   }
 
   /// The mesh with the inertias that effects add; its friction is that without effects.
@@ -74,7 +75,7 @@ class TorqueBalance {
   }
 
   /// Highest number of periods per radian of the gear in what depends on its angle.
-  double ripple() const { return std::max(effects_.ripple(static_cast<double>(value_of(mesh_.i))), load_.ripple()); }
+  double ripple() const { return ripple_; }
 
   // ---- torques ------------------------------------------------------------------------------------------------
 
@@ -143,6 +144,11 @@ class TorqueBalance {
   }
   template <class S>
   S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
+    if (!friction_changes_ && !pitch_varies_) {
+      using Scalar = ConstantOf<S>;
+      const Scalar C = mesh_.C(Scalar(T(mode.product()) * mesh_.mu));
+      return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+    }
     const S C = mesh_.C(signed_friction(at, mode));
     if (!pitch_varies_) return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
     // the worm's balance, as work at the gear: its lever arms are 1/k of those of an even pitch
@@ -171,6 +177,7 @@ class TorqueBalance {
   T Jw_i_{}, Jg_{};
   bool friction_changes_ = false;  ///< else C is that of the mesh alone
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
+  double ripple_ = 0.0;
 };
 
 }  // namespace wormdrive

@@ -129,23 +129,20 @@ class Audit {
     long steps = finer * std::max(least_steps, solver_steps);
     // the scale of an input or of what swings with an angle, which the solver may have passed over; as fine as where
     // the drive rests and nothing else tells what happens in between
-    const double turn = System::at_rest(start.mode) ? 0.05 : 0.25;
+    const double phase = phase_between_looks(System::at_rest(start.mode));
     const double swing =
         std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
-    steps = std::max(steps, std::lround(finer * swing * span / turn));
+    steps = std::max(steps, std::lround(finer * swing * span / phase));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
-    Guards here = system_.guards_ahead(now);
-    std::array<double, System::guard_count> floor{};
-    for (int g = 0; g < System::guard_count; ++g)
-      if (here[g][0] <= 0.0) floor[g] = guard_start(system_, now, g, here[g]).floor;
+    const auto floor = guard_starts(system_, now, system_.guards_ahead(now)).floor;
     const auto guards_at = [&](const Instant& at) {
       Guards guards = system_.guards_ahead(at);
       for (int g = 0; g < System::guard_count; ++g) guards[g][0] += floor[g];
       return guards;
     };
-    here = guards_at(now);
+    Guards here = guards_at(now);
     std::array<Watched, System::guard_count> watched{};
     const double stored_at_start = stored_energy(system_, start);
     Power work{0.0, 0.0, 0.0};

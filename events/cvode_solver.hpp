@@ -134,20 +134,20 @@ class CvodeSolver {
   }
   /// Goes on by the first step of the motion from rest; false where that is over, and CVODE has begun behind it.
   bool first_step(Instant& now, double next, double limit) requires Foresees<System> {
-    if (!first_) {
-      first_.emplace(system_, now, limit, longest_step(now), settings_);
-      total_.evaluations += first_->evaluations();
-      ++total_.steps;
+    do {
+      if (!first_) {
+        first_.emplace(system_, now, limit, longest_step(now), settings_);
+        total_.evaluations += first_->evaluations();
+        ++total_.steps;
+      }
       leaves_rest_ = false;
-    }
-    if (now.t < first_->end()) {
-      now = first_->at(std::min(next, first_->end()));
-      if (now.t == next || first_->fired() != no_guard) return true;
-    }
-    first_.reset();
+      if (now.t < first_->end()) {
+        now = first_->at(std::min(next, first_->end()));
+        if (now.t == next || first_->fired() != no_guard) return true;
+      }
+      first_.reset();
+    } while (creeps(now) && ++first_steps_ < most_first_steps);
     ahead_ = now;
-    leaves_rest_ = creeps(now) && ++first_steps_ < most_first_steps;
-    if (leaves_rest_) return first_step(now, next, limit);
     begin();
     return false;
   }
@@ -169,14 +169,10 @@ class CvodeSolver {
     check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0));
     limit_ = std::numeric_limits<double>::quiet_NaN();
     floor_.fill(0.0);
+    const auto starts = guard_starts(system_, ahead_, guards_at(ahead_));
+    floor_ = starts.floor;
+    fired_ = starts.fallen;
     guards_ = guards_at(ahead_);
-    for (int g = 0; g < System::guard_count; ++g) {
-      if (guards_[g][0] > 0.0) continue;
-      const GuardStart start = guard_start(system_, ahead_, g, guards_[g]);
-      if (start.falls) fired_ = g;
-      floor_[g] = start.floor;
-      guards_[g][0] += start.floor;
-    }
   }
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
@@ -190,16 +186,16 @@ class CvodeSolver {
     step_ = clock_ - from;
     ahead_.x = state();
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
-    const double parts = std::max(1.0, std::ceil(ripple * step_ / turn));
+    const double parts = std::max(1.0, std::ceil(ripple * step_ / phase_between_looks(false)));
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
       const double right = part == parts ? clock_ : from + step_ * (part / parts);
-      find_event(left, right);
+      find_event(left, right, part == parts ? ahead_ : at(right));
       left = right;
     }
   }
   /// The first guard that falls through zero within a part of the latest step.
-  void find_event(double left, double right) {
-    const Guards there = guards_at(at(right));
+  void find_event(double left, double right, const Instant& end) {
+    const Guards there = guards_at(end);
     double first = right;
     for (int g = 0; g < System::guard_count; ++g) {
       const auto guard = [&](double clock) { return guards_at(at(clock))[g]; };
@@ -230,9 +226,8 @@ class CvodeSolver {
   /// Within the longest step [s] a guard turns at most once, whatever the tolerance lets pass.
   double longest_step(const Instant& now) const {
     const double omega = system_.fastest_input(now.t);
-    return omega > 0.0 ? std::min(settings_.max_step, turn / omega) : settings_.max_step;
+    return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
-  static constexpr double turn = 0.25;  ///< angle [rad] that the fastest input may pass between two looks at the guards
 
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }

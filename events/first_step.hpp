@@ -25,23 +25,26 @@ class FirstStep {
   /// From now on, no further than limit [s] and max_step.
   FirstStep(const System& system, const Instant& now, double limit, double max_step, const SolverSettings& settings)
       : system_(system), begin_(now), accuracy_(settings) {
-    const auto at = system.template ahead<order + 1, Rounded>(now);
+    const auto at = system.template ahead<order + 1>(now);
+    const auto start = system.template ahead<leading, Rounded>(now);
     const auto flow = System::state_at(at);
+    const auto rounded = System::state_at(start);
     const auto guards = system.guards(at, now.mode);
+    const auto rounded_guards = system.guards(start, now.mode);
     double h = std::min(limit - now.t, max_step);
     for (int shaft = 0; shaft < shafts; ++shaft) {
       Motion& e = motion_[shaft];
       e.order = order;
-      take(flow[2 * shaft], e.theta);
-      take(flow[2 * shaft + 1], e.omega);
-      rounding_[shaft] = 16.0 * flow[2 * shaft + 1][1].rounding;
-      for (int g = 0; g < System::guard_count; ++g) take(guards[g], e.guards[g]);
+      take(flow[2 * shaft], rounded[2 * shaft], e.theta);
+      take(flow[2 * shaft + 1], rounded[2 * shaft + 1], e.omega);
+      rounding_[shaft] = roundings_of_series * rounded[2 * shaft + 1][1].rounding;
+      for (int g = 0; g < System::guard_count; ++g) take(guards[g], rounded_guards[g], e.guards[g]);
       h = accuracy_.step(e, h);
     }
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit - now.t ? now.t + h : limit;
     if (end_ == now.t) end_ = std::nextafter(now.t, limit);
-    find_events(guards);
+    find_events(rounded_guards);
   }
 
   double end() const { return end_; }          ///< [s]
@@ -60,11 +63,12 @@ class FirstStep {
 
  private:
   static constexpr int order = 8, shafts = System::state_size / 2;
+  static constexpr int leading = 4;  ///< coefficients that decide where the motion goes, and are more than rounding
   using Motion = Expansion<System::guard_count>;
 
-  /// Coefficients that are more than rounding; a value is what it is.
-  static void take(const Series<Rounded, order + 1>& from, Coefficients& to) {
-    for (int k = 0; k <= order + 1; ++k) to[k] = k > 0 && from[k].vanishes() ? 0.0 : from[k].value;
+  /// Coefficients without those that are rounding; a value is what it is.
+  static void take(const Series<double, order + 1>& from, const Series<Rounded, leading>& rounded, Coefficients& to) {
+    for (int k = 0; k <= order + 1; ++k) to[k] = k > 0 && k <= leading && rounded[k].vanishes() ? 0.0 : from[k];
   }
 
   /// Whether the equations at s are those that the series was made from: a table changes its law on the way.

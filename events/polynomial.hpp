@@ -13,6 +13,13 @@ inline constexpr int highest_order = 24;  ///< of a power series of the speed
 /// One power series in the time since a step began.
 using Coefficients = std::array<double, highest_order + 2>;
 
+/// 1/k.
+inline constexpr auto reciprocal = [] {
+  std::array<double, highest_order + 3> r{};
+  for (std::size_t k = 1; k < r.size(); ++k) r[k] = 1.0 / static_cast<double>(k);
+  return r;
+}();
+
 /// Coefficients c[0], c[1], ... of the polynomial c[0] + c[1] s + ... in the time s since a step began.
 using Polynomial = std::span<const double>;
 

@@ -28,14 +28,10 @@ class RestWatch {
 
   /// The first crossing in [now.t, end].
   std::optional<Crossing> first_crossing(double end) {
+    const auto starts = guard_starts(system_, now_, guards_at(now_.t));
+    if (starts.fallen != no_guard) return Crossing{now_.t, starts.fallen};
+    floor_ = starts.floor;
     Guards left = guards_at(now_.t);
-    for (int g = 0; g < System::guard_count; ++g) {
-      if (left[g][0] > 0.0) continue;
-      const GuardStart start = guard_start(system_, now_, g, left[g]);
-      if (start.falls) return Crossing{now_.t, g};
-      floor_[g] = start.floor;
-      left[g][0] += floor_[g];
-    }
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
     if (system_.fastest_input(now_.t) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
     for (double a = now_.t; a < end;) {
@@ -76,7 +72,7 @@ class RestWatch {
   /// Short against the fastest input from a on, so that a guard turns at most once within a step.
   double step_from(double a, double end) const {
     const double omega = system_.fastest_input(a), span = end - now_.t;
-    return omega > 0.0 ? std::min(0.05 / omega, span) : span / 8.0;
+    return omega > 0.0 ? std::min(phase_between_looks(true) / omega, span) : span / 8.0;
   }
 
   const System& system_;

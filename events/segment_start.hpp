@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
+#include <cstddef>
 
 #include "core/rounded.hpp"
+#include "events/timetable.hpp"
 
 namespace wormdrive {
 
@@ -36,5 +38,31 @@ GuardStart guard_start(const System& system, const typename System::Instant& now
     return {at_start[0] <= 0.0 && at_start[1] < 0.0, 0.0};
   }
 }
+
+/// The guards where a segment starts.
+template <std::size_t count>
+struct GuardStarts {
+  std::array<double, count> floor{};  ///< what is added to each, so that those that start at zero start positive
+  int fallen = no_guard;              ///< one that is over at once
+};
+template <class System, class Guard, std::size_t count>
+GuardStarts<count> guard_starts(const System& system, const typename System::Instant& now,
+                                const std::array<Guard, count>& at_start) {
+  GuardStarts<count> starts;
+  for (std::size_t g = 0; g < count; ++g) {
+    if (at_start[g][0] > 0.0) continue;
+    const GuardStart start = guard_start(system, now, static_cast<int>(g), at_start[g]);
+    starts.floor[g] = start.floor;
+    if (start.falls && starts.fallen == no_guard) starts.fallen = static_cast<int>(g);
+  }
+  return starts;
+}
+
+/// Phase [rad] of the fastest input, or of what swings with an angle, from one look at the guards to the next: so small
+/// that a guard turns at most once in between. At rest nothing but these looks tells what the torques do.
+inline double phase_between_looks(bool at_rest) { return at_rest ? 0.05 : 0.25; }
+
+/// So many times the rounding of what the equations give at a start, series that begin there may be wrong on their way.
+inline constexpr double roundings_of_series = 16.0;
 
 }  // namespace wormdrive

@@ -50,6 +50,19 @@ class TaylorAccuracy {
   /// low, for near a root the guards have to be exact to rounding whatever the tolerance.
   int order() const { return order_; }
 
+  /// What rounding leaves unknown of a sum of terms over a step of h.
+  static double rounding_of(Polynomial c, double h) {
+    const double square = h * h;
+    Pair size{0.0, 0.0}, power{1.0, h};
+    std::size_t k = 0;
+    for (; k + 1 < c.size(); k += 2, power *= square) {
+      const Pair term = pair_at(&c[k]);
+      size += (term < 0.0 ? -term : term) * power;
+    }
+    if (k < c.size()) size[0] += std::abs(c[k]) * power[0];
+    return 4.0 * std::numeric_limits<double>::epsilon() * (size[0] + size[1]);
+  }
+
   /// Whether the last terms of speed and guards are negligible over a step of h.
   template <class Expansion>
   bool suffices(Expansion& e, double h) const {
@@ -102,22 +115,16 @@ class TaylorAccuracy {
     for (int k = e.order - window + 1; k <= e.order; ++k) left_out += std::abs(guard[k]) * (power *= h);
     e.positive[g] = stays_positive(guard, h, left_out);
     if (e.positive[g]) return h;
-    double size = 0.0;
-    power = 1.0;
-    for (const double c : guard) {
-      size += std::abs(c) * power;
-      power *= h;
-    }
-    double longest = h;
+    double most = 0.0;
     power = before;
     for (int k = e.order - window + 1; k <= e.order; ++k) {
       // of the last two each has to be below rounding, of those before them as much less as terms fall
       power *= h;
-      const double slack = k + 1 < e.order ? std::ldexp(1.0, 4 * (e.order - k)) : 1.0;
-      const double excess = std::abs(guard[k]) * power / (slack * 4.0 * std::numeric_limits<double>::epsilon() * size);
-      if (excess > 1.0) longest = std::min(longest, h * rough_exp2(-rough_log2(excess) / (e.order - 1)));
+      const double share = k + 1 < e.order ? rough_exp2(-4.0 * (e.order - k)) : 1.0;  // exact: a power of two
+      most = std::max(most, std::abs(guard[k]) * power * share);
     }
-    return longest;
+    const double excess = most / rounding_of(guard, h);
+    return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / (e.order - 1)) : h;
   }
 
   double absolute_;  ///< of the speed [rad/s]

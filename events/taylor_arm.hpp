@@ -7,13 +7,6 @@
 
 namespace wormdrive {
 
-/// 1/k.
-inline constexpr auto reciprocal = [] {
-  std::array<double, highest_order + 3> r{};
-  for (std::size_t k = 1; k < r.size(); ++k) r[k] = 1.0 / static_cast<double>(k);
-  return r;
-}();
-
 /// Cosine and sine of an angle that moves, as power series side by side.
 class ArmSeries {
  public:

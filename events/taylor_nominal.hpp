@@ -12,6 +12,7 @@
 #include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
 #include "events/taylor_arm.hpp"
+#include "events/taylor_input.hpp"
 #include "events/taylor_leap.hpp"
 #include "events/taylor_stribeck.hpp"
 
@@ -127,6 +128,20 @@ class NominalFlow<WormDrive<double, Load>> {
     return true;
   }
 
+  /// Sizes of the terms of which the rates of the guards are the sums where the latest step begins: what their rounding
+  /// is a share of. Nothing where friction falls over the speed.
+  std::optional<std::array<double, System::guard_count>> rate_terms(const Motion& e) const {
+    if (curve_.falls()) return std::nullopt;
+    const DrivenMotion& m = mode_->driven;
+    const double load = swings ? std::abs(m.held.gravity) : std::abs(gear_torque_[0] * mode_->per_gear_torque);
+    const double load_rate = swings ? m.held.lift * arm_.cosine(1) : surface_ * gear_torque_[1];
+    std::array<double, System::guard_count> terms{};
+    terms[System::speed_guard] = std::abs(m.friction.push) + std::abs(worm_torque_[0] * m.per_worm_torque) + load +
+                                 std::abs(m.held.drag * e.omega[0]);
+    terms[System::flank_guard] = std::abs(worm_torque_[1]) + std::abs(load_rate) + std::abs(m.held.skew * e.omega[1]);
+    return terms;
+  }
+
   /// The motion from now on, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     return curve_.falls() ? expand<true>(now, h, accuracy, e) : expand<false>(now, h, accuracy, e);
@@ -138,17 +153,17 @@ class NominalFlow<WormDrive<double, Load>> {
     const Equation& m = *mode_;
     if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
     const int last = accuracy.order();
-    input(motor_, now.t, last, worm_torque_);
+    expand_input(motor_, now.t, last, worm_torque_);
     worm_torque_[0] += disturbance_;
     if constexpr (swings) {
       arm_.begin(arm_at(now.x[0]));
     } else {
-      input(load_.piece, now.t, last, gear_torque_);
+      expand_input(load_.piece, now.t, last, gear_torque_);
     }
 
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
-    const double allowed = accuracy.allowed(e.omega[0], h);
+    double allowed = accuracy.allowed(e.omega[0], h);
     double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
     bool suffices = false;
     const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {
@@ -159,6 +174,8 @@ class NominalFlow<WormDrive<double, Load>> {
           complete(m, k, e);
           suffices = accuracy.suffices(e, h) && (!falls || curve_.holds(k, h));
           if (suffices) return false;
+          // a guard is near its root, and has to be exact to rounding; the speed has to be before it can be
+          allowed = std::min(allowed, TaylorAccuracy::rounding_of(e.speed(), h) / h);
         }
       power *= h;
       // What is known first comes first: the series waits for the load.
@@ -233,23 +250,6 @@ class NominalFlow<WormDrive<double, Load>> {
   const SineAndCosine& arm_at(double theta_g) {
     if (theta_g != arm_now_at_) look(theta_g);
     return arm_now_;
-  }
-
-  /// Sets c to the coefficients of an input, up to the last that is asked for.
-  static void input(const Piece& piece, double t, int last, Coefficients& c) {
-    std::fill_n(c.begin(), last + 1, 0.0);
-    c[0] = piece.constant + piece.slope * (t - piece.start);
-    c[1] = piece.slope;
-    for (const Cosine& wave : piece.cosines) {
-      const SineAndCosine now = sine_and_cosine(wave.omega * t + wave.phase);
-      const std::array<double, 4> derivatives{wave.amplitude * now.cosine, -wave.amplitude * now.sine,
-                                              -wave.amplitude * now.cosine, wave.amplitude * now.sine};
-      double weight = 1.0;  // omega^k / k!
-      for (int k = 0; k <= last; ++k) {
-        c[k] += weight * derivatives[k % 4];
-        weight *= wave.omega * reciprocal[k + 1];
-      }
-    }
   }
 
   /// Angle and guards to the order to which the speed is known.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/rounded.hpp"
+#include "events/segment_start.hpp"
 #include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
 
@@ -40,11 +41,10 @@ class SeriesFlow {
   static Roundings roundings(const System& system, const Instant& now) {
     const auto ahead = system.template ahead<1, Rounded>(now);
     const auto guards = system.guards(ahead, now.mode);
-    Roundings of{sixteenfold * ahead.omega_g[1].rounding, {}};
-    for (int g = 0; g < System::guard_count; ++g) of.guards[g] = sixteenfold * guards[g][0].rounding;
+    Roundings of{roundings_of_series * ahead.omega_g[1].rounding, {}};
+    for (int g = 0; g < System::guard_count; ++g) of.guards[g] = roundings_of_series * guards[g][0].rounding;
     return of;
   }
-  static constexpr double sixteenfold = 16.0;  ///< the rounding is that of the start, and the series adds its own
 
   template <int order>
   static void to_order(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {

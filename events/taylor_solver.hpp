@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "events/halt.hpp"
 #include "events/polynomial_root.hpp"
@@ -36,8 +38,8 @@ class TaylorSolver {
   Instant jump(const Instant& now, int guard) {
     if constexpr (NominalFlow<System>::known)
       if (!System::at_rest(now.mode) && guard == System::flank_guard &&
-          falls_through(series_.guard(guard), length_, 16.0 * guard_series<0>(system_, now)[guard][0].rounding,
-                        time_resolution(now.t)))
+          falls_through(series_.guard(guard), length_,
+                        roundings_of_series * guard_series<0>(system_, now)[guard][0].rounding, time_resolution(now.t)))
         return {now.t, now.x, System::across_surface(now.mode), now.since};
     return system_.jump(now, guard);
   }
@@ -135,15 +137,14 @@ class TaylorSolver {
     std::array<std::size_t, System::guard_count> vanishing{};
     for (int g = 0; g < System::guard_count; ++g)
       if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(now, g);
-    if (!armed_[System::speed_guard] && now.x[1] == 0.0) leave_rest(now, vanishing[System::speed_guard]);
 
     // The end of the step is a double, and the step ends there exactly.
     end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
-    const double ulp = std::nextafter(now.t, limit) - now.t;
     stalled_ = end_ == now.t ? stalled_ + 1 : 0;
     if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
     // Shorter than time is resolved: the state goes on, and the clock follows. At a branch of the equations, which no
     // such step gets across, both go on by what time resolves.
+    const double ulp = end_ == now.t ? std::nextafter(now.t, limit) - now.t : 0.0;
     const bool brief = end_ == now.t && value(series_.speed(), series_.step) != now.x[1];
     if (end_ == now.t && !brief) end_ = now.t + ulp;
     length_ = brief ? series_.step : end_ - now.t;
@@ -173,23 +174,45 @@ class TaylorSolver {
   }
 
   /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
-  std::size_t vanishing_at_start(const Instant& now, int guard) const {
+  std::size_t vanishing_at_start(const Instant& now, int guard) {
     const Polynomial c = series_.guard(guard);
     const double size = system_.guard_terms(system_.moment(now), now.mode)[guard], resolution = time_resolution(now.t);
-    if (c[0] > 1e-9 * size && c[0] > std::abs(c[1]) * resolution) return 0;  // rounding is far below
+    if (c[0] > share_of_rounding(now) * size && c[0] > std::abs(c[1]) * resolution) return 0;
+    if (rises(now, guard, size)) return 1;
+    if (const auto few = undecided_at_once(guard_series<1>(system_, now)[guard], c[2], c[3], resolution)) return *few;
     constexpr int last = 4;
-    const int vanishing = undecided(guard_series<last>(system_, now)[guard], resolution);
+    const auto ahead = guard_series<last>(system_, now)[guard];
+    const int vanishing = undecided(ahead, resolution);
+    if (guard == System::speed_guard && now.x[1] == 0.0) leave_rest(ahead, vanishing, resolution);
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
+  }
+  /// Far above what sums round: phases of inputs and angles are known to their own rounding only.
+  double share_of_rounding(const Instant& now) const {
+    const double phase = system_.fastest_input(now.t) * std::abs(now.t) + system_.ripple() * std::abs(now.x[0]);
+    return 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * phase;
+  }
+  /// Whether a guard that begins at zero, to rounding, certainly rises, as most do. size: of the terms of its value.
+  bool rises(const Instant& now, int guard, double size) const {
+    if constexpr (NominalFlow<System>::known) {
+      const auto rates = nominal_.covers() ? nominal_.rate_terms(series_) : std::nullopt;
+      const Polynomial c = series_.guard(guard);
+      if (!rates || !(c[1] > 0.0)) return false;
+      const double share = share_of_rounding(now), resolution = time_resolution(now.t), far = 4.0;
+      // more than the least that it could be rounded by is a value, and moves its next root
+      if (std::abs(c[0]) > 2.0 * std::numeric_limits<double>::epsilon() * size + c[1] * resolution) return false;
+      const double hidden = share * size / c[1] + resolution;  // how long [s] rounding hides the rise
+      return c[1] > far * (share * (*rates)[guard] + std::abs(c[2]) * (hidden + resolution) +
+                           std::abs(c[3]) * hidden * hidden);
+    }
+    return false;
   }
 
   /// Motion from rest: what the start holds of speed and acceleration may be rounding, and would point anywhere. A
   /// coefficient that is more than rounding counts, though another may outweigh it.
-  void leave_rest(const Instant& now, std::size_t vanishing) {
-    if (vanishing == 0) return;
-    constexpr int last = 4;
-    const auto speed = guard_series<last>(system_, now)[System::speed_guard];
-    for (int k = 0; k <= last && static_cast<std::size_t>(k) < vanishing; ++k)
-      if (std::abs(speed[k].value) <= blur(speed, k, time_resolution(now.t)))
+  template <int last>
+  void leave_rest(const Series<Rounded, last>& speed, int vanishing, double resolution) {
+    for (int k = 0; k <= last && k < vanishing; ++k)
+      if (std::abs(speed[k].value) <= blur(speed, k, resolution))
         series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
   }
 

@@ -27,7 +27,7 @@ struct Cogging {
         Field{&Cogging::periods, "periods", unit::none, bounds::positive, "periods per turn of the worm"},
         Field{&Cogging::phase, "phase", unit::degrees, bounds::any, "phase at worm angle zero"}};
   }
-  double ripple(double i) const { return amplitude != T(0) ? i * static_cast<double>(periods) : 0.0; }
+  double ripple(double i) const { return amplitude != T(0) ? i * value_of(periods) : 0.0; }
   /// Motor torque [N m] for a command.
   template <class S>
   S motor_torque(const S& command, const Moment<S>& at) const {

@@ -1,0 +1,28 @@
+#pragma once
+#include <algorithm>
+#include <array>
+
+#include "core/piece.hpp"
+#include "core/sine_cosine.hpp"
+#include "events/polynomial.hpp"
+
+namespace wormdrive {
+
+/// Sets c to the coefficients of an input, up to the last that is asked for.
+inline void expand_input(const Piece& piece, double t, int last, Coefficients& c) {
+  std::fill_n(c.begin(), last + 1, 0.0);
+  c[0] = piece.constant + piece.slope * (t - piece.start);
+  c[1] = piece.slope;
+  for (const Cosine& wave : piece.cosines) {
+    const SineAndCosine now = sine_and_cosine(wave.omega * t + wave.phase);
+    const std::array<double, 4> derivatives{wave.amplitude * now.cosine, -wave.amplitude * now.sine,
+                                            -wave.amplitude * now.cosine, wave.amplitude * now.sine};
+    double weight = 1.0;  // omega^k / k!
+    for (int k = 0; k <= last; ++k) {
+      c[k] += weight * derivatives[k % 4];
+      weight *= wave.omega * reciprocal[k + 1];
+    }
+  }
+}
+
+}  // namespace wormdrive
