@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/describe.hpp"
+#include "scenarios/keys.hpp"
 
 namespace wormdrive {
 namespace {
@@ -63,8 +64,10 @@ void print_failures(const ReasonTable& reasons) {
     print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
 }
 
-void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double tolerance) {
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study) {
   if (verdicts.empty()) return;
+  const std::string rad = units_on(study.scenario.axis, "rad"), rad_per_s = units_on(study.scenario.axis, "rad/s");
+  const std::string_view angles = study.scenario.axis == Axis::linear ? "positions" : "angles";
   Disagreement replayed, closed;
   std::vector<std::uint64_t> others;
   std::size_t in_loop = 0, parted = 0;
@@ -79,16 +82,17 @@ void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double toleranc
       ++parted;
       if (!first_parted || *at < *first_parted->in_loop.parted) first_parted = &verdict;
     }
-    if (!verdict.agrees(tolerance)) others.push_back(verdict.trial);
+    if (!verdict.agrees(study.referee_tolerance)) others.push_back(verdict.trial);
   }
   std::sort(others.begin(), others.end());
-  print_item("referee", fmt::format("{} trials again with cvode under the recorded torque: angles within {:.2g} rad, "
-                                    "speeds within {:.2g} rad/s",
-                                    verdicts.size(), replayed.angle, replayed.speed));
+  print_item("referee", fmt::format("{} trials again with cvode under the recorded {}: {} within {:.2g} {}, "
+                                    "speeds within {:.2g} {}",
+                                    verdicts.size(), in_words_of(study.scenario.axis, "torque"), angles, replayed.angle,
+                                    rad, replayed.speed, rad_per_s));
   if (in_loop > 0)
-    print_item("referee", fmt::format("{} of them with their own controller: angles within {:.2g} rad, speeds within "
-                                      "{:.2g} rad/s",
-                                      in_loop, closed.angle, closed.speed));
+    print_item("referee", fmt::format("{} of them with their own controller: {} within {:.2g} {}, speeds within "
+                                      "{:.2g} {}",
+                                      in_loop, angles, closed.angle, rad, closed.speed, rad_per_s));
   if (parted > 0)
     print_item("referee",
                fmt::format("in {} of them, with their own controller, the sensor's counts part; first in trial "
@@ -97,9 +101,9 @@ void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double toleranc
   constexpr std::size_t most = 10;
   const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
   if (!others.empty())
-    print_item("referee", fmt::format("disagrees by more than {:g} rad, or cannot go on, in {} of them: trial{} {}{}",
-                                      tolerance, others.size(), others.size() == 1 ? "" : "s", fmt::join(first, ", "),
-                                      others.size() > most ? ", ..." : ""));
+    print_item("referee", fmt::format("disagrees by more than {:g} {}, or cannot go on, in {} of them: trial{} {}{}",
+                                      study.referee_tolerance, rad, others.size(), others.size() == 1 ? "" : "s",
+                                      fmt::join(first, ", "), others.size() > most ? ", ..." : ""));
 }
 
 std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {

@@ -27,6 +27,6 @@ void print_failures(const ReasonTable& reasons);
 std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most);
 
 /// Prints how far CVODE is from the trials that it has judged, and with which it disagrees; tolerance [rad].
-void print_verdicts(const std::vector<RefereeVerdict>& verdicts, double tolerance);
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study);
 
 }  // namespace wormdrive

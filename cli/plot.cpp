@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/describe.hpp"
 #include "cli/result_file.hpp"
+#include "scenarios/document.hpp"
 #include "scenarios/faults.hpp"
 
 extern char** environ;
@@ -47,8 +48,8 @@ int run_script(const std::vector<std::string>& arguments) {
 int plot_command(const PlotOptions& options) {
   Faults faults;
   for (const std::string& file : options.files)
-    if (std::error_code none; !std::filesystem::exists(file, none))
-      faults.add({file}, "cannot be read: No such file or directory");
+    if (const auto why = why_unreadable(file))
+      faults.add({file}, *why);
     else if (!is_hdf5(file))
       faults.add({file}, "not an HDF5 file; wormdrive run writes one");
   faults.raise();

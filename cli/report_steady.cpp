@@ -93,10 +93,10 @@ ReportTable record_table(const ResultFile& file) {
 
 ReportTable curve_table(const ReportPanel& curve, const std::string& speed_unit) {
   const ReportSeries& torque = curve.series.front();
-  const std::string motor = torque.units == "N" ? "motor force" : "motor torque";
+  const std::string quantity = torque.units == "N" ? "motor force" : "motor torque";
   ReportTable table{
-      fmt::format("M{} at constant speed", motor.substr(1)),
-      {{fmt::format("speed [{}]", speed_unit), true}, {fmt::format("{} [{}]", motor, torque.units), true}},
+      fmt::format("M{} at constant speed", quantity.substr(1)),
+      {{fmt::format("speed [{}]", speed_unit), true}, {fmt::format("{} [{}]", quantity, torque.units), true}},
       {}};
   for (const std::size_t k : even_rows(curve.over.size(), 11))
     if (!std::isnan(torque.values[k])) table.rows.push_back({curve.over[k], torque.values[k]});

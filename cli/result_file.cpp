@@ -1,20 +1,16 @@
 #include "cli/result_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include "output/check_result.hpp"
 #include "output/read_ahead.hpp"
+#include "scenarios/document.hpp"
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
 
 ResultFile::ResultFile(const std::string& path) : path_(path) {
-  if (std::error_code why; !std::filesystem::exists(path, why))
-    refuse({path}, fmt::format("cannot be read: {}", std::strerror(ENOENT)));
+  if (const auto why = why_unreadable(path)) refuse({path}, *why);
   if (!is_hdf5(path)) refuse({path}, "is no result file (HDF5); wormdrive run writes one");
   try {
     read_ahead(path);

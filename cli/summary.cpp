@@ -154,7 +154,7 @@ int summary_command(const SummaryOptions& options) {
                            summary.done_only ? fmt::format("all else is told of the {} that are done", summary.done)
                                              : "they count as the worst, without them: --done-only"));
   for (const std::string& reason : sweep.reasons()) print_item("", reason);
-  print_verdicts(sweep.verdicts(), sweep.study().referee_tolerance);
+  print_verdicts(sweep.verdicts(), sweep.study());
   print_thresholds(summary);
   print_conditions(summary);
   print_metrics(summary);

@@ -103,7 +103,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
                                 before > 0 ? fmt::format("; {} were there already", before) : ""));
   print_cost(cost);
   print_failures(SweepReader(output).counted_reasons());
-  print_verdicts(verdicts, study.referee_tolerance);
+  print_verdicts(verdicts, study);
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
   return 0;
 }

@@ -219,7 +219,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
                                 there > made ? fmt::format("; {} were there already", there - made) : ""));
   const SweepReader result(output);
   print_failures(result.counted_reasons());
-  print_verdicts(result.verdicts(), study.referee_tolerance);
+  print_verdicts(result.verdicts(), study);
   print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
   return 0;
 }

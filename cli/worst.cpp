@@ -7,6 +7,7 @@
 #include "cli/shell_words.hpp"
 #include "scenarios/build_control.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/keys.hpp"
 #include "scenarios/second_opinion.hpp"
 #include "sweep/threads.hpp"
 #include "sweep/worst_case.hpp"
@@ -24,7 +25,9 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
     if (m.name == metric) said = fmt::format("with cvode {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = second_opinion(scenario);
-  return said + fmt::format("; under the same torque angles within {:.2g} rad", found.angle);
+  return said + fmt::format("; under the same {} {} within {:.2g} {}", in_words_of(scenario.axis, "torque"),
+                            scenario.axis == Axis::linear ? "positions" : "angles", found.angle,
+                            units_on(scenario.axis, "rad"));
 }
 
 }  // namespace

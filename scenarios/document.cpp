@@ -52,9 +52,15 @@ toml::table parse(std::string_view text, const std::string& name) {
 
 }  // namespace
 
+std::optional<std::string> why_unreadable(const std::string& path) {
+  if (std::error_code none; std::filesystem::is_directory(path, none)) return "cannot be read: it is a directory";
+  errno = 0;
+  if (std::ifstream(path, std::ios::binary).good()) return std::nullopt;
+  return fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO));
+}
+
 std::string read_text(const std::string& path) {
-  if (std::error_code none; std::filesystem::is_directory(path, none))
-    refuse({path}, "cannot be read: it is a directory");
+  if (const auto why = why_unreadable(path)) refuse({path}, *why);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string text;

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "scenarios/faults.hpp"
 
 namespace wormdrive {
+
+/// Why a file cannot be read, as for its name ("cannot be read: Permission denied"); nothing if it can.
+std::optional<std::string> why_unreadable(const std::string& path);
 
 /// Text of a file; throws InputFault if it cannot be read.
 std::string read_text(const std::string& path);

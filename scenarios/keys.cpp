@@ -31,6 +31,7 @@ Spelling linear(std::string_view name, const Unit& unit) {
 }
 
 Spelling with_suffix(Spelling s) {
+  s.stem = s.key;
   if (!s.unit.suffix.empty()) s.key += fmt::format("_{}", s.unit.suffix);
   return s;
 }

@@ -13,6 +13,7 @@ namespace wormdrive {
 struct Spelling {
   std::string key;
   Unit unit;
+  std::string stem{};  ///< the key without its unit
 };
 
 /// The spellings under which a field may be written, the preferred one first: angles in deg or rad,

@@ -89,7 +89,7 @@ TrialRange check_sweep(hid_t file, const Study& study) {
       if (there && !std::isfinite(value))
         trials.column(p.name).refuse(fmt::format("holds {} for trial {}, which is not finite", value, trial));
     });
-  for (const ColumnDescription& column : verdict_columns()) referee.check(column, Range::any);
+  for (const ColumnDescription& column : verdict_columns(study.scenario.axis)) referee.check(column, Range::any);
   check_referee(referee, range);
   return range;
 }

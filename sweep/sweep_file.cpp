@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "output/program.hpp"
+#include "scenarios/keys.hpp"
 #include "scenarios/write_scenario.hpp"
 #include "sweep/summary_tables.hpp"
 
@@ -35,8 +36,8 @@ std::vector<ColumnDescription> trial_columns(const Study& study) {
   return list;
 }
 
-std::vector<ColumnDescription> verdict_columns() {
-  return {
+std::vector<ColumnDescription> verdict_columns(Axis axis) {
+  std::vector<ColumnDescription> list{
       {"judged", "1", "1: CVODE has run the trial again, 2: it could not go on, 0: the row is not used"},
       {"trial", "1", "index of the trial"},
       {"angle_difference", "rad", "largest difference of the gear angle under the recorded motor torque"},
@@ -48,6 +49,11 @@ std::vector<ColumnDescription> verdict_columns() {
       {"closed_speed_difference", "rad/s", "of the gear speed"},
       {"closed_time", "s", "when these angles differ most"},
       {"parted", "s", "where a sensor rounds to counts: first sample with another count; not a number if none has"}};
+  for (ColumnDescription& column : list) {
+    column.units = units_on(axis, column.units);
+    column.long_name = in_words_of(axis, column.long_name);
+  }
+  return list;
 }
 
 void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
@@ -63,14 +69,15 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
   FixedTable::create(file.file(), "trials", trial_columns(study), range.size());
-  FixedTable::create(file.file(), "referee", verdict_columns(), most_verdicts);
+  FixedTable::create(file.file(), "referee", verdict_columns(study.scenario.axis), most_verdicts);
   create_summary_tables(file.file(), study);
   file.finish();
 }
 
 SweepFile::SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons,
                      Replace replace)
-    : range_(range),
+    : axis_(study.scenario.axis),
+      range_(range),
       file_(PartFile::reopened(path, "sweep", replace)),
       columns_(study.parameters.size() + study.metrics.size() + 3),
       reasons_(std::move(reasons)),
@@ -155,7 +162,7 @@ void SweepFile::drop_from(std::uint64_t trial) {
 
 void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
   const std::size_t count = std::min(verdicts.size(), most_verdicts);
-  std::vector<std::vector<double>> columns(verdict_columns().size());
+  std::vector<std::vector<double>> columns(verdict_columns(axis_).size());
   for (std::size_t k = 0; k < count; ++k) {
     const auto& [trial, found, in_loop, halted] = verdicts[k];
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -165,7 +172,7 @@ void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
                                closed.angle, closed.speed, closed.t, in_loop.parted.value_or(none)})
       (column++)->push_back(value);
   }
-  FixedTable table(file_.file(), "referee", verdict_columns());
+  FixedTable table(file_.file(), "referee", verdict_columns(axis_));
   for (std::size_t k = 0; k < columns.size(); ++k) table.write(k, 0, columns[k]);
 }
 

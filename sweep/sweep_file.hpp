@@ -20,7 +20,7 @@ namespace wormdrive {
 /// The columns of the table /trials.
 std::vector<ColumnDescription> trial_columns(const Study& study);
 /// The columns of the table /referee: verdicts one after the other; a row of zeros is none.
-std::vector<ColumnDescription> verdict_columns();
+std::vector<ColumnDescription> verdict_columns(Axis axis);
 
 /// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
 /// that the sweep can be resumed. Who makes NAME holds its OutputLock meanwhile.
@@ -59,6 +59,7 @@ class SweepFile {
   void write_reasons();
   void finish_in_order();
 
+  Axis axis_;
   TrialRange range_;
   PartFile file_;
   std::optional<FixedTable> table_;

@@ -16,8 +16,8 @@ class Collector {
       for_each_field<Parameters>([&](const auto& field) {
         for (Spelling& spelling : spellings(field.name, field.unit, axis_)) {
           spelling.key = fmt::format("{}.{}", path, spelling.key);
-          list_.push_back(
-              {fmt::format("{}.{}", path, field.name), std::move(spelling), field.bounds, &(parameters.*field.member)});
+          const std::string name = fmt::format("{}.{}", path, spelling.stem);
+          list_.push_back({name, std::move(spelling), field.bounds, &(parameters.*field.member)});
         }
       });
   }

@@ -134,7 +134,7 @@ TEST_CASE("a picture of what is no result is refused") {
   refuse_all(folder, {
       {"missing", "", "no.h5: error: cannot be read: No such file or directory", {"plot", "no.h5"}, true},
       {"no HDF5", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"plot", "s.toml"}, true},
-      {"folder", "", "folder: error: not an HDF5 file; wormdrive run writes one", {"plot", "folder"}, true}});
+      {"folder", "", "folder: error: cannot be read: it is a directory", {"plot", "folder"}, true}});
   const Outcome outcome = folder.run({"plot", "other.h5"});
   INFO(outcome.err);
   CHECK(outcome.exit == 2);

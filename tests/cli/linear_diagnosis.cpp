@@ -127,6 +127,39 @@ TEST_CASE("torque at constant speed is a force on a linear axis, in the result a
   CHECK(folder.run({"check", "s.toml"}).out.find("the motor force is 0 throughout") != std::string::npos);
 }
 
+TEST_CASE("a sweep of a linear axis speaks of forces and positions: its referee, its summary and its worst drive") {
+  const Folder folder;
+  folder.write("s.toml", sledge +
+                             "[effect.worm_coulomb]\nforce_N = 1\n"
+                             "[[motor.torque]]\nkind = \"sinusoid\"\namplitude_N = 8\nfrequency_Hz = 0.7\n"
+                             "[run]\nduration_s = 0.5\nsolver = \"taylor\"\n");
+  folder.write("study.toml", R"(scenario = "s.toml"
+[sweep]
+design = "monte_carlo"
+trials = 20
+seed = 3
+[[parameter]]
+path = "effect.worm_coulomb.force_N"
+distribution = "uniform"
+low = 0.5
+high = 1.5
+[[threshold]]
+metric = "final_gear_speed"
+below_m_per_s = 0.1
+)");
+  for (const auto& words : {std::vector<std::string>{"sweep", "study.toml", "-o", "sweep.h5"},
+                            {"summary", "sweep.h5"},
+                            {"worst", "sweep.h5", "-o", "worst.h5"}}) {
+    const Outcome outcome = folder.run(words);
+    INFO(words.front() << ": " << outcome.out << outcome.err);
+    CHECK(outcome.exit == 0);
+    CHECK(turning(outcome.out) == "");
+    CHECK(outcome.out.find("positions within") != std::string::npos);
+  }
+  CHECK(units_of(folder / "sweep.h5", "referee/angle_difference") == "m");
+  CHECK(units_of(folder / "sweep.h5", "referee/closed_speed_difference") == "m/s");
+}
+
 TEST_CASE("what is refused of a recording on a linear axis is refused in its units") {
   const Folder folder;
   folder.write("s.toml", sledge);
