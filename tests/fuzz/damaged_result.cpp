@@ -7,8 +7,8 @@
 #include <string>
 #include <unistd.h>
 
+#include "fuzz/targets.hpp"
 #include "output/check_result.hpp"
-#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "sweep/summary.hpp"
 #include "sweep/sweep_file.hpp"
@@ -145,15 +145,6 @@ std::vector<std::vector<std::uint8_t>> orders() {
   for (std::uint8_t action = 0; action < 10; ++action)
     all.push_back({static_cast<std::uint8_t>(7 * action), action, 1, 1, 100, 0, 0, 0, 0, 0, 0, 0});
   return all;
-}
-
-template <class Read>
-void refusable(Read&& read) {
-  try {
-    read();
-  } catch (const InputFault&) {
-  } catch (const OutputFault&) {
-  }
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "events/halt.hpp"
 #include "fuzz/damaged_result.hpp"
 #include "fuzz/plant_calls.hpp"
-#include "scenarios/faults.hpp"
 #include "scenarios/load_scenario.hpp"
 #include "scenarios/write_scenario.hpp"
 #include "sweep/load_study.hpp"
@@ -31,16 +30,6 @@ Bytes contents(const fs::path& path) {
 }
 Bytes bytes(const std::string& text) { return {text.begin(), text.end()}; }
 std::string text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
-
-/// What bad input may answer with.
-template <class Take>
-void refusable(Take&& take) {
-  try {
-    take();
-  } catch (const InputFault&) {
-  } catch (const OutputFault&) {
-  }
-}
 
 /// What is accepted is written so that it is read as the same.
 void round_trip(const Scenario& scenario) {

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "output/hdf5.hpp"
+#include "scenarios/faults.hpp"
+
 namespace wormdrive::fuzz {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -20,5 +23,15 @@ struct Target {
 };
 
 const std::vector<Target>& targets();
+
+/// What bad input may answer with.
+template <class Take>
+void refusable(Take&& take) {
+  try {
+    take();
+  } catch (const InputFault&) {
+  } catch (const OutputFault&) {
+  }
+}
 
 }  // namespace wormdrive::fuzz

@@ -11,12 +11,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import traceback
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 PROGRAM, PLOT = (Path(word).resolve() for word in sys.argv[1:3])
+sys.path.insert(0, str(PLOT.parent))
 STRIDE = 1 if "--all" in sys.argv else 11
 SCENARIOS = Path(__file__).resolve().parents[2] / "scenarios"
 MEMORY, SECONDS = 3 << 30, 20  # of address space, most of it libraries; of CPU time
@@ -47,10 +49,36 @@ def limit():
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def run(*words, program=PROGRAM):
+def run(*words):
     """Runs a command; returns what came of it."""
-    return subprocess.run([program, *words], capture_output=True, text=True, errors="replace", preexec_fn=limit,
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, errors="replace", preexec_fn=limit,
                           timeout=120, check=False)
+
+
+def draw(*words):
+    """Draws as PLOT.py does, in a process of its own that shares what is imported here; returns exit code and stderr."""
+    import plot  # takes a second, once
+    told, tells = os.pipe()
+    child = os.fork()
+    if child == 0:
+        limit()
+        os.dup2(tells, 2)
+        os.close(told)
+        sys.argv = [str(PLOT), *words]
+        try:
+            plot.main()
+            code = 0
+        except SystemExit as end:
+            code = end.code or 0
+        except BaseException:  # what would end a program of its own with a traceback
+            traceback.print_exc()
+            code = 1
+        sys.stderr.flush()
+        os._exit(code)
+    os.close(tells)
+    with os.fdopen(told, errors="replace") as pipe:
+        stderr = pipe.read()
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), stderr
 
 
 def make(*words):
@@ -252,9 +280,9 @@ def faults():
             for left in ("x.html", "x.h5", "x.h5.part"):
                 Path(left).unlink(missing_ok=True)
             if number % (7 * STRIDE) == 0:
-                drawn = run(str(PLOT), "damaged.h5", "-o", "x.png", program=sys.executable)
-                if drawn.returncode not in (0, 2) or "Traceback" in drawn.stderr or drawn.stderr.count("\n") > 1:
-                    yield f"{case.name}, {what}: the picture ends with {drawn.returncode}: {drawn.stderr[-300:]!r}"
+                code, stderr = draw("damaged.h5", "-o", "x.png")
+                if code not in (0, 2) or "Traceback" in stderr or stderr.count("\n") > 1:
+                    yield f"{case.name}, {what}: the picture ends with {code}: {stderr[-300:]!r}"
 
 
 with tempfile.TemporaryDirectory() as folder:
