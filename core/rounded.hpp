@@ -100,6 +100,9 @@ int undecided(const Series<Rounded, N>& x, double resolution) {
     if (x[0].value == 0.0 && x[0].rounding == 0.0) {
       Series<Rounded, N - 1> rate;
       for (int k = 0; k < N; ++k) rate[k] = {(k + 1) * x[k + 1].value, (k + 1) * x[k + 1].rounding};
+      // what starts and goes ever faster, as one whose friction falls, has begun whenever that was
+      if constexpr (N > 1)
+        if (std::abs(rate[0].value) > blur(rate, 0, 0.0) && rate[0].value * rate[1].value > 0.0) return 1;
       const int k = undecided(rate, resolution);
       // a motion that changes faster than time is resolved is not blurred by it: its state is known
       return 1 + (k > N - 1 ? undecided(rate, 0.0) : k);

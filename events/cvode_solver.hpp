@@ -69,6 +69,7 @@ class CvodeSolver {
     finite_ = true;
     first_.reset();
     first_steps_ = 0;
+    waited_ = 0.0;
     if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now);
     if (!leaves_rest_) begin();
   }
@@ -141,7 +142,14 @@ class CvodeSolver {
         ++total_.steps;
       }
       leaves_rest_ = false;
-      if (now.t < first_->end()) {
+      if (const double brief = first_->brief(); brief > 0.0) {
+        now = first_->at(now.t);
+        if (first_->fired() != no_guard) return true;
+        waited_ += brief;
+        const double late = now.t + waited_;
+        if (late > now.t) waited_ = 0.0;
+        now.t = std::min(late, next);
+      } else if (now.t < first_->end()) {
         now = first_->at(std::min(next, first_->end()));
         if (now.t == next || first_->fired() != no_guard) return true;
       }
@@ -251,6 +259,7 @@ class CvodeSolver {
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
   int first_steps_ = 0;                              ///< so many since the latest restart
+  double waited_ = 0.0;                              ///< how long the clock has stood for first steps [s]
   Guards guards_{};                                  ///< where CVODE is ...
   std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero
   double limit_ = std::numeric_limits<double>::quiet_NaN();

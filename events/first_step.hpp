@@ -43,22 +43,22 @@ class FirstStep {
     }
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit - now.t ? now.t + h : limit;
-    if (end_ == now.t) end_ = std::nextafter(now.t, limit);
+    brief_ = end_ == now.t && moves(h);
+    if (end_ == now.t && !brief_) end_ = std::nextafter(now.t, limit);
+    length_ = brief_ ? h : end_ - now.t;
     find_events(rounded_guards);
   }
 
-  double end() const { return end_; }          ///< [s]
+  double end() const { return end_; }  ///< [s]
+  /// How long it is where that is less than time resolves, and the state goes on without the clock; else 0 [s].
+  double brief() const { return brief_ ? length_ : 0.0; }
   int fired() const { return fired_; }         ///< the guard that falls through zero at the end, or no_guard
   long evaluations() const { return looks_; }  ///< of the derivative
   /// The motion at a time of the step.
   Instant at(double t) const {
-    Instant then = begin_;
+    Instant then = after(t == end_ ? length_ : t - begin_.t);
     then.t = t;
-    for (int shaft = 0; shaft < shafts; ++shaft) {
-      then.x[2 * shaft] = value(motion_[shaft].angle(), t - begin_.t);
-      then.x[2 * shaft + 1] = value(motion_[shaft].speed(), t - begin_.t);
-    }
-    return system_.within_mode(then);
+    return then;
   }
 
  private:
@@ -71,10 +71,27 @@ class FirstStep {
     for (int k = 0; k <= order + 1; ++k) to[k] = k > 0 && k <= leading && rounded[k].vanishes() ? 0.0 : from[k];
   }
 
+  Instant after(double s) const {
+    Instant then = begin_;
+    then.t += s;
+    for (int shaft = 0; shaft < shafts; ++shaft) {
+      then.x[2 * shaft] = value(motion_[shaft].angle(), s);
+      then.x[2 * shaft + 1] = value(motion_[shaft].speed(), s);
+    }
+    return system_.within_mode(then);
+  }
+  /// Whether a speed is another one after s.
+  bool moves(double s) const {
+    const Instant then = after(s);
+    for (int shaft = 0; shaft < shafts; ++shaft)
+      if (then.x[2 * shaft + 1] != begin_.x[2 * shaft + 1]) return true;
+    return false;
+  }
+
   /// Whether the equations at s are those that the series was made from: a table changes its law on the way.
   bool holds(double s) {
     ++looks_;
-    const Instant there = at(begin_.t + s);
+    const Instant there = after(s);
     const auto rates = system_.derivative(there.t, there.x, there.mode);
     for (int shaft = 0; shaft < shafts; ++shaft) {
       const Coefficients& c = motion_[shaft].omega;
@@ -95,9 +112,10 @@ class FirstStep {
   void find_events(const Guards& rounded) {
     for (int g = 0; g < System::guard_count; ++g) {
       const auto roots = static_cast<std::size_t>(undecided(rounded[g], time_resolution(begin_.t)));
-      const RootSearch::Fall fall = search_.fall_from_start(motion_[0].guard(g), end_ - begin_.t, roots);
-      if (!fall.at || (fired_ != no_guard && begin_.t + *fall.at >= end_)) continue;
+      const RootSearch::Fall fall = search_.fall_from_start(motion_[0].guard(g), length_, roots);
+      if (!fall.at || (fired_ != no_guard && *fall.at >= length_)) continue;
       end_ = std::min(begin_.t + *fall.at, end_);
+      length_ = brief_ ? std::min(*fall.at, length_) : end_ - begin_.t;
       fired_ = g;
     }
   }
@@ -107,7 +125,8 @@ class FirstStep {
   TaylorAccuracy accuracy_;
   std::array<Motion, shafts> motion_{};
   std::array<double, shafts> rounding_{};  ///< of the accelerations, whose torques may all but cancel [rad/s^2]
-  double end_ = 0.0;
+  double end_ = 0.0, length_ = 0.0;        ///< [s]
+  bool brief_ = false;
   int fired_ = no_guard;
   long looks_ = 0;
   RootSearch search_;

@@ -105,6 +105,34 @@ TEST_CASE("what a value changes within the resolution of time does not count as 
   REQUIRE(sign_just_after(known({{1e-10, 0.0}, {-1.0, 0.0}}), 1e-11) == 1);
 }
 
+TEST_CASE("what starts and goes ever faster has begun, however coarsely its time is known") {
+  for (const double sign : {1.0, -1.0}) {
+    Series<Rounded, 4> x;  // as a speed whose friction falls within 1e-9 s
+    x[1] = {sign, 1e-16};
+    x[2] = {sign * 1e9, 1e-7};
+    x[3] = {-sign * 1e18, 1e2};
+    x[4] = {-sign * 1e26, 1e10};
+    REQUIRE(sign_just_after(x, 1e-6) == static_cast<int>(sign));
+    x[2] = -x[2];  // an event's time may be early or late: the rate is the sign
+    x[3] = x[4] = {0.0, 0.0};
+    REQUIRE(sign_just_after(x, 1e-6) == -static_cast<int>(sign));
+  }
+}
+
+TEST_CASE("a constant acts on a series as the series of that constant does") {
+  Series<double, 3> x;
+  x.c = {0.7, -1.3, 2.1, 0.4};
+  const double k = 1.7;
+  const Series<double, 3> constant(k);
+  REQUIRE((x * k).c == (x * constant).c);
+  REQUIRE((k * x).c == (constant * x).c);
+  REQUIRE((x / k).c == (x / constant).c);
+  REQUIRE((x + k).c == (x + constant).c);
+  REQUIRE((k + x).c == (constant + x).c);
+  REQUIRE((x - k).c == (x - constant).c);
+  REQUIRE((k - x).c == (constant - x).c);
+}
+
 TEST_CASE("a series that is rounding to its last term has no sign, one with nothing but its last term has that one's") {
   REQUIRE(sign_just_after(known({{1e-17, 1e-16}, {-1e-17, 1e-16}}), 0.0) == 0);
   Series<Rounded, 3> last;

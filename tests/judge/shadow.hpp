@@ -125,14 +125,14 @@ class Shadow {
       const auto acceleration = [](const Outcome<Sized>& o) { return o.pull.value / o.inertia.value; };
       const Outcome<Sized> here = now(0.0, 0.0);
       const Quad a = acceleration(here);
-      const double turned = theta_slack(), faster = mode_.motion * omega_slack(0);
+      const double turned = theta_slack(), faster = mode_.motion * omega_error(0);
       growth = std::max(growth, number(acceleration(now(0.0, faster)) - a) / faster);
       push = std::max(push, std::abs(number(acceleration(now(turned, 0.0)) - a)) +
                                 rounding * here.pull.size / std::abs(number(here.inertia.value)));
     }
     const double grown = std::expm1(growth * seconds);
-    theta_drift_ += omega_slack(0) * seconds * (1.0 + grown);
-    drift_ += omega_slack(0) * grown + push * (growth > 0.0 ? grown / growth : seconds);
+    theta_drift_ += omega_error(0) * seconds * (1.0 + grown);
+    drift_ += omega_error(0) * grown + push * (growth > 0.0 ? grown / growth : seconds);
   }
 
   /// Checks an event that happens now, and takes up the mode behind it.
@@ -180,9 +180,13 @@ class Shadow {
   static double slope(const Polynomial& c, Quad s) { return std::abs(number(value(derivative(c), s))); }
 
   double time_slack(Quad s) const { return exactness_.time * number(course_.t + s); }
-  double omega_slack(Quad s) const {
+  double omega_error(Quad s) const {
     return exactness_.absolute + exactness_.relative * fastest_ + hardest_ * time_slack(s) + drift_;
   }
+  /// What grows is followed to first order: a motion that leaves rest as slowly as it is known may come to several
+  /// times as much.
+  double omega_slack(Quad s) const { return omega_error(s) + (several - 1.0) * drift_; }
+  static constexpr double several = 8.0;
   double theta_slack() const { return exactness_.relative * way_ + theta_drift_; }
 
   /// What of the pull at rest and of the distance from the surface may be rounding, of torques, time, angle or speed.
