@@ -67,7 +67,7 @@ void print_failures(const ReasonTable& reasons) {
 void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study) {
   if (verdicts.empty()) return;
   const std::string rad = units_on(study.scenario.axis, "rad"), rad_per_s = units_on(study.scenario.axis, "rad/s");
-  const std::string_view angles = study.scenario.axis == Axis::linear ? "positions" : "angles";
+  const std::string_view angles = angles_on(study.scenario.axis);
   Disagreement replayed, closed;
   std::vector<std::uint64_t> others;
   std::size_t in_loop = 0, parted = 0;

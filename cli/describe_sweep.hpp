@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sweep/statistics.hpp"
@@ -26,7 +27,10 @@ void print_failures(const ReasonTable& reasons);
 /// have.
 std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most);
 
-/// Prints how far CVODE is from the trials that it has judged, and with which it disagrees; tolerance [rad].
+/// What the gear's angles are called on an axis.
+inline std::string_view angles_on(Axis axis) { return axis == Axis::linear ? "positions" : "angles"; }
+
+/// Prints how far CVODE is from the trials that it has judged, and with which it disagrees.
 void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study);
 
 }  // namespace wormdrive

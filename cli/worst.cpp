@@ -26,8 +26,7 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = second_opinion(scenario);
   return said + fmt::format("; under the same {} {} within {:.2g} {}", in_words_of(scenario.axis, "torque"),
-                            scenario.axis == Axis::linear ? "positions" : "angles", found.angle,
-                            units_on(scenario.axis, "rad"));
+                            angles_on(scenario.axis), found.angle, units_on(scenario.axis, "rad"));
 }
 
 }  // namespace

@@ -50,19 +50,29 @@ toml::table parse(std::string_view text, const std::string& name) {
   }
 }
 
+std::string unreadable_for(int reason) {
+  return fmt::format("cannot be read: {}", std::strerror(reason != 0 ? reason : EIO));
+}
+
+/// Opens a file to read; returns why it cannot be.
+std::optional<std::string> opened(std::ifstream& file, const std::string& path) {
+  if (std::error_code none; std::filesystem::is_directory(path, none)) return "cannot be read: it is a directory";
+  errno = 0;
+  file.open(path, std::ios::binary);
+  return file.good() ? std::nullopt : std::optional(unreadable_for(errno));
+}
+
 }  // namespace
 
 std::optional<std::string> why_unreadable(const std::string& path) {
-  if (std::error_code none; std::filesystem::is_directory(path, none)) return "cannot be read: it is a directory";
-  errno = 0;
-  if (std::ifstream(path, std::ios::binary).good()) return std::nullopt;
-  return fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO));
+  std::ifstream file;
+  return opened(file, path);
 }
 
 std::string read_text(const std::string& path) {
-  if (const auto why = why_unreadable(path)) refuse({path}, *why);
+  std::ifstream file;  // opened once: a pipe gives its text to whoever comes first
+  if (const auto why = opened(file, path)) refuse({path}, *why);
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
   std::string text;
   std::vector<char> piece(1 << 16);
   // what follows a NUL byte is not wanted: no text has one, and a device may never end
@@ -72,7 +82,7 @@ std::string read_text(const std::string& path) {
     goes_on =
         file.good() && text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) == std::string::npos;
   }
-  if (!file && !file.eof()) refuse({path}, fmt::format("cannot be read: {}", std::strerror(errno != 0 ? errno : EIO)));
+  if (!file && !file.eof()) refuse({path}, unreadable_for(errno));
   return text;
 }
 

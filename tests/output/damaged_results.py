@@ -8,6 +8,7 @@ exit status 1 if there is any.
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -62,6 +63,7 @@ def draw(*words):
     child = os.fork()
     if child == 0:
         limit()
+        signal.alarm(120)
         os.dup2(tells, 2)
         os.close(told)
         sys.argv = [str(PLOT), *words]
