@@ -33,19 +33,27 @@ inline double value(Polynomial c, double s) {
   return sum[0] + s * sum[1];
 }
 
-/// Proof that a polynomial, with a remainder that has been left out, has no root in [0, h]: nothing it can lose
-/// outweighs what it has at 0. It may fail where there is no root either.
-inline bool stays_positive(Polynomial c, double h, double left_out = 0.0) {
+/// What a polynomial can lose on [0, h] by its terms from the square on.
+inline double possible_loss(Polynomial c, double h) {
   const double square = h * h;
-  Pair loss{0.0, 0.0}, power{1.0, h};
-  std::size_t k = 0;
+  Pair loss{0.0, 0.0}, power{square, h * square};
+  std::size_t k = 2;
   for (; k + 1 < c.size(); k += 2, power *= square) {
     const Pair term = pair_at(&c[k]);
     loss += (term < 0.0 ? term : Pair{0.0, 0.0}) * power;
   }
   if (k < c.size()) loss[0] += std::min(c[k], 0.0) * power[0];
-  return c[0] + (loss[0] + loss[1]) - left_out >
-         1e-12 * c[0];  // far above rounding, so that the next step begins positive as well
+  return -(loss[0] + loss[1]);
+}
+
+/// Far above rounding: what is more than this share of its start at the end of a step begins the next one positive.
+inline constexpr double share_left = 1e-12;
+
+/// Proof that a polynomial has no root in [0, h]: nothing it can lose outweighs what it has at 0. It may fail where
+/// there is no root either.
+inline bool stays_positive(Polynomial c, double h) {
+  const double rate = c.size() > 1 ? std::min(c[1], 0.0) : 0.0;
+  return c[0] + rate * h - possible_loss(c, h) > share_left * c[0];
 }
 
 }  // namespace wormdrive

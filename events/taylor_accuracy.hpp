@@ -1,9 +1,11 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/lanes.hpp"
 #include "events/solver_settings.hpp"
@@ -67,12 +69,12 @@ class TaylorAccuracy {
   template <class Expansion>
   bool suffices(Expansion& e, double h) const {
     if (e.order < least_order) return false;
-    const double before = power_before_window(e, h);
-    double power = before;
-    for (int k = e.order - window + 1; k <= e.order; ++k, power *= h)  // power = h^(k-1)
-      if (!(std::abs(e.omega[k]) * power <= allowed(e.omega[0], h))) return false;
+    const Powers powers = powers_of(h, e.order);
+    const double most = allowed(e.omega[0], h) * h;
+    for (int k = 0; k < window; ++k)
+      if (!(std::abs(e.omega[e.order - window + 1 + k]) * powers[k] <= most)) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      if (guard_step(e, static_cast<int>(g), h, before) < h) return false;
+      if (guard_step(e, static_cast<int>(g), h, powers) < h) return false;
     return true;
   }
 
@@ -85,47 +87,57 @@ class TaylorAccuracy {
       // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
       const double size = rough_log2(std::abs(e.omega[k]));
       const double room = allowed_log2 + 4.0 * (e.order - k) - size;
-      log2_step = std::min(log2_step, room / (room > 0.0 ? k : k - 1));  // beyond a second the error is that of a step
+      // beyond a second the error is that of a step
+      log2_step = std::min(log2_step, room * reciprocal[room > 0.0 ? k : k - 1]);
     }
     h = std::min(h, rough_exp2(log2_step));
     double shortest = h;
-    const double before = power_before_window(e, h);
+    const Powers powers = powers_of(h, e.order);
     for (std::size_t g = 0; g < e.guards.size(); ++g)
-      shortest = std::min(shortest, guard_step(e, static_cast<int>(g), h, before));
+      shortest = std::min(shortest, guard_step(e, static_cast<int>(g), h, powers));
     return shortest;
   }
 
  private:
   static constexpr double coarsest = 1e-13;  ///< tolerance from which on a looser one does not lower the order
 
-  template <class Expansion>
-  static double power_before_window(const Expansion& e, double h) {
-    double power = h;
-    for (int k = 2; k <= e.order - window; ++k) power *= h;
-    return power;
+  /// Powers of a step, of the terms in the window.
+  using Powers = std::array<double, window>;
+  static Powers powers_of(double h, int order) {
+    Powers powers;
+    double power = h, square = h;
+    for (int n = order - window; n > 0; n /= 2, square *= square)
+      if (n % 2 == 1) power *= square;
+    for (double& p : powers) p = std::exchange(power, power * h);
+    return powers;
   }
 
-  /// The step within h over which a guard is certainly positive, or else exact to rounding: an error near a root, where
-  /// the guard may only touch zero, would show as two events. What is left out is taken to be no more than the last
-  /// terms together. before: the power of h before these.
+  /// The longest of the steps h, h/2, h/4 ... over which a guard certainly has no root behind its start, or else that
+  /// over which it is exact to rounding: an error near a root, where the guard may only touch zero, would show as two
+  /// events. What is left out is taken to be no more than the last terms together. powers: of h.
   template <class Expansion>
-  static double guard_step(Expansion& e, int g, double h, double before) {
-    const Polynomial guard = e.guard(g);
-    double left_out = 0.0, power = before;
-    for (int k = e.order - window + 1; k <= e.order; ++k) left_out += std::abs(guard[k]) * (power *= h);
-    e.positive[g] = stays_positive(guard, h, left_out);
-    if (e.positive[g]) return h;
-    double most = 0.0;
-    power = before;
-    for (int k = e.order - window + 1; k <= e.order; ++k) {
-      // of the last two each has to be below rounding, of those before them as much less as terms fall
-      power *= h;
-      const double share = k + 1 < e.order ? rough_exp2(-4.0 * (e.order - k)) : 1.0;  // exact: a power of two
-      most = std::max(most, std::abs(guard[k]) * power * share);
+  static double guard_step(Expansion& e, int g, double h, Powers powers) {
+    const Polynomial c = e.guard(g);
+    const double* last = &c[c.size() - window];
+    for (double s = h;; powers = powers_of(s *= 0.5, e.order)) {
+      double left_out = 0.0, most = 0.0;
+      for (int k = 0; k < window; ++k) {
+        const double term = std::abs(last[k]) * powers[k];
+        left_out += term;
+        // of the last two each has to be below rounding, of those before them as much less as terms fall
+        most = std::max(most, term * share_of_last[k]);
+      }
+      const double loss = left_out + possible_loss(c, s);
+      e.positive[g] = c[0] + std::min(c[1], 0.0) * s - loss > share_left * c[0];
+      if (e.positive[g] || c[1] * s - loss > share_left * c[1] * s) return s;
+      const double excess = most / rounding_of(c, s);
+      if (!(excess > 1.0)) return s;
+      // terms that grow beyond all rounding on a step far too long tell nothing of a short one
+      const double exact = s * rough_exp2(-rough_log2(excess) / (e.order - 1));
+      if (exact >= 0.5 * s) return exact;
     }
-    const double excess = most / rounding_of(guard, h);
-    return excess > 1.0 ? h * rough_exp2(-rough_log2(excess) / (e.order - 1)) : h;
   }
+  static constexpr std::array<double, window> share_of_last{0x1p-20, 0x1p-16, 0x1p-12, 0x1p-8, 1.0, 1.0};
 
   double absolute_;  ///< of the speed [rad/s]
   double relative_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/piece.hpp"
 #include "core/sine_cosine.hpp"
@@ -23,6 +24,19 @@ inline void expand_input(const Piece& piece, double t, int last, Coefficients& c
       weight *= wave.omega * reciprocal[k + 1];
     }
   }
+}
+
+/// The most that the terms of coefficient k may add up to, whatever the phases.
+inline double most_of_input(const Piece& piece, double t, int k) {
+  double most = k == 0   ? std::abs(piece.constant) + std::abs(piece.slope * (t - piece.start))
+                : k == 1 ? std::abs(piece.slope)
+                         : 0.0;
+  for (const Cosine& wave : piece.cosines) {
+    double term = std::abs(wave.amplitude);
+    for (int j = 1; j <= k; ++j) term *= std::abs(wave.omega) * reciprocal[j];
+    most += term;
+  }
+  return most;
 }
 
 }  // namespace wormdrive

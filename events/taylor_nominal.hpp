@@ -12,6 +12,7 @@
 #include "events/series_step.hpp"
 #include "events/taylor_accuracy.hpp"
 #include "events/taylor_arm.hpp"
+#include "events/taylor_equation.hpp"
 #include "events/taylor_input.hpp"
 #include "events/taylor_leap.hpp"
 #include "events/taylor_stribeck.hpp"
@@ -46,17 +47,17 @@ class NominalFlow<WormDrive<double, Load>> {
         load_(system.load()),
         surface_(system.surface()) {
     if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
-    double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
+    Bearings bearings;
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
       if (!effect) return;
       if constexpr (std::is_same_v<E, WormCoulomb<double>>)
-        worm_coulomb = effect->torque;
+        bearings.worm_coulomb = effect->torque;
       else if constexpr (std::is_same_v<E, GearCoulomb<double>>)
-        gear_coulomb = effect->torque;
+        bearings.gear_coulomb = effect->torque;
       else if constexpr (std::is_same_v<E, WormViscous<double>>)
-        worm_viscous = effect->coefficient * system.mesh().i;
+        bearings.worm_viscous = effect->coefficient * system.mesh().i;
       else if constexpr (std::is_same_v<E, GearViscous<double>>)
-        gear_viscous = effect->coefficient;
+        bearings.gear_viscous = effect->coefficient;
       else if constexpr (std::is_same_v<E, Stribeck<double>>)
         curve_ = {*effect, system.mesh()};
       else if constexpr (!contained<E>)
@@ -66,22 +67,9 @@ class NominalFlow<WormDrive<double, Load>> {
     const double mu = curve_.falls() ? curve_.least_friction() : mesh.mu;
     for (int motion : {-1, 1})
       for (int flank : {-1, 0, 1}) {
-        const double C = mesh.C(motion * flank * mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * system.Jg());
-        Equation& m = equations_[index(motion, flank)];
-        m = {.driven = {.held = {.motion = static_cast<double>(motion),
-                                 .flank = static_cast<double>(flank),
-                                 .gravity = amplitude() * C * inverse,
-                                 .drag = (worm_viscous + C * gear_viscous) * inverse,
-                                 .lift = amplitude() * surface_,
-                                 .skew = worm_viscous - surface_ * gear_viscous},
-                        .per_worm_torque = inverse,
-                        .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
-                                     -motion * (worm_coulomb - surface_ * gear_coulomb)}},
-             .mode = {wormdrive::Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}},
-             .rubs = false,
-             .per_gear_torque = C * inverse,
-             .fall = curve_.branch(mesh, system.Jg(), motion * flank)};
-        m.rubs = m.driven.held.drag != 0.0 || m.driven.held.skew != 0.0;
+        const int at = index(motion, flank);
+        equations_[at] = {mesh, mu, system.Jg(), bearings, amplitude(), surface_, motion, flank};
+        equations_[at].fall = curve_.branch(mesh, system.Jg(), motion * flank);
       }
   }
 
@@ -95,7 +83,7 @@ class NominalFlow<WormDrive<double, Load>> {
   }
   /// A moving mode under a held torque and how its arm is turned against the gear, where a leap is in closed form.
   std::optional<DrivenMotion> driven(Mode mode) const {
-    const Equation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
+    const NominalEquation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
     return swings && covers_ && !curve_.falls() && !m.rubs ? std::optional(m.driven) : std::nullopt;
   }
   const SineAndCosine& arm_offset() const { return offset_; }
@@ -128,18 +116,14 @@ class NominalFlow<WormDrive<double, Load>> {
     return true;
   }
 
-  /// Sizes of the terms of which the rates of the guards are the sums where the latest step begins: what their rounding
-  /// is a share of. Nothing where friction falls over the speed.
-  std::optional<std::array<double, System::guard_count>> rate_terms(const Motion& e) const {
-    if (curve_.falls()) return std::nullopt;
-    const DrivenMotion& m = mode_->driven;
-    const double load = swings ? std::abs(m.held.gravity) : std::abs(gear_torque_[0] * mode_->per_gear_torque);
-    const double load_rate = swings ? m.held.lift * arm_.cosine(1) : surface_ * gear_torque_[1];
-    std::array<double, System::guard_count> terms{};
-    terms[System::speed_guard] = std::abs(m.friction.push) + std::abs(worm_torque_[0] * m.per_worm_torque) + load +
-                                 std::abs(m.held.drag * e.omega[0]);
-    terms[System::flank_guard] = std::abs(worm_torque_[1]) + std::abs(load_rate) + std::abs(m.held.skew * e.omega[1]);
-    return terms;
+  /// Those of coefficient k <= 2 of a guard where the latest step begins. Nothing where friction falls over the speed.
+  std::optional<Terms> guard_terms(const Motion& e, double t, int guard, int k) const {
+    if (!covers_ || curve_.falls()) return std::nullopt;
+    const NominalEquation& m = *mode_;
+    if (guard == System::flank_guard) return m.distance_terms(worm_terms(t, k), gear_terms(e, t, k), e.omega[k], k);
+    if (k == 0) return Terms{std::abs(e.omega[0]), std::abs(e.omega[0])};
+    const Terms rate = m.acceleration_terms(worm_terms(t, k - 1), gear_terms(e, t, k - 1), e.omega[k - 1], k - 1);
+    return reciprocal[k] * rate;
   }
 
   /// The motion from now on, accurate over a step of at most h.
@@ -150,7 +134,7 @@ class NominalFlow<WormDrive<double, Load>> {
  private:
   template <bool falls>
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
-    const Equation& m = *mode_;
+    const NominalEquation& m = *mode_;
     if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
     const int last = accuracy.order();
     expand_input(motor_, now.t, last, worm_torque_);
@@ -166,12 +150,14 @@ class NominalFlow<WormDrive<double, Load>> {
     double allowed = accuracy.allowed(e.omega[0], h);
     double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
     bool suffices = false;
+    int completed = 0;  // coefficients of angle and guards
     const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {
       if constexpr (swings && k > 0) arm_.turn(e.omega, k);
       if (k == last) return false;
       if constexpr (k >= TaylorAccuracy::least_order)
         if (std::abs(e.omega[k]) * power <= allowed) {
-          complete(m, k, e);
+          complete(m, completed, k, e);
+          completed = k + 1;
           suffices = accuracy.suffices(e, h) && (!falls || curve_.holds(k, h));
           if (suffices) return false;
           // a guard is near its root, and has to be exact to rounding; the speed has to be before it can be
@@ -194,7 +180,7 @@ class NominalFlow<WormDrive<double, Load>> {
     (std::make_integer_sequence<int, highest_order + 1>());
     e.step = h;
     if (suffices) return;
-    complete(m, last, e);
+    complete(m, completed, last, e);
     e.step = accuracy.step(e, h);
     if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
   }
@@ -206,16 +192,6 @@ class NominalFlow<WormDrive<double, Load>> {
       std::is_same_v<E, GearInertia<double>> || E::place == Place::sensor;
   static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
 
-  /// A mode: theta'' = per_worm_torque tau_w + per_gear_torque tau_g - drag theta', its distance from the switching
-  /// surface tau_w - (Jw i/Jg) tau_g - skew theta'; tau_w and tau_g hold the dry friction, not the viscous. All in SI.
-  struct Equation {
-    DrivenMotion driven;
-    Mode mode;
-    bool rubs;
-    double per_gear_torque;
-    StribeckCurve::Branch fall;
-  };
-
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   static bool is_constant(const Piece& piece) { return piece.cosines.empty() && piece.slope == 0.0; }
   bool inputs_are_constant() const {
@@ -224,7 +200,7 @@ class NominalFlow<WormDrive<double, Load>> {
     else
       return is_constant(motor_) && is_constant(load_.piece);
   }
-  HeldTorques held_torques(const Equation& m) const {
+  HeldTorques held_torques(const NominalEquation& m) const {
     HeldTorques held = m.driven.under(motor_.constant + disturbance_);
     if constexpr (!swings) {
       held.push += load_.piece.constant * m.per_gear_torque;
@@ -233,6 +209,18 @@ class NominalFlow<WormDrive<double, Load>> {
     return held;
   }
 
+  /// Terms of coefficient k <= 2 of the torques on both sides where the latest step begins.
+  Terms worm_terms(double t, int k) const {
+    return {std::abs(worm_torque_[k]), most_of_input(motor_, t, k) + (k == 0 ? std::abs(disturbance_) : 0.0)};
+  }
+  Terms gear_terms(const Motion& e, double t, int k) const {
+    if constexpr (swings) {
+      const double v = std::abs(e.omega[0]), turned = k == 0 ? 1.0 : k == 1 ? v : 0.5 * (v * v + std::abs(e.omega[1]));
+      return std::abs(load_.amplitude) * Terms{std::abs(arm_.cosine(k)), turned};
+    } else {
+      return {std::abs(gear_torque_[k]), most_of_input(load_.piece, t, k)};
+    }
+  }
   double amplitude() const {
     if constexpr (swings)
       return load_.amplitude;
@@ -252,20 +240,18 @@ class NominalFlow<WormDrive<double, Load>> {
     return arm_now_;
   }
 
-  /// Angle and guards to the order to which the speed is known.
-  void complete(const Equation& m, int order, Motion& e) const {
+  /// Angle and guards to the order to which the speed is known, from coefficient first on.
+  void complete(const NominalEquation& m, int first, int order, Motion& e) const {
     e.order = order;
     Coefficients &speed = e.guards[System::speed_guard], &flank = e.guards[System::flank_guard];
-    const double side = -m.driven.held.flank;
-    for (int k = 0; k <= order; ++k) {
-      e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
-      speed[k] = m.driven.held.motion * e.omega[k];
-      flank[k] = side * beyond(m, k, e);
-    }
+    const double side = -m.driven.held.flank, motion = m.driven.held.motion;
+    for (int k = first; k <= order; ++k) e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
+    for (int k = first; k <= order; ++k) speed[k] = motion * e.omega[k];
+    for (int k = first; k <= order; ++k) flank[k] = side * beyond(m, k, e);
     if (side == 0.0) flank[0] = 1.0;
   }
   /// Coefficient k of the distance from the switching surface.
-  double beyond(const Equation& m, int k, const Motion& e) const {
+  double beyond(const NominalEquation& m, int k, const Motion& e) const {
     const double load = swings ? m.driven.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
     const double distance = worm_torque_[k] - load - m.driven.held.skew * e.omega[k];
     return k == 0 ? distance + m.driven.friction.beyond : distance;
@@ -276,8 +262,8 @@ class NominalFlow<WormDrive<double, Load>> {
   const Load& load_;
   double surface_;
   bool covers_ = true;
-  std::array<Equation, 6> equations_{};
-  const Equation* mode_ = &equations_[0];  ///< that of the latest mode
+  std::array<NominalEquation, 6> equations_{};
+  const NominalEquation* mode_ = &equations_[0];  ///< that of the latest mode
   StribeckCurve curve_;
   Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
   ArmSeries arm_;                                                 ///< the arm's angle in the latest step

@@ -126,7 +126,7 @@ class TaylorSolver {
     return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
   }
 
-  /// The polynomials from now on to the first event, or to as far as they are accurate.
+  /// The polynomials from now on to the first event, or to as far as they are accurate->
   void step(const Instant& now, double limit) {
     const double h = std::min(limit - now.t, max_step_);
     expand(now, h);
@@ -175,10 +175,9 @@ class TaylorSolver {
 
   /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
   std::size_t vanishing_at_start(const Instant& now, int guard) {
+    if (const auto few = vanishing_by_far(now, guard)) return *few;
     const Polynomial c = series_.guard(guard);
-    const double size = system_.guard_terms(system_.moment(now), now.mode)[guard], resolution = time_resolution(now.t);
-    if (c[0] > share_of_rounding(now) * size && c[0] > std::abs(c[1]) * resolution) return 0;
-    if (rises(now, guard, size)) return 1;
+    const double resolution = time_resolution(now.t);
     if (const auto few = undecided_at_once(guard_series<1>(system_, now)[guard], c[2], c[3], resolution)) return *few;
     constexpr int last = 4;
     const auto ahead = guard_series<last>(system_, now)[guard];
@@ -186,35 +185,47 @@ class TaylorSolver {
     if (guard == System::speed_guard && now.x[1] == 0.0) leave_rest(ahead, vanishing, resolution);
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
   }
-  /// Far above what sums round: phases of inputs and angles are known to their own rounding only.
-  double share_of_rounding(const Instant& now) const {
-    const double phase = system_.fastest_input(now.t) * std::abs(now.t) + system_.ripple() * std::abs(now.x[0]);
-    return 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * phase;
-  }
-  /// Whether a guard that begins at zero, to rounding, certainly rises, as most do. size: of the terms of its value.
-  bool rises(const Instant& now, int guard, double size) const {
+  /// The same for what most starts come to, told by the sizes of the terms alone: what decides is far above all that
+  /// rounding may be, and what does not is below the least that it is.
+  std::optional<std::size_t> vanishing_by_far(const Instant& now, int guard) {
     if constexpr (NominalFlow<System>::known) {
-      const auto rates = nominal_.covers() ? nominal_.rate_terms(series_) : std::nullopt;
+      const auto terms = [&](int k) { return nominal_.guard_terms(series_, now.t, guard, k); };
+      const auto value = terms(0), rate = terms(1);
+      if (!value) return std::nullopt;
       const Polynomial c = series_.guard(guard);
-      if (!rates || !(c[1] > 0.0)) return false;
-      const double share = share_of_rounding(now), resolution = time_resolution(now.t), far = 4.0;
-      // more than the least that it could be rounded by is a value, and moves its next root
-      if (std::abs(c[0]) > 2.0 * std::numeric_limits<double>::epsilon() * size + c[1] * resolution) return false;
-      const double hidden = share * size / c[1] + resolution;  // how long [s] rounding hides the rise
-      return c[1] > far * (share * (*rates)[guard] + std::abs(c[2]) * (hidden + resolution) +
-                           std::abs(c[3]) * hidden * hidden);
+      const double resolution = time_resolution(now.t), far = 4.0;
+      const double phase = system_.fastest_input(now.t) * std::abs(now.t) + system_.ripple() * std::abs(now.x[0]);
+      // phases of inputs and angles are known to their own rounding only
+      const double share = 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * phase;
+      const double least = 16.0 * Rounded::unit;  // of what is not known: eight times two roundings, see blur()
+      if (c[0] > share * value->most && c[0] > far * std::abs(c[1]) * resolution) return 0;
+      if (std::abs(c[0]) > least * value->present + std::abs(c[1]) * resolution) return std::nullopt;
+      double hidden = share * value->most / std::abs(c[1]) + resolution;  // how long [s] rounding hides the rise
+      if (hidden < series_.step && std::abs(c[1]) > far * (share * rate->most + std::abs(c[2]) * (hidden + resolution) +
+                                                           std::abs(c[3]) * hidden * hidden))
+        return 1;
+      // from rest the rate is the value that starts
+      if (guard != System::speed_guard || c[0] != 0.0 || std::abs(c[1]) > least * rate->present) return std::nullopt;
+      const double bend = std::abs(c[2]);
+      hidden = 2.0 * share * rate->most / bend + 4.0 * resolution;
+      if (hidden >= series_.step ||
+          !(bend > far * (share * terms(2)->most + std::abs(c[3]) * (hidden + 3.0 * resolution) +
+                          2.0 * std::abs(c[4]) * hidden * hidden)))
+        return std::nullopt;
+      stay(1);
+      return 2;
     }
-    return false;
+    return std::nullopt;
   }
-
   /// Motion from rest: what the start holds of speed and acceleration may be rounding, and would point anywhere. A
   /// coefficient that is more than rounding counts, though another may outweigh it.
   template <int last>
   void leave_rest(const Series<Rounded, last>& speed, int vanishing, double resolution) {
     for (int k = 0; k <= last && k < vanishing; ++k)
-      if (std::abs(speed[k].value) <= blur(speed, k, resolution))
-        series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0;
+      if (std::abs(speed[k].value) <= blur(speed, k, resolution)) stay(k);
   }
+  /// Takes a coefficient of the speed for rounding.
+  void stay(int k) { series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0; }
 
   static constexpr int most_stalled = 1000, most_steps = 100'000;
 

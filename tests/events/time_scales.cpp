@@ -126,6 +126,30 @@ TEST_CASE("a loose tolerance costs accuracy and no events") {
     }
 }
 
+TEST_CASE("a motion that asks for no short step does not blur the events of a load that it does not feel") {
+  auto p = table1();
+  p.mu = GearMesh<double>(p).mu_w();  // C1 = 0: moving backward on the right flank the gear feels the motor alone
+  const GearMesh<double> mesh(p);
+  const double surface = p.Jw * p.i / p.Jg, amplitude = 1e-6;
+  for (double share : {-0.9, -0.3, 0.2, 0.7})
+    for (double frequency : {1e-4, 1.0, 1e4})
+      for (double tolerance : {1e-13, 1e-10, 1e-6}) {
+        const Signal swinging{{Sinusoid{.amplitude = amplitude, .frequency = frequency}}};
+        WormDrive d(mesh, make_load(swinging), Effects<double>{}, constant(share * surface * amplitude));
+        WormDrive<double, TimedLoad>::Instant from;
+        from.x = {0.0, -1e6 * amplitude / (p.Jg * frequency)};
+        const double end = 10.0 / frequency;
+        const auto r = run(d, Timetable(0, end, end), from, tight(taylor, tolerance));
+        CAPTURE(share, frequency, tolerance);
+        REQUIRE(r.events.size() == 20);
+        for (std::size_t k = 0; k < r.events.size(); ++k) {
+          const double turn = std::acos(share) / (2.0 * std::numbers::pi), whole = static_cast<double>(k / 2);
+          const double exact = (k % 2 == 0 ? whole + turn : whole + 1.0 - turn) / frequency;
+          REQUIRE(std::abs(r.events[k].after.t - exact) <= 1e-12 * end);
+        }
+      }
+}
+
 TEST_CASE("power series cost no more where less is asked of them") {
   Signal dithered = fig9_motor();
   dithered.terms.push_back(Sinusoid{.amplitude = 0.02, .frequency = 100.0});

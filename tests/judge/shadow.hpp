@@ -65,7 +65,19 @@ class Shadow {
 
   Quad rest(double stop) {
     Quad h = Quad(stop) - course_.t;
-    for (int sigma : {1, -1}) h = std::min(h, course_.resting(sigma, h).step);
+    std::string complaint;
+    for (const Quad& since : ages()) {
+      course_.since = since;
+      Quad end = h;
+      for (int sigma : {1, -1}) end = std::min(end, course_.resting(sigma, end).step);
+      complaint = pulled(end);
+      if (complaint.empty()) return end;
+    }
+    complaint_ = complaint;
+    return 0;
+  }
+  /// What speaks against resting for h from now on, if something does.
+  std::string pulled(Quad h) {
     for (int sigma : {1, -1}) {
       auto [pull, step] = course_.resting(sigma, h);
       // free where both flanks' pulls are; the largest of the smaller one lies at an end, a turn, or where they meet
@@ -81,11 +93,12 @@ class Shadow {
         const Quad free = std::min(Quad(sigma) * value(pull[0], s), Quad(sigma) * value(pull[1], s));
         const double allowed = slack(sigma, true, s, std::max(slope(pull[0], s), slope(pull[1], s))).pull;
         if (free > Quad(allowed))
-          return fail("stuck, though " + text(free) + " N m pull it " + (sigma > 0 ? "forward" : "backward"), s,
-                      allowed);
+          return at("stuck, though " + text(free) + " N m pull it " + (sigma > 0 ? "forward" : "backward") +
+                        ", allowed " + text(allowed),
+                    s);
       }
     }
-    return h;
+    return {};
   }
 
   Quad move(double stop) {
@@ -146,10 +159,16 @@ class Shadow {
         return false;
       }
       course_.omega = 0;
+      ages_ = {course_.t};
+      // of a motion that is shorter than time is known nobody can tell whether it was one
+      if (course_.t - began_ <= Quad(time_slack(0))) ages_.push_back(course_.since);
       course_.since = course_.t;
       drift_ = fastest_ = hardest_ = 0.0;
     }
-    if (after != 0 && after != before && !released(after)) return false;
+    if (after != 0 && after != before) {
+      if (!released(after)) return false;
+      began_ = course_.t;
+    }
     mode_ = event.after;
     return true;
   }
@@ -157,18 +176,23 @@ class Shadow {
   bool released(int sigma) {
     const double entered = course_.entered;
     double lack = 0.0, allowed = 0.0;
-    for (const double inputs : {entered, course_.t == Quad(entered) ? inputs_before_ : entered}) {
-      course_.entered = inputs;
-      const auto [pull, step] = course_.resting(sigma, Quad(1e-9) + Quad(1e-9) * abs(course_.t));
-      lack = number(-std::min(Quad(sigma) * pull[0][0], Quad(sigma) * pull[1][0]));
-      allowed = slack(sigma, true, 0, std::max(slope(pull[0], 0), slope(pull[1], 0))).pull;
-      course_.entered = entered;
-      if (lack <= allowed) return true;
-    }
+    for (const Quad& since : ages())
+      for (const double inputs : {entered, course_.t == Quad(entered) ? inputs_before_ : entered}) {
+        course_.entered = inputs;
+        course_.since = since;
+        const auto [pull, step] = course_.resting(sigma, Quad(1e-9) + Quad(1e-9) * abs(course_.t));
+        lack = number(-std::min(Quad(sigma) * pull[0][0], Quad(sigma) * pull[1][0]));
+        allowed = slack(sigma, true, 0, std::max(slope(pull[0], 0), slope(pull[1], 0))).pull;
+        course_.entered = entered;
+        if (lack <= allowed) return true;
+      }
     fail("starts " + std::string(sigma > 0 ? "forward" : "backward") + ", though " + text(lack) + " N m are lacking", 0,
          allowed);
     return false;
   }
+
+  /// Since when the gear may be at rest.
+  std::vector<Quad> ages() const { return ages_.empty() ? std::vector{course_.since} : ages_; }
 
   static std::vector<Quad> looks(const Polynomial& c, Quad h) {
     std::vector<Quad> at;
@@ -212,12 +236,11 @@ class Shadow {
   }
 
   Quad fail(const std::string& what, Quad s, double allowed) {
-    course_.t += s;
-    complaint_ = at(what + ", allowed " + text(allowed));
+    complaint_ = at(what + ", allowed " + text(allowed), s);
     return 0;
   }
-  std::string at(const std::string& what) const {
-    return "at " + text(course_.t) + " s, motion " + std::to_string(mode_.motion) + ", flank " +
+  std::string at(const std::string& what, Quad s = 0) const {
+    return "at " + text(course_.t + s) + " s, motion " + std::to_string(mode_.motion) + ", flank " +
            std::to_string(mode_.flank) + ": " + what;
   }
   static std::string text(Quad x) {
@@ -231,6 +254,8 @@ class Shadow {
   Mode mode_;
   std::string complaint_;
   double inputs_before_ = 0.0;
+  Quad began_ = -1;                       ///< when the present motion did [s]
+  std::vector<Quad> ages_;                ///< since when the gear may be at rest [s]
   double fastest_ = 0.0, hardest_ = 0.0;  ///< speed and acceleration of the present motion [rad/s, rad/s^2]
   double drift_ = 0.0;                    ///< of the speed, by roundings of the torques [rad/s]
   double way_ = 0.0, theta_drift_ = 0.0;  ///< of the angle so far, and its drift [rad]

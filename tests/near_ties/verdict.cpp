@@ -29,8 +29,8 @@ double largest_delay(const ProgramRun& a, const ProgramRun& b) {
 /// and of the speeds as one of the highest; worm and gear both counted at the gear.
 double apart(const ProgramRun& a, const ProgramRun& b, const Case& tie) {
   if (a.reports.size() != b.reports.size()) return 1.0;
-  // of angles and of speeds; no smaller than lets a hundred absolute tolerances pass as a thousandth
-  const double least = 1e3 * tolerance / std::max(1.0, tie.drive.end);
+  // of angles and of speeds; every step may err by an absolute tolerance, and a thousand of these pass as a thousandth
+  const double least = 1e4 * tolerance / std::max(1.0, tie.drive.end);
   std::array<double, 2> size{least, least}, difference{};
   for (std::size_t row = 0; row < a.reports.size(); ++row)
     for (std::size_t column = 0; column < a.reports[row].size(); ++column) {
