@@ -97,10 +97,11 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
     run.control->sensor.counts = 65536.0;
     run.control->disturbance.deviation = 0.01 * sizes.torque;
     run.run.duration = 24.0;
-    run.run.solver = SolverKind::taylor;
     run.run.relative_tolerance = 1e-9;
     told.control = run.control;
     told.run = run.run;
+    for (Scenario* each : {&run, &told})
+      each->run.solver = has_elastic_teeth(each->effects) ? SolverKind::cvode : SolverKind::taylor;
     if (why_it_cannot_run(told) || why_it_cannot_run(run)) continue;
     try {
       // signatures are those about what is stated
@@ -122,7 +123,6 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
       best_margin = margin;
       run.control->disturbance.deviation = 0.0;
       run.title = fmt::format("Experiment that tells {} from what looks like it", members.front().effect);
-      if (has_elastic_teeth(run.effects)) run.run.solver = SolverKind::cvode;
       best.scenario = run;
       best.reason = fmt::format("{}: a {} {:.2g} times smaller could be named", v.what, members.front().effect, margin);
     } catch (const Halt&) {

@@ -81,7 +81,7 @@ class TaylorAccuracy {
   /// The step within h over which the series suffices.
   template <class Expansion>
   double step(Expansion& e, double h) const {
-    const double allowed_log2 = rough_log2(allowed(e.omega[0]));
+    const double allowed_log2 = rough_log2(std::min(1.0, loosest_step / relative_) * allowed(e.omega[0]));
     double log2_step = rough_log2(h);
     for (int k = e.order - window + 1; k <= e.order; ++k) {
       // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
@@ -99,7 +99,8 @@ class TaylorAccuracy {
   }
 
  private:
-  static constexpr double coarsest = 1e-13;  ///< tolerance from which on a looser one does not lower the order
+  static constexpr double coarsest = 1e-13;     ///< tolerance from which on a looser one does not lower the order ...
+  static constexpr double loosest_step = 1e-8;  ///< ... nor lengthen a free step, which a guard would halve again
 
   /// Powers of a step, of the terms in the window.
   using Powers = std::array<double, window>;

@@ -31,7 +31,10 @@ OutputLock::OutputLock(const std::string& path) : file_(path + ".part.lock") {
     if (descriptor_ < 0) return;  // what is written to the same place fails too, and tells why
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const bool taken = errno == EWOULDBLOCK;
+      // who only looks whether it is held shares it for that moment
+      const bool looked_at = taken && ::flock(descriptor_, LOCK_SH | LOCK_NB) == 0;
       ::close(std::exchange(descriptor_, -1));
+      if (looked_at) continue;
       if (taken) throw OutputFault(fmt::format("cannot write {}.part: another program is writing it", path));
       return;
     }

@@ -25,6 +25,13 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
+/// The file is not locked in the moment between its making and its opening; the right to write it is held all along.
+bool is_running(const std::string& path, const std::vector<std::string>& parts) {
+  const bool is_part = fs::path(path).extension() == ".part";
+  return is_being_written(path + (is_part ? ".lock" : ".part.lock")) ||
+         std::any_of(parts.begin(), parts.end(), is_being_written);
+}
+
 fs::path folder_of_its_own() {
   std::string name = (fs::temp_directory_path() / "wormdrive_XXXXXX").string();
   if (!mkdtemp(name.data())) throw OutputFault(fmt::format("cannot create {}: {}", name, std::strerror(errno)));
@@ -64,7 +71,7 @@ SweepSoFar::SweepSoFar(const std::string& path) : path_(path) {
 }
 
 void SweepSoFar::copy_of(const std::vector<std::string>& parts, const std::string& path) {
-  running_ = std::any_of(parts.begin(), parts.end(), is_being_written);
+  running_ = is_running(path, parts);
   const SweepPieces pieces(parts, true);
   folder_ = folder_of_its_own();
   const fs::path name = fs::path(path).filename();
