@@ -21,7 +21,7 @@
 #include "control/sliding.hpp"
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
-#include "events/taylor_solver.hpp"
+#include "events/taylor/solver.hpp"
 
 namespace bench {
 namespace {

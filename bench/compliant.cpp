@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/contest.hpp"
-#include "core/compliant_start.hpp"
+#include "core/elastic/compliant_start.hpp"
 #include "core/load.hpp"
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"

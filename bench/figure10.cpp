@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "events/halt.hpp"
-#include "scenarios/build_control.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "description/build_control.hpp"
+#include "simulation/load_scenario.hpp"
+#include "events/simulation_failure.hpp"
+#include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;
 
@@ -55,7 +55,7 @@ Metrics track(const Scenario& scenario) {
   try {
     const Metrics m = run_scenario(scenario).control->metrics;
     return m.error_peak_to_peak < 1.0 ? m : failed;
-  } catch (const Halt&) {
+  } catch (const SimulationFailure&) {
     return failed;
   }
 }

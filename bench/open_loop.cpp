@@ -14,7 +14,7 @@
 #include "bench/worm_drive.hpp"
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
-#include "events/taylor_solver.hpp"
+#include "events/taylor/solver.hpp"
 
 namespace bench {
 namespace {

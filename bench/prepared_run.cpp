@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;
 

@@ -13,9 +13,9 @@
 #include "bench/sampled_loop.hpp"
 #include "bench/sundials_by_hand.hpp"
 #include "control/control_summary.hpp"
-#include "control/lane_batch.hpp"
+#include "control/lanes/batch.hpp"
 #include "core/rigid_drive.hpp"
-#include "scenarios/run_batch.hpp"
+#include "simulation/run_batch.hpp"
 
 namespace bench {
 namespace {

@@ -6,9 +6,9 @@
 #include <iostream>
 #include <system_error>
 
-#include "events/halt.hpp"
-#include "output/hdf5.hpp"
-#include "scenarios/faults.hpp"
+#include "description/diagnostics.hpp"
+#include "events/simulation_failure.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive {
 
@@ -18,7 +18,7 @@ int guarded(const std::function<int()>& command) {
   } catch (const InputFault& fault) {
     std::cerr << fault.what() << '\n';
     return bad_input;
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     std::cerr << "wormdrive: " << halt.what() << '\n';
     return cannot_go_on;
   } catch (const ReadFault& fault) {

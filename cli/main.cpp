@@ -12,10 +12,10 @@
 #include "cli/exit_code.hpp"
 #include "cli/help_arguments.hpp"
 #include "cli/shell_words.hpp"
-#include "output/part_file.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "output/hdf5/part_file.hpp"
 #include "output/program.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/keys.hpp"
 
 namespace {
 

@@ -3,12 +3,12 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "sweep/sweep_file.hpp"
+#include "sweep/file/sweep_file.hpp"
 
 namespace wormdrive {
 
-/// Runs a trial of a sweep again into a result file. Throws InputFault if there is none or it was refused, Halt if it
-/// cannot go on or a bit of its metrics is another one than in the sweep.
+/// Runs a trial of a sweep again into a result file. Throws InputFault if there is none or it was refused,
+/// SimulationFailure if it cannot go on or a bit of its metrics is another one than in the sweep.
 void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::string& output, const RunOptions& options);
 
 /// Writes the runs that the study wants to be kept beside a sweep that is complete, as NAME_trial_INDEX.h5, and tells

@@ -2,11 +2,12 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
 
-/// Runs a scenario into a result file and tells what it comes to. Throws Halt, the part kept, or OutputFault.
+/// Runs a scenario into a result file and tells what it comes to. Throws SimulationFailure, the part kept, or
+/// OutputFault.
 RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options);
 
 }  // namespace wormdrive

@@ -9,7 +9,7 @@
 #include "control/reference.hpp"
 #include "control/sensor.hpp"
 #include "control/speed_estimator.hpp"
-#include "core/series.hpp"
+#include "core/numbers/series.hpp"
 
 namespace wormdrive {
 

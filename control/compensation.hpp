@@ -1,6 +1,6 @@
 #pragma once
 #include "control/nominal.hpp"
-#include "core/lanes.hpp"
+#include "core/numbers/lanes.hpp"
 
 namespace wormdrive {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <tuple>
 
-#include "control/random.hpp"
 #include "core/field.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
+#include "statistics/random.hpp"
 
 namespace wormdrive {
 

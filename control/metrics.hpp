@@ -6,8 +6,8 @@
 
 #include "control/control_record.hpp"
 #include "core/field.hpp"
-#include "core/lanes.hpp"
 #include "core/mode.hpp"
+#include "core/numbers/lanes.hpp"
 
 namespace wormdrive {
 

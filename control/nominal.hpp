@@ -4,7 +4,7 @@
 
 #include "core/field.hpp"
 #include "core/mode.hpp"
-#include "core/sine_cosine.hpp"
+#include "core/numbers/sine_cosine.hpp"
 
 namespace wormdrive {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
 
 namespace wormdrive {
 

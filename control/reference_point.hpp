@@ -1,7 +1,7 @@
 #pragma once
 #include <numbers>
 
-#include "core/sine_cosine.hpp"
+#include "core/numbers/sine_cosine.hpp"
 
 namespace wormdrive {
 

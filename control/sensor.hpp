@@ -4,9 +4,9 @@
 #include <numbers>
 #include <tuple>
 
-#include "control/random.hpp"
 #include "core/field.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
+#include "statistics/random.hpp"
 
 namespace wormdrive {
 

@@ -11,7 +11,7 @@
 #include "control/lemma1.hpp"
 #include "control/nominal.hpp"
 #include "core/field.hpp"
-#include "core/lanes.hpp"
+#include "core/numbers/lanes.hpp"
 
 namespace wormdrive {
 

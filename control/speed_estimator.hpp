@@ -1,8 +1,8 @@
 #pragma once
 #include <numbers>
 
-#include "core/lanes.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/lanes.hpp"
+#include "core/numbers/portable.hpp"
 
 namespace wormdrive {
 

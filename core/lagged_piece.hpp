@@ -2,9 +2,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/jet.hpp"
+#include "core/numbers/jet.hpp"
+#include "core/numbers/portable.hpp"
 #include "core/piece.hpp"
-#include "core/portable.hpp"
 
 namespace wormdrive {
 

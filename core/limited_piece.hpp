@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/crossing.hpp"
+#include "core/numbers/crossing.hpp"
+#include "core/numbers/rounded.hpp"
 #include "core/piece.hpp"
-#include "core/rounded.hpp"
 
 namespace wormdrive {
 

@@ -5,7 +5,7 @@
 
 #include "core/field.hpp"
 #include "core/mode.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
 
 namespace wormdrive {
 

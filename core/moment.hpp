@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/jet.hpp"
 #include "core/mode.hpp"
+#include "core/numbers/jet.hpp"
 
 namespace wormdrive {
 

@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/jet.hpp"
 #include "core/lagged_piece.hpp"
 #include "core/limited_piece.hpp"
+#include "core/numbers/jet.hpp"
 #include "core/signal.hpp"
 
 namespace wormdrive {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/portable.hpp"
-#include "core/rounded.hpp"
+#include "core/numbers/portable.hpp"
+#include "core/numbers/rounded.hpp"
 
 namespace wormdrive {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/effects.hpp"
-#include "core/elastic_teeth.hpp"
+#include "core/elastic/elastic_teeth.hpp"
 #include "core/initial_state.hpp"
 #include "core/mesh.hpp"
 #include "core/signal.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/mesh.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
 
 namespace wormdrive {
 

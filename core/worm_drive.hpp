@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <ceres/jet.h>
 
-#include "core/observation.hpp"
-#include "core/rounded.hpp"
-#include "core/series.hpp"
+#include "core/elastic/observation.hpp"
+#include "core/numbers/rounded.hpp"
+#include "core/numbers/series.hpp"
 #include "core/torque_balance.hpp"
 
 namespace wormdrive {

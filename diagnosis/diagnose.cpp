@@ -9,20 +9,20 @@
 
 #include <fmt/format.h>
 
-#include "core/elastic_teeth.hpp"
-#include "diagnosis/adequacy.hpp"
-#include "diagnosis/bounces.hpp"
-#include "diagnosis/certificate.hpp"
-#include "diagnosis/experiment.hpp"
-#include "diagnosis/fit.hpp"
-#include "diagnosis/intervals.hpp"
-#include "diagnosis/prediction_error.hpp"
-#include "diagnosis/residual_torque.hpp"
-#include "diagnosis/selection.hpp"
-#include "diagnosis/tolerances.hpp"
-#include "diagnosis/units_on_axis.hpp"
-#include "diagnosis/verdict.hpp"
-#include "scenarios/build.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build.hpp"
+#include "diagnosis/candidates/tolerances.hpp"
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/inference/selection.hpp"
+#include "diagnosis/report/units_on_axis.hpp"
+#include "diagnosis/verdict/adequacy.hpp"
+#include "diagnosis/verdict/certificate.hpp"
+#include "diagnosis/verdict/experiment.hpp"
+#include "diagnosis/verdict/prediction_error.hpp"
+#include "diagnosis/verdict/residual_torque.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive {
 
@@ -64,23 +64,23 @@ InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
 /// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
 /// search without one is made, and kept if it predicts clearly better. Where more noise than torque is at work,
 /// whatever was found, neither that nor pairs of causes would follow the motion.
-Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hypothesis& base, double torque,
+Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all, const Hypothesis& base, double torque,
                  const DiagnosisSettings& settings) {
   if (settings.progress) settings.progress("fitting what is stated");
-  const Start start = fitted_start(by, all, base);
+  const Start start = fitted_start(evaluation, all, base);
   std::optional<Start> plain;
   const auto start_plainly = [&] {
-    if (!plain) plain = fitted_start(by, all, without_noise_model(base));
+    if (!plain) plain = fitted_start(evaluation, all, without_noise_model(base));
     return &*plain;
   };
-  CauseSearch found(by, all, settings.most_causes, settings.progress);
+  CauseSearch found(evaluation, all, settings.most_causes, settings.progress);
   found.select(start, hides_what_is_slow(start.base.noise_model) ? start_plainly() : nullptr);
-  if (!gap_of(found.model()) && noise_sizes(by, found.model()).torque > torque) return found.confirmed();
-  CauseSearch second(by, all, settings.most_causes, settings.progress);
+  if (!gap_of(found.model()) && noise_sizes(evaluation, found.model()).torque > torque) return found.confirmed();
+  CauseSearch second(evaluation, all, settings.most_causes, settings.progress);
   CauseSearch* better = &found;
   if (hides_what_is_slow(found.model().noise_model)) {
     second.select(*start_plainly(), nullptr);
-    const auto error = [&](const CauseSearch& s) { return error_ahead(by, s.model(), told_horizon); };
+    const auto error = [&](const CauseSearch& s) { return error_ahead(evaluation, s.model(), told_horizon); };
     constexpr double clearly = 0.9;
     if (error(second) < clearly * error(found)) better = &second;
   }
@@ -89,36 +89,37 @@ Selection search(const Evaluation& by, const std::vector<Suspect>& all, const Hy
 }
 
 /// What the scenario states, with the noise that suits it.
-Hypothesis as_stated(const Evaluation& by, Hypothesis base) {
+Hypothesis as_stated(const Evaluation& evaluation, Hypothesis base) {
   for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
-  evaluate(by, base);
+  evaluate(evaluation, base);
   return base;
 }
 
-std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection, const std::vector<Suspect>& all) {
-  std::vector<Candidate> list;
-  const auto is_cause = [&](std::size_t suspect) {
+std::vector<RankedCandidate> ranking(const Evaluation& evaluation, const Selection& selection,
+                                     const std::vector<Candidate>& all) {
+  std::vector<RankedCandidate> list;
+  const auto is_cause = [&](std::size_t candidate) {
     return std::any_of(selection.causes.begin(), selection.causes.end(),
-                       [&](const Found& f) { return f.suspect == suspect; });
+                       [&](const Found& f) { return f.candidate == candidate; });
   };
   for (const Tried& t : selection.tried) {
-    Candidate c;
-    const Suspect& suspect = all[t.suspect];
-    c.effect = estimated(t.model, covariance(by, t.model, 0), suspect.effect, suspect.coordinates);
+    RankedCandidate c;
+    const Candidate& candidate = all[t.candidate];
+    c.effect = estimated(t.model, covariance(evaluation, t.model, 0), candidate.effect, candidate.coordinates);
     c.delta_bic = t.evidence.delta_bic;
     c.held_out_gain = t.evidence.held_out;
-    c.named = is_cause(t.suspect);
-    c.outcome = c.named ? "named" : outcome(t.evidence, suspect);
+    c.named = is_cause(t.candidate);
+    c.outcome = c.named ? "named" : outcome(t.evidence, candidate);
     if (!c.named && c.outcome == "named") c.outcome = "another one explains it better";
     list.push_back(std::move(c));
   }
   for (const Screened& s : selection.screening.found) {
     if (std::any_of(list.begin(), list.end(),
-                    [&](const Candidate& c) { return c.effect.effect == all[s.suspect].effect; }))
+                    [&](const RankedCandidate& c) { return c.effect.effect == all[s.candidate].effect; }))
       continue;
-    Candidate c;
-    c.effect.effect = all[s.suspect].effect;
-    for (const Coordinate& x : all[s.suspect].coordinates) {
+    RankedCandidate c;
+    c.effect.effect = all[s.candidate].effect;
+    for (const Coordinate& x : all[s.candidate].coordinates) {
       const int k = index_of(s.model, x);
       if (k < 0 || x.form != CoordinateForm::plain) continue;
       // one step of a linear fit has no error that is worth telling
@@ -127,23 +128,23 @@ std::vector<Candidate> ranking(const Evaluation& by, const Selection& selection,
                                      s.model.values[static_cast<std::size_t>(k)], unknown, unknown, unknown});
     }
     c.delta_bic = s.gain;
-    c.named = is_cause(s.suspect);
+    c.named = is_cause(s.candidate);
     c.outcome = c.named ? "named" : "promises too little to be fitted";
     list.push_back(std::move(c));
   }
   // what is named comes first: a richer law that contains it has the higher evidence and is not named for it
-  std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+  std::stable_sort(list.begin(), list.end(), [](const RankedCandidate& a, const RankedCandidate& b) {
     return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
   });
   return list;
 }
 
 /// What a model predicts and leaves, against the scenario as it is stated.
-void describe(Diagnosis& d, const Evaluation& by, const Hypothesis& before, const Hypothesis& after) {
-  d.prediction = prediction_errors(by, before, after, d.seed);
-  d.examples = prediction_examples(by, before, after);
-  d.residual = residual_torque(by, before, after);
-  const NoiseSizes noise = noise_sizes(by, after);
+void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
+  d.prediction = prediction_errors(evaluation, before, after, d.seed);
+  d.examples = prediction_examples(evaluation, before, after);
+  d.residual = residual_torque(evaluation, before, after);
+  const NoiseSizes noise = noise_sizes(evaluation, after);
   d.noise_angle = noise.angle;
   d.noise_torque = noise.torque;
 }
@@ -155,18 +156,18 @@ std::optional<Remainder> error_above_noise(const Diagnosis& d) {
   if (!e || e->after <= most * e->floor) return std::nullopt;
   const double ratio = e->after / e->floor;
   // what bounces leave does not speak against a gap
-  const double gain = bounces(d) && ratio <= most_of_bounces ? 0.0 : std::numeric_limits<double>::infinity();
+  const double gain = impacts(d) && ratio <= most_of_bounces ? 0.0 : std::numeric_limits<double>::infinity();
   return Remainder{fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, ratio), ratio, 0.0,
                    gain};
 }
 
 /// Looks for a motion that splits the class of a diagnosis.
-void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Suspect>& all,
+void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Candidate>& all,
                         const std::vector<Coordinate>& stated, const Magnitudes& sizes,
                         const std::vector<Recording>& recordings, const DiagnosisSettings& settings) {
-  std::vector<Suspect> members;
+  std::vector<Candidate> members;
   for (const std::string& effect : d.equivalents)
-    for (const Suspect& s : all)
+    for (const Candidate& s : all)
       if (s.effect == effect) members.push_back(s);
   double size = 0.0, excursion = 0.0;
   for (const EstimatedEffect& cause : d.causes)
@@ -195,8 +196,8 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
-  const std::vector<Suspect> all = suspects(scenario.effects, sizes, stated);
-  const Evaluation by(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
+  const std::vector<Candidate> all = candidates(scenario.effects, sizes, stated);
+  const Evaluation evaluation(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
 
   Hypothesis base;
   base.effects = scenario.effects;
@@ -205,38 +206,38 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
       base.free.push_back(c);
       base.values.push_back(c.centre);
     }
-  const Selection found = search(by, all, base, sizes.torque, settings);
+  const Selection found = search(evaluation, all, base, sizes.torque, settings);
 
   Diagnosis d;
   d.seed = settings.seed;
   tell("working out what the data can show");
   d.certificate = certificate(found.linear, found.base, all, sizes);
-  d.ranking = ranking(by, found, all);
+  d.ranking = ranking(evaluation, found, all);
 
   tell("predicting ahead");
-  const Hypothesis before = as_stated(by, found.base);
-  describe(d, by, before, found.model);
+  const Hypothesis before = as_stated(evaluation, found.base);
+  describe(d, evaluation, before, found.model);
 
   tell("fitting all data");
-  const Evaluation by_all(scenario, with_nothing_held_out(by.layout()), settings.threads);
+  const Evaluation by_all(scenario, with_nothing_held_out(evaluation.layout()), settings.threads);
   Hypothesis last = found.model;
   evaluate(by_all, last);
   restart_noise(by_all, last);
   adjust_noise(by_all, last, 3);
   fit(by_all, last, 12, 0.01);
   adjust_noise(by_all, last, 2);
-  refine_bounces(by_all, last);
+  refine_gap(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last, 2);
   for (const Found& f : found.causes)
-    d.causes.push_back(estimated(last, spread, all[f.suspect].effect, all[f.suspect].coordinates));
+    d.causes.push_back(estimated(last, spread, all[f.candidate].effect, all[f.candidate].coordinates));
   const auto is_cause = [&](const Coordinate& c) {
     return std::any_of(found.causes.begin(), found.causes.end(),
-                       [&](const Found& f) { return all[f.suspect].effect == c.effect; });
+                       [&](const Found& f) { return all[f.candidate].effect == c.effect; });
   };
   const auto is_freed = [&](const Coordinate& c) {
     return std::any_of(found.causes.begin(), found.causes.end(),
-                       [&](const Found& f) { return all[f.suspect].frees == c.effect; });
+                       [&](const Found& f) { return all[f.candidate].frees == c.effect; });
   };
   for (const Coordinate& c : last.free)
     if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c)))
@@ -253,9 +254,9 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     d.extended.effects = extended(last);
     for (const Found& f : found.causes)
       if (std::none_of(d.causes.begin(), d.causes.end(),
-                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.suspect].effect; }))
-        switch_off(d.extended.effects, all[f.suspect].effect);
-    give_teeth_to_bounce(d.extended, last.noise.bounce);
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }))
+        switch_off(d.extended.effects, all[f.candidate].effect);
+    give_teeth_for_impacts(d.extended, last.noise.impact);
     auto& uneven = std::get<std::optional<TransmissionError<double>>>(d.extended.effects.list);
     if (has_elastic_teeth(d.extended.effects) && uneven) {
       uneven.reset();
@@ -263,12 +264,12 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     }
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
-    describe(d, by, before, found.base);
+    describe(d, evaluation, before, found.base);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   for (const NotExamined& n : not_examined(sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
-  d.passes = by.passes() + by_all.passes();
+  d.passes = evaluation.passes() + by_all.passes();
   return d;
 }
 

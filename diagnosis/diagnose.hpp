@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "diagnosis/data/recording.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/diagnosis_settings.hpp"
-#include "diagnosis/recording.hpp"
 
 namespace wormdrive {
 

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "diagnosis/break_in_points.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "description/rejection.hpp"
+#include "description/toml/csv.hpp"
+#include "diagnosis/data/read_recording.hpp"
+#include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/point_diagnosis.hpp"
-#include "diagnosis/read_recording.hpp"
-#include "diagnosis/recorded_table.hpp"
-#include "diagnosis/steady_points.hpp"
-#include "output/hdf5.hpp"
-#include "scenarios/csv.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/keys.hpp"
-#include "scenarios/refusal.hpp"
+#include "diagnosis/points/break_in_points.hpp"
+#include "diagnosis/points/point_diagnosis.hpp"
+#include "diagnosis/points/steady_points.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive {
 namespace {
@@ -33,7 +33,7 @@ DataKind kind_of(const std::string& file, const Scenario& scenario) {
   if (has("time")) return DataKind::recording;
   if (has("load_torque") && has("motor_torque")) return DataKind::break_in_table;
   const std::string torque = called("motor_torque");
-  refuse({file, 1},
+  reject({file, 1},
          fmt::format("the columns {} make neither a recording ({}, {}, {}) nor records at constant speed ({}, {}, {}) "
                      "nor a break-in table ({}, {}); [data] in the scenario tells other names",
                      fmt::join(names, ", "), called("time"), torque, called("gear_angle"), called("record"),
@@ -56,7 +56,7 @@ Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& f
       for (const ImplausibleSample& sample : record.left_out)
         remarks.push_back(left_out(file, record, sample, scenario));
       if (record.worm_speed == 0.0)
-        refuse({file}, fmt::format("record {} stands still; its {} is that of no motion", record.name,
+        reject({file}, fmt::format("record {} stands still; its {} is that of no motion", record.name,
                                    in_words_of(scenario.axis, "torque")));
       records.push_back(record);
     }
@@ -65,7 +65,7 @@ Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& f
   });  // so that the order of the files makes no difference
   constexpr std::size_t least_rows = 8;
   if (records.size() < least_rows)
-    refuse({files.front()}, fmt::format("{} records at constant speed; a diagnosis needs at least {}, in both "
+    reject({files.front()}, fmt::format("{} records at constant speed; a diagnosis needs at least {}, in both "
                                         "directions",
                                         records.size(), least_rows));
   const TorquePoints points = steady_points(records, scenario);
@@ -106,7 +106,7 @@ Diagnosis of_recordings(const Scenario& scenario, const std::vector<std::string>
     diagnosis.remarks.insert(diagnosis.remarks.begin(), remarks.begin(), remarks.end());
     return diagnosis;
   } catch (const std::invalid_argument& fault) {
-    refuse({files.front()}, fault.what());
+    reject({files.front()}, fault.what());
   }
 }
 
@@ -125,7 +125,7 @@ DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& sce
   const DataKind first = kind_of(files.front(), scenario);
   for (const std::string& file : files)
     if (const DataKind kind = kind_of(file, scenario); kind != first)
-      refuse({file}, fmt::format("holds {}, but {} holds {}; diagnose them one by one", name(kind), files.front(),
+      reject({file}, fmt::format("holds {}, but {} holds {}; diagnose them one by one", name(kind), files.front(),
                                  name(first)));
   return first;
 }

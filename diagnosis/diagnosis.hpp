@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/unit.hpp"
-#include "scenarios/scenario.hpp"
+#include "description/scenario.hpp"
 
 namespace wormdrive {
 
@@ -32,7 +32,7 @@ struct EstimatedEffect {
 };
 
 /// One effect, or class of effects, that was tried, and what came of it.
-struct Candidate {
+struct RankedCandidate {
   EstimatedEffect effect;
   double delta_bic{};      ///< BIC of the model without it less that with it
   double held_out_gain{};  ///< log likelihood of data not used for the fit, with it less without it [nats]
@@ -98,7 +98,7 @@ struct Diagnosis {
   std::vector<EstimatedEffect> causes;
   std::vector<std::string>
       equivalents;  ///< ids of the class, if ambiguous, those in `causes` first; which of them are at work is not known
-  std::vector<Candidate> ranking;            ///< best first
+  std::vector<RankedCandidate> ranking;      ///< best first
   std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved, within tolerance or as part of a cause
   std::vector<PredictionError> prediction;
   std::vector<Visibility> certificate;

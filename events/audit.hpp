@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/compliant_energy.hpp"
-#include "core/crossing.hpp"
+#include "core/elastic/compliant_energy.hpp"
 #include "core/energy.hpp"
+#include "core/numbers/crossing.hpp"
+#include "core/numbers/rounded.hpp"
 #include "core/ripple.hpp"
-#include "core/rounded.hpp"
 #include "events/segment_start.hpp"
 
 namespace wormdrive {

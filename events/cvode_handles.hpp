@@ -11,7 +11,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "events/halt.hpp"
+#include "events/simulation_failure.hpp"
 
 namespace wormdrive {
 
@@ -43,7 +43,7 @@ inline void check_cvode(int flag) {
   if (flag < 0) throw SolverFault(cvode_reason(flag));
 }
 
-/// Faults are told once, by the exception.
+/// Diagnostics are told once, by the exception.
 inline void silence_cvode([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   SUNContext_ClearErrHandlers(context);

@@ -13,12 +13,12 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "core/crossing.hpp"
+#include "core/numbers/crossing.hpp"
 #include "core/ripple.hpp"
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
-#include "events/halt.hpp"
 #include "events/segment_start.hpp"
+#include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
 

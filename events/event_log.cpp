@@ -29,7 +29,7 @@ void EventLog::count(double t, const std::string& guard, Mode before, Mode after
   if (latest_.back().t - latest_.front().t < limit_.window) throw chatter();
 }
 
-Halt EventLog::chatter() const {
+SimulationFailure EventLog::chatter() const {
   const Entry& last = latest_.back();
   const bool one_guard =
       std::all_of(latest_.begin(), latest_.end(), [&](const Entry& e) { return e.guard == last.guard; });
@@ -37,12 +37,12 @@ Halt EventLog::chatter() const {
       one_guard ? "this guard's crossings accumulate: a rest state that the model cannot hold, or a guard that does "
                   "not become positive after its own event"
                 : "guards take turns without motion between them: the two modes each lead straight into the other";
-  return Halt(fmt::format("chatter: {} events between {:.12g} and {:.12g} s, the last at guard '{}' from {} to {}; {}",
-                          latest_.size(), latest_.front().t, last.t, last.guard, describe(last.before),
-                          describe(last.after), cause));
+  return SimulationFailure(fmt::format(
+      "chatter: {} events between {:.12g} and {:.12g} s, the last at guard '{}' from {} to {}; {}", latest_.size(),
+      latest_.front().t, last.t, last.guard, describe(last.before), describe(last.after), cause));
 }
 
-Halt EventLog::halt(double t, Mode mode, const std::string& reason) const {
+SimulationFailure EventLog::halt(double t, Mode mode, const std::string& reason) const {
   std::string history =
       total_ == 0 ? "before any event" : fmt::format("after {} event{}", total_, total_ == 1 ? "" : "s");
   if (!latest_.empty()) {
@@ -51,7 +51,7 @@ Halt EventLog::halt(double t, Mode mode, const std::string& reason) const {
       history += fmt::format("{} {} at {:.9g} s", e == first ? " (the last:" : ",", e->guard, e->t);
     history += ")";
   }
-  return Halt(fmt::format("cannot go on at t = {:.9g} s, {}, {}: {}", t, describe(mode), history, reason));
+  return SimulationFailure(fmt::format("cannot go on at t = {:.9g} s, {}, {}: {}", t, describe(mode), history, reason));
 }
 
 }  // namespace wormdrive

@@ -2,7 +2,7 @@
 #include <deque>
 #include <string>
 
-#include "events/halt.hpp"
+#include "events/simulation_failure.hpp"
 
 namespace wormdrive {
 
@@ -17,11 +17,11 @@ class EventLog {
  public:
   explicit EventLog(ChatterLimit limit = {}) : limit_(limit) {}
 
-  /// Notes an event; throws Halt when there were more than the limit allows within its window.
+  /// Notes an event; throws SimulationFailure when there were more than the limit allows within its window.
   void count(double t, const std::string& guard, Mode before, Mode after);
 
-  /// A Halt with time, mode, the latest events and the reason.
-  Halt halt(double t, Mode mode, const std::string& reason) const;
+  /// A SimulationFailure with time, mode, the latest events and the reason.
+  SimulationFailure halt(double t, Mode mode, const std::string& reason) const;
 
  private:
   struct Entry {
@@ -29,7 +29,7 @@ class EventLog {
     std::string guard;
     Mode before, after;
   };
-  Halt chatter() const;
+  SimulationFailure chatter() const;
 
   ChatterLimit limit_;
   long total_ = 0;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "events/polynomial_root.hpp"
 #include "events/segment_start.hpp"
-#include "events/series_step.hpp"
 #include "events/solver_settings.hpp"
-#include "events/taylor_accuracy.hpp"
-#include "events/taylor_expansion.hpp"
+#include "events/taylor/accuracy.hpp"
+#include "events/taylor/expansion.hpp"
+#include "events/taylor/polynomial_root.hpp"
+#include "events/taylor/series_step.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/crossing.hpp"
-#include "events/halt.hpp"
+#include "core/numbers/crossing.hpp"
 #include "events/segment_start.hpp"
+#include "events/simulation_failure.hpp"
 
 namespace wormdrive {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/rounded.hpp"
+#include "core/numbers/rounded.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "events/halt.hpp"
-#include "events/polynomial_root.hpp"
+#include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
+#include "events/taylor/polynomial_root.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {

@@ -67,7 +67,7 @@ struct Progress {
 /// latch(system, now), if it has one, comes before it where samples see an older angle.
 /// solver: restart(now) takes up a state; advance(now, next, limit) integrates to next without looking past limit and
 /// returns the guard at which it stopped, or no_guard. record(system, now) sees every report and both sides of every
-/// event, in order; where it takes a Cause as well, it is told why. Throws Halt when the run cannot go on.
+/// event, in order; where it takes a Cause as well, it is told why. Throws SimulationFailure when the run cannot go on.
 template <class System, class Solver, class Controller, class Recorder>
 [[gnu::always_inline]] inline bool go_on(System& system, Solver& solver, Controller& controller,
                                          Progress<System>& progress, Recorder&& record) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "events/cvode_solver.hpp"
 #include "events/solver_settings.hpp"
-#include "events/taylor_solver.hpp"
+#include "events/taylor/solver.hpp"
 
 namespace wormdrive {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "output/hdf5.hpp"
-#include "output/stored_table.hpp"
+#include "output/hdf5/hdf5.hpp"
+#include "output/hdf5/stored_table.hpp"
 
 namespace wormdrive {
 

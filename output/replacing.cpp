@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "output/hdf5.hpp"
-#include "output/read_ahead.hpp"
+#include "output/hdf5/hdf5.hpp"
+#include "output/hdf5/read_ahead.hpp"
 
 namespace wormdrive {
 namespace {

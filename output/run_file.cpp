@@ -4,16 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "output/read_ahead.hpp"
+#include "output/hdf5/read_ahead.hpp"
 #include "output/run_columns.hpp"
 
 namespace wormdrive {
-
-std::string units_on(Axis axis, const std::string& rotary) {
-  if (axis == Axis::rotary) return rotary;
-  if (rotary == "N m") return "N";
-  return rotary.starts_with("rad") ? fmt::format("m{}", rotary.substr(3)) : rotary;
-}
 
 RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents,
                  Replace replace)

@@ -6,18 +6,13 @@
 
 #include "control/closed_loop.hpp"
 #include "control/control_summary.hpp"
+#include "core/axis.hpp"
 #include "events/solver_settings.hpp"
-#include "output/part_file.hpp"
-#include "output/table.hpp"
+#include "output/hdf5/part_file.hpp"
+#include "output/hdf5/table.hpp"
 #include "output/trajectory.hpp"
 
 namespace wormdrive {
-
-/// Units of a rotary drive or of a linear axis (m, N, kg).
-enum class Axis { rotary, linear };
-
-/// The units on an axis of what has these units on a shaft: "rad/s" becomes "m/s", "N m" becomes "N".
-std::string units_on(Axis axis, const std::string& rotary);
 
 /// What a run shows beside the rigid drive.
 struct RunContents {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "output/hdf5.hpp"
-#include "output/part_file.hpp"
+#include "output/hdf5/hdf5.hpp"
+#include "output/hdf5/part_file.hpp"
 #include "output/replacing.hpp"
 
 namespace wormdrive {

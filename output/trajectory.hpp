@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/observation.hpp"
+#include "core/elastic/observation.hpp"
 
 namespace wormdrive {
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <thread>
 
-#include "events/halt.hpp"
-#include "sweep/keyed_permutation.hpp"
+#include "events/simulation_failure.hpp"
+#include "sweep/study/keyed_permutation.hpp"
 
 namespace wormdrive {
 namespace {
@@ -41,9 +41,9 @@ RefereeVerdict judged(Trials& trials, std::uint64_t trial, std::size_t place) {
   RefereeVerdict verdict{trial, {}, {}, false};
   try {
     const Scenario& scenario = trials.scenario(trial);
-    verdict.found = second_opinion(scenario);
-    if (scenario.control && place % one_in_the_loop == 0) verdict.in_loop = second_opinion_in_the_loop(scenario);
-  } catch (const Halt&) {
+    verdict.found = cross_check(scenario);
+    if (scenario.control && place % one_in_the_loop == 0) verdict.in_loop = cross_check_in_the_loop(scenario);
+  } catch (const SimulationFailure&) {
     verdict.halted = true;
   } catch (const SolverFault&) {  // before the run began
     verdict.halted = true;

@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "sweep/sweep_file.hpp"
+#include "sweep/file/sweep_file.hpp"
 
 namespace wormdrive {
 

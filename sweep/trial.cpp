@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/build_control.hpp"
-#include "scenarios/refusal.hpp"
-#include "scenarios/table_reader.hpp"
-#include "sweep/random.hpp"
+#include "description/build_control.hpp"
+#include "description/rejection.hpp"
+#include "description/toml/table_reader.hpp"
+#include "sweep/study/random.hpp"
 
 namespace wormdrive {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run_batch.hpp"
-#include "sweep/study.hpp"
+#include "simulation/run_batch.hpp"
+#include "sweep/study/study.hpp"
+#include "sweep/study/variable.hpp"
 #include "sweep/trial_range.hpp"
-#include "sweep/variable.hpp"
 
 namespace wormdrive {
 

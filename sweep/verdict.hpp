@@ -3,16 +3,16 @@
 #include <cstdint>
 #include <string>
 
-#include "scenarios/second_opinion.hpp"
+#include "simulation/solver_cross_check.hpp"
 
 namespace wormdrive {
 
 /// What the referee found of a trial.
 struct RefereeVerdict {
   std::uint64_t trial{};
-  Disagreement found;   ///< under the recorded torques
-  LoopOpinion in_loop;  ///< with the trial's own controller, of some of the trials
-  bool halted = false;  ///< CVODE could not go on
+  Disagreement found;      ///< under the recorded torques
+  LoopCrossCheck in_loop;  ///< with the trial's own controller, of some of the trials
+  bool halted = false;     ///< CVODE could not go on
 
   /// tolerance: of the gear angle [rad].
   bool agrees(double tolerance) const {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlopt.h>
 
-#include "scenarios/faults.hpp"
-#include "sweep/summary.hpp"
+#include "description/diagnostics.hpp"
+#include "sweep/summary/summary.hpp"
 
 namespace wormdrive {
 namespace {
@@ -86,7 +86,7 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
       summarise(sweep, {.ranked_by = settings.metric, .worst = starts, .done_only = settings.done_only});
   const Study& study = sweep.study();
   if (summary.worst.empty())
-    refuse({sweep.path()},
+    reject({sweep.path()},
            fmt::format("has no trial from which a search could start{}", settings.done_only ? ": none is done" : ""));
 
   std::vector<std::unique_ptr<Search>> searches;

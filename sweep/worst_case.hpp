@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/sweep_file.hpp"
+#include "sweep/file/sweep_file.hpp"
 
 namespace wormdrive {
 

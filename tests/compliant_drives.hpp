@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/compliant_drive.hpp"
+#include "core/elastic/compliant_drive.hpp"
 #include "support.hpp"
 
 namespace wormdrive::test {

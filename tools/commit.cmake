@@ -7,7 +7,7 @@ if(NOT commit)
 endif()
 
 set(patterns)
-foreach(folder core events control output scenarios sweep diagnosis)
+foreach(folder core events statistics control description output simulation sweep diagnosis)
   list(APPEND patterns ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)
 endforeach()
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${patterns})

@@ -1,5 +1,5 @@
 # Writes a C++ source with the contents of files: cmake -DOUTPUT=x.cpp -DFILES=name=path;name=path -P embed.cmake
-set(text "#include \"cli/report_assets.hpp\"\n\nnamespace wormdrive::assets {\n")
+set(text "#include \"cli/report/assets.hpp\"\n\nnamespace wormdrive::assets {\n")
 foreach(entry ${FILES})
   string(REGEX MATCH "^([^=]+)=(.*)$" ignored "${entry}")
   set(name ${CMAKE_MATCH_1})

@@ -13,7 +13,7 @@
 #include "bindings/fmi/model_description.hpp"
 #include "bindings/fmi/plant_json.hpp"
 #include "bindings/fmi/plant_parameters.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive {
 namespace {

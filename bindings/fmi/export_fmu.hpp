@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
+#include "description/scenario.hpp"
 #include "output/replacing.hpp"
-#include "scenarios/scenario.hpp"
 
 namespace wormdrive {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "bindings/fmi/plant_parameters.hpp"
-#include "core/elastic_teeth.hpp"
-#include "scenarios/refusal.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/rejection.hpp"
 
 namespace wormdrive {
 namespace {

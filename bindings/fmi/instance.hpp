@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "bindings/fmi/plant_run.hpp"
-#include "scenarios/build.hpp"
+#include "description/build.hpp"
 
 namespace wormdrive {
 
@@ -23,7 +23,7 @@ struct PlantRuns<std::variant<Parameters...>> {
                             PlantRun<CompliantDrive<double, Load<Parameters>>>...>;
 };
 
-/// One instance of the model of an FMU, without the C interface around it. Faults are thrown as std::exception.
+/// One instance of the model of an FMU, without the C interface around it. Diagnostics are thrown as std::exception.
 class FmuInstance {
  public:
   /// plant: as the FMU states it.

@@ -13,7 +13,7 @@
 
 #include "bindings/fmi/plant_parameters.hpp"
 #include "bindings/fmi/variables.hpp"
-#include "core/elastic_teeth.hpp"
+#include "core/elastic/elastic_teeth.hpp"
 #include "output/program.hpp"
 
 namespace wormdrive {

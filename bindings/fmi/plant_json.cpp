@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bindings/fmi/plant_parameters.hpp"
+#include "description/variant_kinds.hpp"
 #include "output/classic_locale.hpp"
-#include "scenarios/variant_kinds.hpp"
 
 namespace wormdrive {
 namespace {

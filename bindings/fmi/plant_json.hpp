@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "scenarios/scenario.hpp"
+#include "description/scenario.hpp"
 
 namespace wormdrive {
 

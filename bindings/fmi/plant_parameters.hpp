@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/keys.hpp"
-#include "scenarios/scenario.hpp"
+#include "description/keys.hpp"
+#include "description/scenario.hpp"
 
 namespace wormdrive {
 

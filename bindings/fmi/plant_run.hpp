@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "bindings/fmi/variables.hpp"
-#include "core/compliant_start.hpp"
+#include "core/elastic/compliant_start.hpp"
 #include "core/initial_state.hpp"
 
 namespace wormdrive {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/compliant_drive.hpp"
+#include "core/elastic/compliant_drive.hpp"
 #include "core/load.hpp"
 #include "core/worm_drive.hpp"
 

@@ -6,12 +6,12 @@
 #include "bindings/python/module.hpp"
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
+#include "description/toml/write_scenario.hpp"
 #include "diagnosis/diagnose_files.hpp"
-#include "diagnosis/diagnosis_file.hpp"
-#include "diagnosis/diagnosis_folder.hpp"
-#include "diagnosis/diagnosis_json.hpp"
-#include "scenarios/write_scenario.hpp"
-#include "sweep/threads.hpp"
+#include "diagnosis/report/diagnosis_file.hpp"
+#include "diagnosis/report/diagnosis_folder.hpp"
+#include "diagnosis/report/diagnosis_json.hpp"
+#include "statistics/threads.hpp"
 
 namespace py = pybind11;
 

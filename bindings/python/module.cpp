@@ -8,15 +8,15 @@
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/run_result.hpp"
 #include "bindings/python/signals.hpp"
-#include "output/hdf5.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "description/quantities.hpp"
+#include "simulation/load_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "description/warnings.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/program.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/keys.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/quantities.hpp"
-#include "scenarios/steady_scenario.hpp"
-#include "scenarios/warnings.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "simulation/steady_scenario.hpp"
 
 namespace py = pybind11;
 using namespace wormdrive;
@@ -55,10 +55,10 @@ py::dict as_dict(const std::vector<Quantity>& list) {
 py::object steady(const Scenario& scenario, const py::array_t<double, py::array::forcecast>& speeds) {
   const auto torque = [&](double speed) {
     const std::string at = fmt::format("worm_speed = {} {}", speed, units_on(scenario.axis, "rad/s"));
-    if (!std::isfinite(speed)) refuse({at}, "must be a finite number");
+    if (!std::isfinite(speed)) reject({at}, "must be a finite number");
     if (speed == 0.0) {
       const RestAtStart rest = rest_at_start(scenario);
-      refuse({at},
+      reject({at},
              fmt::format("at rest every motor {} from {:.6g} to {:.6g} {} holds the drive; ask for another speed",
                          in_words_of(scenario.axis, "torque"), rest.low, rest.high, units_on(scenario.axis, "N m")));
     }
@@ -75,7 +75,7 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "C++ core of wormdrive.";
   py::register_exception<InputFault>(m, "InputError", PyExc_ValueError);
   py::register_exception<OutputFault>(m, "OutputError", PyExc_OSError);
-  py::register_exception<Halt>(m, "SimulationHalted", PyExc_RuntimeError);
+  py::register_exception<SimulationFailure>(m, "SimulationHalted", PyExc_RuntimeError);
   m.def("version", &build_description);
 
   py::class_<RunResult>(m, "Run")

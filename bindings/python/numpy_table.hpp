@@ -8,7 +8,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "output/table.hpp"
+#include "output/hdf5/table.hpp"
 
 namespace wormdrive {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/elastic_teeth.hpp"
-#include "scenarios/write_run.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "simulation/write_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -42,7 +42,7 @@ void RunResult::run(std::function<void(double)> time) {
   }
   try {
     summary_ = run_scenario(*scenario_, listeners);
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     halted_ = halt.what();
   }
 }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "events/halt.hpp"
+#include "events/simulation_failure.hpp"
 #include "output/run_columns.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
 

@@ -2,9 +2,9 @@
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "bindings/python/sweep_result.hpp"
-#include "scenarios/write_scenario.hpp"
-#include "sweep/load_study.hpp"
-#include "sweep/threads.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/study/load_study.hpp"
 
 namespace py = pybind11;
 

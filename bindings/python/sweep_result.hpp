@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "output/table.hpp"
-#include "sweep/sweep_file.hpp"
+#include "output/hdf5/table.hpp"
+#include "sweep/file/sweep_file.hpp"
 
 namespace wormdrive {
 

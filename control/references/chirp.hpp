@@ -7,7 +7,7 @@
 
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
-#include "core/sine_cosine.hpp"
+#include "core/numbers/sine_cosine.hpp"
 
 namespace wormdrive {
 

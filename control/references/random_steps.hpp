@@ -5,9 +5,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "control/random.hpp"
 #include "control/reference_point.hpp"
 #include "core/field.hpp"
+#include "statistics/random.hpp"
 
 namespace wormdrive {
 

@@ -2,8 +2,8 @@
 #include <string_view>
 
 #include "control/reference_point.hpp"
-#include "core/cubic_table.hpp"
-#include "core/series.hpp"
+#include "core/numbers/cubic_table.hpp"
+#include "core/numbers/series.hpp"
 
 namespace wormdrive {
 

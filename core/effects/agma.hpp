@@ -5,10 +5,10 @@
 #include <tuple>
 #include <vector>
 
-#include "core/cubic_table.hpp"
 #include "core/field.hpp"
+#include "core/numbers/cubic_table.hpp"
+#include "core/numbers/portable.hpp"
 #include "core/place.hpp"
-#include "core/portable.hpp"
 #include "core/sliding_contact.hpp"
 
 namespace wormdrive {

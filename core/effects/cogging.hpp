@@ -5,8 +5,8 @@
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
+#include "core/numbers/portable.hpp"
 #include "core/place.hpp"
-#include "core/portable.hpp"
 
 namespace wormdrive {
 

@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "core/field.hpp"
+#include "core/numbers/portable.hpp"
 #include "core/place.hpp"
-#include "core/portable.hpp"
 #include "core/transmission.hpp"
 
 namespace wormdrive {

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/cubic_table.hpp"
 #include "core/moment.hpp"
+#include "core/numbers/cubic_table.hpp"
 
 namespace wormdrive {
 

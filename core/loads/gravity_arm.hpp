@@ -7,7 +7,7 @@
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
-#include "core/portable.hpp"
+#include "core/numbers/portable.hpp"
 
 namespace wormdrive {
 

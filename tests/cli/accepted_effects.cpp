@@ -4,7 +4,7 @@
 
 #include "cli/bad_input.hpp"
 #include "core/effects.hpp"
-#include "scenarios/keys.hpp"
+#include "description/keys.hpp"
 
 // What a scenario may state is one rule for every command, whether the drive has teeth or is one mass.
 

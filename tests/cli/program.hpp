@@ -17,7 +17,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "output/stored_column.hpp"
+#include "output/hdf5/stored_column.hpp"
 
 namespace wormdrive::test {
 

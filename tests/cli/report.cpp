@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive::test::cli_report {
 

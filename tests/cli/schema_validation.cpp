@@ -8,11 +8,11 @@
 
 #include "cli/bad_input.hpp"
 #include "core/effects.hpp"
-#include "scenarios/document.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/keys.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "description/toml/document.hpp"
+#include "simulation/load_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
 
 // The schema against which editors check a scenario takes every scenario that the program takes.
 

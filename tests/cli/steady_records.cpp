@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/unit.hpp"
-#include "diagnosis/speed_torque_records.hpp"
+#include "diagnosis/data/speed_torque_records.hpp"
 
 // Records at constant speed: which samples are left out of their means, and how well the model meets the rest.
 

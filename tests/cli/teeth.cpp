@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "core/impact.hpp"
+#include "core/elastic/impact.hpp"
 #include "support.hpp"
 
 // Elastic teeth as the program shows them: on the terminal, in its JSON, and in the result file.

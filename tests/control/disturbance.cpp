@@ -25,13 +25,13 @@ const DisturbanceSettings random_torque{.deviation = 0.02, .time_constant = 0.00
 const auto greedy = [](const Measurement& m) { return ControlSignals{.torque = m.t < 0.1 ? 0.09 : -0.09}; };
 
 /// The speed of a shaft after each sample, and what disturbs it from there on.
-struct Course {
+struct EventSequence {
   std::map<long, double> speed;
   std::vector<ControlRecord> records;
 };
 template <class System>
-Course course(System system, By by, const DisturbanceSettings& disturbance, int speed_in_state = 1) {
-  Course made;
+EventSequence course(System system, By by, const DisturbanceSettings& disturbance, int speed_in_state = 1) {
+  EventSequence made;
   ClosedLoop loop(greedy, Reference{}, SensorSettings{}, SamplingSettings{.period = period}, disturbance,
                   [&](const ControlRecord& r) { made.records.push_back(r); });
   const auto r = run(std::move(system), Timetable(0, samples * period, period, {period, 0.0}), {}, tight(by), loop);
@@ -59,7 +59,7 @@ TEST_CASE("whatever the actuator does, a disturbance of a free inertia adds its 
               ActuatorDelay<double>{0.0017}, TorqueOffset<double>{0.01})};
   for (const Effects<double>& on : actuators)
     for (const By by : every_solver) {
-      const Course calm = course(wheel(on), by, {}), disturbed = course(wheel(on), by, random_torque);
+      const EventSequence calm = course(wheel(on), by, {}), disturbed = course(wheel(on), by, random_torque);
       double sum = 0.0, largest = 0.0;
       for (int k = 0; k < samples; ++k) {
         REQUIRE(disturbed.records[k].applied == calm.records[k].applied);
@@ -77,7 +77,7 @@ TEST_CASE("a disturbance turns the worm of elastic teeth alone, as long as they 
   const MeshParameters<double> p = table1(0.0);
   const auto d = compliant(p, constant(0.0), {}, wide, effects(TorqueSaturation<double>{0.01}));
   const DisturbanceSettings gentle{.deviation = 1e-4, .time_constant = 0.0, .seed = 3};
-  const Course calm = course(d, bdf, {}), disturbed = course(d, bdf, gentle);
+  const EventSequence calm = course(d, bdf, {}), disturbed = course(d, bdf, gentle);
   double sum = 0.0;
   for (int k = 0; k < samples; ++k) {
     REQUIRE(std::abs(disturbed.speed.at(k) - calm.speed.at(k) - sum) <= 1e-8);

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 #include "support.hpp"
 
 // Figure 10 of the paper in its readings: docs/figure10.md has the table.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "scenarios/build_control.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "description/build_control.hpp"
+#include "simulation/run_scenario.hpp"
 #include "support.hpp"
 
 // What Lemma 1 promises, in runs: kept by every drive within the stated variations, and seen to be broken outside.

@@ -21,7 +21,7 @@ member = None
 for line in output("nm", "--demangle", library).splitlines():
     if line.endswith(".o:"):
         member = line
-    elif member and member.startswith("lane_kernel_"):
+    elif member and member.startswith("kernel_"):
         if not (symbol := re.match(r"\S*\s+(\S) (.*)", line)):
             continue
         kind, name = symbol.groups()
@@ -31,9 +31,9 @@ for line in output("nm", "--demangle", library).splitlines():
             if "plain" not in member:
                 faults.append(f"{member} {kind} {name}")
 for line in output("objdump", "--disassemble", "--no-show-raw-insn", library).splitlines():
-    if line.startswith("lane_kernel_") or ":     file format" in line:
+    if line.startswith("kernel_") or ":     file format" in line:
         member = line
-    elif member.startswith("lane_kernel_") and re.search(r"\tvfn?m(add|sub)", line):
+    elif member.startswith("kernel_") and re.search(r"\tvfn?m(add|sub)", line):
         faults.append(f"{member} {line.strip()}")
 if kernels != 3:
     faults.append(f"{kernels} kernels found, not 3")

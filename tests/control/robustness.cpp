@@ -4,8 +4,8 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "control/closed_loop.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 #include "support.hpp"
 
 // Controllers and sensors that misbehave: a clear error or a correct run, never a hang.
@@ -32,7 +32,7 @@ std::string halt_of(double torque) {
   try {
     torques([=](const Measurement& m) { return ControlSignals{.torque = m.t < 0.0025 ? 0.01 : torque}; }, 1e-3, 0.01);
     return "";
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     return halt.what();
   }
 }

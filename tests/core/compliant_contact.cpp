@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 #include "compliant_drives.hpp"
-#include "core/impact.hpp"
+#include "core/elastic/impact.hpp"
 
 // Contact and free flight of the compliant drive against closed forms.
 

@@ -1,4 +1,4 @@
-#include "core/compliant_drive.hpp"
+#include "core/elastic/compliant_drive.hpp"
 
 #include <algorithm>
 #include <cmath>

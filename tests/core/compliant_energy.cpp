@@ -1,4 +1,4 @@
-#include "core/compliant_energy.hpp"
+#include "core/elastic/compliant_energy.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/compliant_start.hpp"
+#include "core/elastic/compliant_start.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/impact.hpp"
+#include "core/elastic/impact.hpp"
 
 #include <algorithm>
 #include <cmath>

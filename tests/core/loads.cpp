@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "core/load.hpp"
-#include "core/series.hpp"
+#include "core/numbers/series.hpp"
 #include "core/unit.hpp"
 
 namespace wormdrive::test::core_loads {

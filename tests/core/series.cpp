@@ -1,9 +1,9 @@
-#include "core/series.hpp"
+#include "core/numbers/series.hpp"
 
 #include <cmath>
 
 #include "catch.hpp"
-#include "core/rounded.hpp"
+#include "core/numbers/rounded.hpp"
 #include "support.hpp"
 
 namespace wormdrive::test::core_series {

@@ -3,12 +3,12 @@
 
 #include "catch.hpp"
 #include "compliant_drives.hpp"
-#include "core/elastic_teeth.hpp"
-#include "core/impact.hpp"
-#include "diagnosis/bounces.hpp"
-#include "diagnosis/drive_with_play.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "core/elastic/impact.hpp"
+#include "description/build.hpp"
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/predictor/drive_with_backlash.hpp"
 #include "diagnosis/recordings.hpp"
-#include "scenarios/build.hpp"
 
 // Teeth with play as the predictor follows them: flights by hand, bounces against the drive with elastic teeth.
 
@@ -16,17 +16,17 @@ namespace wormdrive::test::diagnosis_backlash {
 
 TEST_CASE("teeth that fly apart meet when a parabola says so") {
   // the gear falls away from the worm's left flank through 3 mrad to its right one
-  const FreeFlight flight{Throw{-8.0}, Throw{2.0}, 0.0, 1.0};
+  const FreeFlight flight{ConstantAcceleration{-8.0}, ConstantAcceleration{2.0}, 0.0, 1.0};
   const auto impact = flight.impact(1.5e-3, 1.5e-3);
   REQUIRE(impact);
   CHECK(impact->flank == Flank::right);
   CHECK(std::abs(impact->after - std::sqrt(2.0 * 3e-3 / 10.0)) < 1e-15);
   CHECK(std::abs(impact->speed - std::sqrt(2.0 * 3e-3 * 10.0)) < 1e-14);
-  CHECK_FALSE(FreeFlight{Throw{-8.0}, Throw{2.0}, 0.0, 0.02}.impact(1.5e-3, 1.5e-3));
+  CHECK_FALSE(FreeFlight{ConstantAcceleration{-8.0}, ConstantAcceleration{2.0}, 0.0, 0.02}.impact(1.5e-3, 1.5e-3));
 }
 
 TEST_CASE("teeth that have just bounced fly before they meet again") {
-  const FreeFlight flight{Throw{5.0}, Throw{-5.0}, -0.02, 1.0};
+  const FreeFlight flight{ConstantAcceleration{5.0}, ConstantAcceleration{-5.0}, -0.02, 1.0};
   const auto impact = flight.impact(1e-3, 1e-3);
   REQUIRE(impact);
   CHECK(impact->flank == Flank::left);
@@ -48,8 +48,8 @@ TEST_CASE("a drive with play follows the one whose stiff teeth bounce") {
   const auto elastic = run(compliant(p, fig9_load(), {{held}}, contact), Timetable(0, end, 1e-3),
                            {0.0, {-p.i * gap / 2, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-10));
 
-  const auto follow = [&](double play, const Bounce& bounce) {
-    DriveWithPlay<GravityLoad> follower(rigid, play, 0.0, bounce);
+  const auto follow = [&](double separation, const Restitution& impact) {
+    DriveWithBacklash<GravityLoad> follower(rigid, separation, 0.0, impact);
     follower.drive().enter(0.0);
     auto now = follower.at(0.0, {0.0, 0.0});
     Deviation worst;
@@ -69,10 +69,10 @@ TEST_CASE("a drive with play follows the one whose stiff teeth bounce") {
 
 TEST_CASE("a scenario that gets backlash gets teeth that bounce as found") {
   Scenario arm = nominal_arm();
-  give_teeth_to_bounce(arm, {0.6, 1e-3});
+  give_teeth_for_impacts(arm, {0.6, 1e-3});
   CHECK_FALSE(std::get<std::optional<ToothCompliance<double>>>(arm.effects.list));
   set_field(arm.effects, {"backlash", "gap", 1e-3});
-  give_teeth_to_bounce(arm, {0.6, 1e-3});
+  give_teeth_for_impacts(arm, {0.6, 1e-3});
   const auto teeth = std::get<std::optional<ToothCompliance<double>>>(arm.effects.list);
   REQUIRE(teeth);
   CHECK(arm.run.solver == SolverKind::cvode);

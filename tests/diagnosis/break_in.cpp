@@ -3,10 +3,10 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "simulation/load_scenario.hpp"
 #include "diagnosis/break_in_data.hpp"
-#include "diagnosis/break_in_points.hpp"
-#include "diagnosis/point_diagnosis.hpp"
-#include "scenarios/load_scenario.hpp"
+#include "diagnosis/points/break_in_points.hpp"
+#include "diagnosis/points/point_diagnosis.hpp"
 
 // Break-in tables as in fig. 7 of the paper: friction at rest, C1 and C2 from points with 3 % noise.
 

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "diagnosis/candidates/catalogue.hpp"
+#include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/diagnosis_settings.hpp"
 #include "diagnosis/recordings.hpp"
-#include "diagnosis/suspects.hpp"
-#include "diagnosis/tolerances.hpp"
-#include "scenarios/write_scenario.hpp"
 #include "support.hpp"
 
 // Whole diagnoses of recordings of the program's own drive; what a foreign drive hides is the recovery tests' business.
@@ -51,7 +51,7 @@ TEST_CASE("a recording of the drive as stated is adequate, and the certificate k
     CHECK(e.floor > e.after / spread);
     CHECK(e.floor < e.after * spread);
   }
-  for (const Candidate& c : d.ranking)  // what was only screened has no standard error, and no zero in its place
+  for (const RankedCandidate& c : d.ranking)  // what was only screened has no standard error, and no zero in its place
     for (const Estimate& p : c.effect.parameters) CHECK(p.standard_error != 0.0);
   CHECK(visibility(d, "actuator_delay").nearest == "encoder_delay");
   CHECK(visibility(d, "encoder_delay").likeness == 1.0);
@@ -121,14 +121,14 @@ TEST_CASE("a diagnosis does not depend on the number of threads") {
   }
 }
 
-TEST_CASE("every effect of the catalogue is a suspect, a suspect's twin, or says why it is not examined") {
+TEST_CASE("every effect of the catalogue is a candidate, a candidate's twin, or says why it is not examined") {
   const Scenario arm = nominal_arm();
   const Magnitudes sizes = magnitudes(arm, {prepared(record(arm, {.duration = 3}), {}, 0)});
-  const auto all = suspects({}, sizes, toleranced_coordinates(arm, sizes, {}));
+  const auto all = candidates({}, sizes, toleranced_coordinates(arm, sizes, {}));
   const auto others = not_examined(sizes);
   Effects<double>{}.for_each([&]<class E>(const std::optional<E>&) {
     CAPTURE(E::id);
-    const bool is_suspect = std::any_of(all.begin(), all.end(), [](const Suspect& s) {
+    const bool is_suspect = std::any_of(all.begin(), all.end(), [](const Candidate& s) {
       return s.effect == E::id || std::count(s.twins.begin(), s.twins.end(), E::id) > 0;
     });
     const bool has_reason =
@@ -146,7 +146,8 @@ TEST_CASE("recordings that cannot be diagnosed are refused") {
   REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "nothing moves in the recording");
   still.motor_torque.resize(300);
   still.gear_angle.resize(300);
-  REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}), "a diagnosis needs recordings of at least 3 s and 1000 samples");
+  REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {still}),
+                      "a diagnosis needs recordings of at least 3 s and 1000 samples");
 }
 
 }  // namespace wormdrive::test::diagnosis_diagnose

@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "description/diagnostics.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/hypothesis.hpp"
+#include "diagnosis/inference/hypothesis.hpp"
 #include "diagnosis/sheet.hpp"
-#include "scenarios/faults.hpp"
 
 // Sample times whose steps are even among neighbours but drift: a clock is no worse for being slow.
 
@@ -61,9 +61,9 @@ std::string said(const std::function<double(double)>& clock) {
 double rms_innovation(const Recording& recording) {
   Scenario scenario;
   scenario.mesh = SingleInertia<double>{0.01};
-  const Evaluation by(scenario, InnovationLayout({prepared(recording, {}, 0)}), 1);
+  const Evaluation evaluation(scenario, InnovationLayout({prepared(recording, {}, 0)}), 1);
   Hypothesis h;
-  REQUIRE(evaluate(by, h));
+  REQUIRE(evaluate(evaluation, h));
   double sum = 0.0;
   for (std::size_t k = 500; k < h.innovations.size(); ++k) sum += h.innovations[k] * h.innovations[k];
   return std::sqrt(sum / static_cast<double>(h.innovations.size() - 500));

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/magnitudes.hpp"
 #include "recovery/campaign.hpp"
 
 // Recordings of the recovery tests' own drive that once led a diagnosis astray, each for its own reason.
@@ -129,7 +129,7 @@ TEST_CASE("what is of no certain size beside a gap is no cause, for all that it 
   named_exactly(hard(4253192110446129441U, {{"backlash", 0.004}}));
 }
 
-TEST_CASE("suspects beside a gap are compared by bounces that suit each of them") {
+TEST_CASE("candidates beside a gap are compared by impacts that suit each of them") {
   named_exactly(hard(6401084500742193729U, {{"torque_offset", 0.0012}, {"backlash", 0.001}}));
 }
 

@@ -1,11 +1,11 @@
-#include "diagnosis/intervals.hpp"
+#include "diagnosis/inference/intervals.hpp"
 
 #include <cmath>
 #include <string_view>
 
 #include "catch.hpp"
+#include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/recordings.hpp"
-#include "diagnosis/tolerances.hpp"
 
 // What an interval holds beside the noise: what the predictor itself gets wrong.
 
@@ -13,13 +13,13 @@ namespace wormdrive::test::diagnosis_intervals {
 
 namespace {
 
-/// A hypothesis with everything that is stated and one suspect, from its last start.
+/// A hypothesis with everything that is stated and one candidate, from its last start.
 Hypothesis extended_by(std::string_view effect) {
   const Scenario drive = nominal_arm();
   const PreparedRecording recording = prepared(record(drive, {.duration = 2.0}), {}, 0);
   const Magnitudes sizes = magnitudes(drive, {recording});
   const auto stated = toleranced_coordinates(drive, sizes, {});
-  const auto all = suspects({}, sizes, stated);
+  const auto all = candidates({}, sizes, stated);
   Hypothesis h;
   for (const Coordinate& c : stated) {
     h.free.push_back(c);

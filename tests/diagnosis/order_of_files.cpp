@@ -3,10 +3,10 @@
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/diagnosis_json.hpp"
-#include "diagnosis/hypothesis.hpp"
-#include "diagnosis/prediction_error.hpp"
+#include "diagnosis/inference/hypothesis.hpp"
 #include "diagnosis/recordings.hpp"
+#include "diagnosis/report/diagnosis_json.hpp"
+#include "diagnosis/verdict/prediction_error.hpp"
 #include "support.hpp"
 
 // Several files are one body of data: in which order they are given makes no difference.
@@ -29,10 +29,10 @@ NoiseSizes noise_of(std::vector<Recording> recordings) {
     all.push_back(prepared(r, {}, blocks, 60.0));
     blocks += all.back().blocks();
   }
-  const Evaluation by(nominal_arm(), InnovationLayout(std::move(all)), 1);
+  const Evaluation evaluation(nominal_arm(), InnovationLayout(std::move(all)), 1);
   Hypothesis h;
-  REQUIRE(evaluate(by, h));
-  return noise_sizes(by, h);
+  REQUIRE(evaluate(evaluation, h));
+  return noise_sizes(evaluation, h);
 }
 
 json diagnosed(const Folder& folder, const std::string& scenario, const std::vector<std::string>& files) {

@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "diagnosis/evaluation.hpp"
+#include "diagnosis/inference/evaluation.hpp"
 #include "diagnosis/recordings.hpp"
 #include "events/short_step_solver.hpp"
 #include "support.hpp"
@@ -13,7 +13,7 @@ namespace wormdrive::test::diagnosis_predictor {
 
 namespace {
 
-Evaluation evaluation(const Scenario& scenario, const Recording& recording) {
+Evaluation evaluation_of(const Scenario& scenario, const Recording& recording) {
   return {scenario, InnovationLayout({prepared(recording, {}, 0)}), 1};
 }
 
@@ -56,9 +56,9 @@ TEST_CASE("without noise the innovations of the right model vanish") {
   Scenario arm = nominal_arm();
   std::get<std::optional<WormCoulomb<double>>>(arm.effects.list) = WormCoulomb<double>{2e-3};
   const Recording recording = record(arm, exact);
-  const Evaluation by = evaluation(arm, recording);
-  const auto right = by.innovations(arm.effects, {0.1, 0.0});
-  const auto wrong = by.innovations({}, {0.1, 0.0});
+  const Evaluation evaluation = evaluation_of(arm, recording);
+  const auto right = evaluation.innovations(arm.effects, {0.1, 0.0});
+  const auto wrong = evaluation.innovations({}, {0.1, 0.0});
   REQUIRE(right);
   REQUIRE(wrong);
   Deviation small, large;
@@ -74,9 +74,9 @@ TEST_CASE("the innovations of the right model are white, those of a wrong one ar
   Scenario arm = nominal_arm();
   set_field(arm.effects, {"worm_coulomb", "torque", 4e-3});
   const Recording recording = record(arm);
-  const Evaluation by = evaluation(arm, recording);
-  const auto right = by.innovations(arm.effects, {0.012, 0.0});
-  const auto wrong = by.innovations({}, {0.012, 0.0});
+  const Evaluation evaluation = evaluation_of(arm, recording);
+  const auto right = evaluation.innovations(arm.effects, {0.012, 0.0});
+  const auto wrong = evaluation.innovations({}, {0.012, 0.0});
   REQUIRE(right);
   REQUIRE(wrong);
   for (const std::size_t lag : {1U, 2U, 5U, 20U, 100U}) {
@@ -88,19 +88,19 @@ TEST_CASE("the innovations of the right model are white, those of a wrong one ar
 
 TEST_CASE("a late encoder and a late command are the same to the predictor") {
   const Recording recording = record(nominal_arm(), {.duration = 3});
-  const Evaluation by = evaluation(nominal_arm(), recording);
+  const Evaluation evaluation = evaluation_of(nominal_arm(), recording);
   Effects<double> sensor, actuator;
   set_field(sensor, {"encoder_delay", "delay", 1.7e-3});
   set_field(actuator, {"actuator_delay", "delay", 1.7e-3});
-  REQUIRE(*by.innovations(sensor, {}) == *by.innovations(actuator, {}));
+  REQUIRE(*evaluation.innovations(sensor, {}) == *evaluation.innovations(actuator, {}));
 }
 
 TEST_CASE("a model that runs away has no innovations, and takes no time to tell") {
   const Recording recording = record(nominal_arm(), {.duration = 4});
-  const Evaluation by = evaluation(nominal_arm(), recording);
+  const Evaluation evaluation = evaluation_of(nominal_arm(), recording);
   Effects<double> pushes;
   set_field(pushes, {"worm_viscous", "coefficient", -1e-2});  // faster and faster, with ever shorter steps
-  REQUIRE_FALSE(by.innovations(pushes, {0.012, 0.0}));
+  REQUIRE_FALSE(evaluation.innovations(pushes, {0.012, 0.0}));
 }
 
 TEST_CASE("a prediction ahead from the state of a sample starts where the recording was") {
@@ -108,11 +108,11 @@ TEST_CASE("a prediction ahead from the state of a sample starts where the record
   Scenario arm = nominal_arm();
   set_field(arm.effects, {"actuator_delay", "delay", 2.5e-3});  // what is on the way at the start counts as well
   const Recording recording = record(arm, exact);
-  const Evaluation by = evaluation(arm, recording);
+  const Evaluation evaluation = evaluation_of(arm, recording);
   std::vector<FilteredStates> states;
-  REQUIRE(by.innovations(arm.effects, {0.1, 0.0}, {}, &states));
+  REQUIRE(evaluation.innovations(arm.effects, {0.1, 0.0}, {}, &states));
   const std::vector<std::size_t> begins{1500, 2600};
-  const auto rows = by.run_on(arm.effects, {0.1, 0.0}, 0, states[0], begins, 250);
+  const auto rows = evaluation.run_on(arm.effects, {0.1, 0.0}, 0, states[0], begins, 250);
   for (std::size_t q = 0; q < begins.size(); ++q) {
     REQUIRE(rows[q].size() == 250);
     Deviation worst;
@@ -124,13 +124,13 @@ TEST_CASE("a prediction ahead from the state of a sample starts where the record
 TEST_CASE("a model that meets the innovations it had runs through the recording again") {
   Scenario arm = nominal_arm();
   const Recording recording = record(arm, {.duration = 4});
-  const Evaluation by = evaluation(arm, recording);
+  const Evaluation evaluation = evaluation_of(arm, recording);
   const ProcessNoise noise{0.012, 0.003};
   std::vector<FilteredStates> states;
-  const auto e = by.innovations(arm.effects, noise, {}, &states);
+  const auto e = evaluation.innovations(arm.effects, noise, {}, &states);
   REQUIRE(e);
   const std::vector<std::size_t> begins{700, 2600};
-  const auto rows = by.run_on(arm.effects, noise, 0, states[0], begins, 250, *e);
+  const auto rows = evaluation.run_on(arm.effects, noise, 0, states[0], begins, 250, *e);
   Deviation worst;
   for (std::size_t q = 0; q < begins.size(); ++q)
     for (std::size_t k = 0; k < 250; ++k) worst.add(rows[q][k] - recording.gear_angle[begins[q] + 1 + k]);

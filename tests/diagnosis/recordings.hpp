@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "control/random.hpp"
-#include "diagnosis/experiment.hpp"
+#include "diagnosis/verdict/experiment.hpp"
+#include "statistics/random.hpp"
 
 namespace wormdrive::test {
 

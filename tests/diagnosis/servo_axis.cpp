@@ -3,11 +3,11 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "simulation/load_scenario.hpp"
+#include "diagnosis/candidates/tolerances.hpp"
+#include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/fit.hpp"
-#include "diagnosis/read_recording.hpp"
-#include "diagnosis/tolerances.hpp"
-#include "scenarios/load_scenario.hpp"
+#include "diagnosis/inference/fit.hpp"
 #include "support.hpp"
 
 // A measured axis without a gear, 25 s at 1 kHz: Janot, Gautier, Brunot, EMPS, 2019. A diagnosis that knows its mass
@@ -108,17 +108,17 @@ TEST_CASE("the measured axis: Coulomb, viscous friction and offset alone come wi
   if (!axis) return;
   const PreparedRecording prepared_recording = with_all_data(prepared(axis->recording, {}, 0));
   const Magnitudes sizes = magnitudes(axis->scenario, {prepared_recording});
-  const auto all = suspects(
+  const auto all = candidates(
       {}, sizes,
       toleranced_coordinates(axis->scenario, sizes, {{"worm_inertia", "inertia", 0.0}, {"torque_gain", "share", 0.0}}));
-  const Evaluation by(axis->scenario, InnovationLayout({prepared_recording}), 2);
+  const Evaluation evaluation(axis->scenario, InnovationLayout({prepared_recording}), 2);
   Hypothesis h = without_noise_model({});
   for (const std::string_view effect : {"worm_coulomb", "worm_viscous", "torque_offset"})
     for (std::size_t k = 0; k < all.size(); ++k)
       if (all[k].effect == effect) add_suspect(h, all, k, 0);
-  fit(by, h, 12);
-  adjust_noise(by, h, 10);
-  fit(by, h, 12, 0.01);
+  fit(evaluation, h, 12);
+  adjust_noise(evaluation, h, 10);
+  fit(evaluation, h, 12, 0.01);
   const AxisModel found = axis_model(extended(h));
   CAPTURE(found.coulomb_forward, found.viscous_forward, found.offset, h.noise.white);
   CHECK(close(found.coulomb_forward, published.coulomb_forward, 0.02));

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
-#include "diagnosis/coordinates.hpp"
+#include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/recordings.hpp"
 #include "support.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/program.hpp"
-#include "diagnosis/read_recording.hpp"
+#include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/recordings.hpp"
 #include "recovery/truth/excitation.hpp"
 

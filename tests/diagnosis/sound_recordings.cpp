@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "catch.hpp"
+#include "description/diagnostics.hpp"
+#include "simulation/load_scenario.hpp"
 #include "diagnosis/sheet.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/load_scenario.hpp"
 #include "support.hpp"
 
 // What is taken for a recording, and what is left out of it.

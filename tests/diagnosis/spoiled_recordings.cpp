@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "catch.hpp"
+#include "description/diagnostics.hpp"
 #include "diagnosis/sheet.hpp"
-#include "scenarios/faults.hpp"
 
 // Recordings that something happened to on their way: each is refused with one sentence, none passes for physics.
 

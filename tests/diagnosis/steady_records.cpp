@@ -11,10 +11,10 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/steady.hpp"
-#include "diagnosis/point_diagnosis.hpp"
-#include "diagnosis/steady_points.hpp"
-#include "scenarios/build.hpp"
-#include "scenarios/load_scenario.hpp"
+#include "description/build.hpp"
+#include "simulation/load_scenario.hpp"
+#include "diagnosis/points/point_diagnosis.hpp"
+#include "diagnosis/points/steady_points.hpp"
 
 // Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
 

@@ -1,12 +1,12 @@
-#include "diagnosis/stepwise.hpp"
+#include "diagnosis/inference/stepwise.hpp"
 
 #include <cmath>
 
 #include "catch.hpp"
-#include "diagnosis/fit.hpp"
-#include "diagnosis/intervals.hpp"
+#include "diagnosis/candidates/tolerances.hpp"
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/recordings.hpp"
-#include "diagnosis/tolerances.hpp"
 #include "support.hpp"
 
 // Friction at rest shows at break-aways alone: a fit has to search it, for there is no slope to follow.
@@ -19,8 +19,8 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
   set_field(drive.effects, {"static_friction", "rise", rise});
   const PreparedRecording recording = with_all_data(prepared(record(drive, {.duration = 12.0}), {}, 0));
   const Magnitudes sizes = magnitudes(nominal_arm(), {recording});
-  const auto all = suspects({}, sizes, toleranced_coordinates(nominal_arm(), sizes, {}));
-  const Evaluation by(nominal_arm(), InnovationLayout({recording}), 2);
+  const auto all = candidates({}, sizes, toleranced_coordinates(nominal_arm(), sizes, {}));
+  const Evaluation evaluation(nominal_arm(), InnovationLayout({recording}), 2);
   std::size_t index = 0;
   while (all[index].effect != "static_friction") ++index;
   REQUIRE_FALSE(has_slope(all[index].coordinates[0]));
@@ -28,10 +28,10 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
     Hypothesis h;
     add_suspect(h, all, index, start);
     CAPTURE(h.values[0]);
-    fit(by, h, 3);
-    adjust_noise(by, h, 6);
-    fit(by, h, 3);
-    const double error = std::sqrt(covariance(by, h, 0)(0, 0));
+    fit(evaluation, h, 3);
+    adjust_noise(evaluation, h, 6);
+    fit(evaluation, h, 3);
+    const double error = std::sqrt(covariance(evaluation, h, 0)(0, 0));
     CAPTURE(h.values[0], error);
     CHECK(std::abs(h.values[0] - rise) < 1.96 * error);
     CHECK(error < 0.3 * rise);

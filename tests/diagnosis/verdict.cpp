@@ -1,7 +1,7 @@
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 
 #include "catch.hpp"
-#include "diagnosis/prediction_error.hpp"
+#include "diagnosis/verdict/prediction_error.hpp"
 
 namespace wormdrive::test::diagnosis_verdict {
 
@@ -17,7 +17,7 @@ Diagnosis named(const char* effect, double before, double after) {
   e.after = after;
   e.floor = 1e-3;
   d.prediction = {e};
-  std::vector<Suspect> all(1);
+  std::vector<Candidate> all(1);
   all[0].effect = effect;
   Selection selection;
   selection.base.bic = 0.0;

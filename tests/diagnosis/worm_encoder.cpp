@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "diagnosis/bounces.hpp"
-#include "diagnosis/fit.hpp"
-#include "diagnosis/magnitudes.hpp"
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/candidates/magnitudes.hpp"
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 #include "numbers.hpp"
 #include "recovery/campaign.hpp"
 
@@ -17,8 +17,8 @@ namespace {
 struct Bench {
   recovery::Bench recorded;
   Scenario sheet;
-  std::vector<Suspect> all;
-  Evaluation by;
+  std::vector<Candidate> all;
+  Evaluation evaluation;
 };
 
 /// A short recording with something hidden, and all that a fit needs.
@@ -34,24 +34,24 @@ Bench bench(const char* effect, double amount, double zero = 0.0) {
   const Magnitudes sizes = magnitudes(sheet, prepared_one);
   return {std::move(recorded),
           sheet,
-          suspects(sheet.effects, sizes, {}),
+          candidates(sheet.effects, sizes, {}),
           {sheet, InnovationLayout(std::move(prepared_one)), 1}};
 }
 
-/// The suspect of that name, fitted alone.
+/// The candidate of that name, fitted alone.
 Hypothesis fitted(const Bench& b, std::string_view effect, std::size_t start = 0) {
   Hypothesis h;
   h.noise = {0.3, 0.01};
   for (std::size_t k = 0; k < b.all.size(); ++k)
     if (b.all[k].effect == effect) add_suspect(h, b.all, k, start);
   REQUIRE(h.free.size() > 0);
-  fit(b.by, h, 10);
-  adjust_noise(b.by, h, 6);
-  find_bounces(b.by, h);
-  restart_noise(b.by, h);
-  adjust_noise(b.by, h, 3);
-  refine_bounces(b.by, h);
-  fit(b.by, h, 10);
+  fit(b.evaluation, h, 10);
+  adjust_noise(b.evaluation, h, 6);
+  find_gap(b.evaluation, h);
+  restart_noise(b.evaluation, h);
+  adjust_noise(b.evaluation, h, 3);
+  refine_gap(b.evaluation, h);
+  fit(b.evaluation, h, 10);
   return h;
 }
 
@@ -63,7 +63,7 @@ double field(const Hypothesis& h, std::string_view effect, std::string_view name
 
 TEST_CASE("an encoder on the worm is a second series of innovations with noise of its own") {
   const Bench b = bench("tooth_compliance", 1.5e-3);
-  const InnovationLayout& layout = b.by.layout();
+  const InnovationLayout& layout = b.evaluation.layout();
   REQUIRE(layout.samples == 6000);
   REQUIRE(layout.size == 12000);
   CHECK(layout.groups() == 4);
@@ -76,7 +76,7 @@ TEST_CASE("an encoder on the worm is a second series of innovations with noise o
 
 TEST_CASE("where the zero of the worm's encoder is does not matter") {
   const Bench here = bench("tooth_compliance", 1.5e-3), there = bench("tooth_compliance", 1.5e-3, 123.4);
-  const auto a = here.by.innovations({}, {0.3, 0.0}), b = there.by.innovations({}, {0.3, 0.0});
+  const auto a = here.evaluation.innovations({}, {0.3, 0.0}), b = there.evaluation.innovations({}, {0.3, 0.0});
   REQUIRE(a);
   REQUIRE(b);
   test::Deviation worst;
@@ -95,7 +95,7 @@ TEST_CASE("teeth that yield, an uneven pitch and backlash are found by both enco
 }
 
 TEST_CASE("torque that is left takes no name back from what both encoders show together") {
-  std::vector<Suspect> all(2);
+  std::vector<Candidate> all(2);
   all[0].effect = "backlash";
   all[1].effect = "worm_viscous";
   Selection selection;
@@ -115,7 +115,7 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
 }
 
 TEST_CASE("a cause that does most of the work keeps its name beside structure that is left") {
-  std::vector<Suspect> all(1);
+  std::vector<Candidate> all(1);
   all[0].effect = "worm_viscous";
   const auto judged = [&](double evidence, double error_after) {
     Selection selection;

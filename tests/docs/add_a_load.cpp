@@ -44,7 +44,7 @@ struct SpiralSpring {
 #include <cmath>
 
 #include "catch.hpp"
-#include "core/series.hpp"
+#include "core/numbers/series.hpp"
 #include "core/worm_drive.hpp"
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/load.hpp"
-#include "events/sensitivity.hpp"
+#include "events/sensitivity/sensitivity.hpp"
 
 namespace wormdrive {
 

@@ -6,10 +6,10 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "core/compliant_drive.hpp"
-#include "core/elastic_teeth.hpp"
-#include "scenarios/build.hpp"
-#include "scenarios/load_scenario.hpp"
+#include "core/elastic/compliant_drive.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build.hpp"
+#include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
 // The worked values of docs/effects.md: parameters, what they are at, and what they give, against the program.

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "compliant_drives.hpp"
-#include "core/compliant_start.hpp"
+#include "core/elastic/compliant_start.hpp"
 #include "events/audit.hpp"
 
 // The audit of drives with elastic teeth.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "events/sensitivity.hpp"
+#include "events/sensitivity/sensitivity.hpp"
 #include "support.hpp"
 
 namespace wormdrive::test {

@@ -112,7 +112,7 @@ std::string halt_of(System system, const Timetable& timetable, typename System::
   };
   try {
     simulate(system, solver, timetable, from, record, limit);
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     return halt.what();
   }
   return "no halt";
@@ -153,7 +153,7 @@ TEST_CASE("as many events as the limit allows in a window pass, one more does no
   std::string text;
   try {
     log.count(0.5000005, "gear speed", right, Mode{});
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     text = halt.what();
   }
   REQUIRE(text ==

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "simulation/load_scenario.hpp"
 #include "judge/judge.hpp"
 #include "numbers.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 // A day of scenarios/solar_tracker.toml, with its gusts of 20 ms, against the judge's arithmetic in 128 bits.
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "core/sine_cosine.hpp"
-#include "events/series_step.hpp"
+#include "core/numbers/sine_cosine.hpp"
+#include "events/taylor/series_step.hpp"
 #include "support.hpp"
 
 // The solver of power series against 128-bit arithmetic, and where its series must not be believed.

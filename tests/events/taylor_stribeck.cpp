@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "core/exponential.hpp"
+#include "core/numbers/exponential.hpp"
 #include "support.hpp"
 
 // Power series of a drive with a Stribeck curve by formulas of their own, against those of the equations of core/.

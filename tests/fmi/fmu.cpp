@@ -6,9 +6,9 @@
 
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
+#include "simulation/load_scenario.hpp"
 #include "fmi/event_loop.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;
 using namespace wormdrive::test;

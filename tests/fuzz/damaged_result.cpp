@@ -7,11 +7,11 @@
 #include <string>
 #include <unistd.h>
 
+#include "simulation/load_scenario.hpp"
 #include "fuzz/targets.hpp"
 #include "output/check_result.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "sweep/summary.hpp"
-#include "sweep/sweep_file.hpp"
+#include "sweep/file/sweep_file.hpp"
+#include "sweep/summary/summary.hpp"
 
 namespace wormdrive::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bindings/fmi/fmi2.h"
 #include "bindings/fmi/plant_json.hpp"
-#include "scenarios/load_scenario.hpp"
+#include "simulation/load_scenario.hpp"
 
 namespace wormdrive::fuzz {
 namespace {

@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <unistd.h>
 
-#include "diagnosis/read_recording.hpp"
-#include "events/halt.hpp"
+#include "description/toml/parse_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "diagnosis/data/read_recording.hpp"
+#include "events/simulation_failure.hpp"
 #include "fuzz/damaged_result.hpp"
 #include "fuzz/plant_calls.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
-#include "sweep/load_study.hpp"
+#include "sweep/study/load_study.hpp"
 
 namespace wormdrive::fuzz {
 namespace {

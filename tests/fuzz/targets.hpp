@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "output/hdf5.hpp"
-#include "scenarios/faults.hpp"
+#include "description/diagnostics.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive::fuzz {
 

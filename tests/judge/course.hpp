@@ -16,14 +16,14 @@ struct GivesUp : std::runtime_error {
 
 /// The motion of a drive in a given mode as power series: everything but the decisions.
 template <class Real>
-class Course {
+class EventSequence {
  public:
   using Polynomial = std::vector<Real>;
 
   double entered = 0.0;                 ///< from when on the present inputs hold [s]
   Real t = 0, theta, omega, since = 0;  ///< since: when the gear came to rest [s]
 
-  explicit Course(const Drive& drive, long most_steps = 6000)
+  explicit EventSequence(const Drive& drive, long most_steps = 6000)
       : theta(drive.theta),
         omega(drive.omega),
         drive_(drive),

@@ -34,7 +34,7 @@ class Judge {
   Mode start;  ///< behind the settling at t = 0
   Mode mode;
   std::vector<Found> events;
-  const Course<Real>& course() const { return course_; }
+  const EventSequence<Real>& course() const { return course_; }
 
  private:
   void enter(double t) {
@@ -43,7 +43,7 @@ class Judge {
     if (course_.omega == 0)
       leave_rest();
     else
-      take_up(course_.omega > 0 ? 1 : -1);
+      fold_into_parameters(course_.omega > 0 ? 1 : -1);
     if (t == 0.0)
       start = mode;
     else if (!(mode == before))
@@ -63,12 +63,12 @@ class Judge {
     if (released < 0) return go(stop, h);
     course_.t += released;
     const Mode before = mode;
-    take_up(sigma);
+    fold_into_parameters(sigma);
     note(before);
     return false;
   }
   /// The first time within h at which the pulls on both flanks have the direction's sign, else -1.
-  static Real both(const typename Course<Real>::Resting& at_rest, int direction, Real h) {
+  static Real both(const typename EventSequence<Real>::Resting& at_rest, int direction, Real h) {
     const auto left = signs(at_rest.pull[1], h), right = signs(at_rest.pull[0], h);
     const auto sign_at = [](const std::vector<Span<Real>>& spans, Real s) {
       int sign = 0;
@@ -123,11 +123,11 @@ class Judge {
     for (int direction : {1, -1}) {
       const auto at_rest = course_.resting(direction, h);
       if (lead(at_rest.pull[0], at_rest.step) == direction && lead(at_rest.pull[1], at_rest.step) == direction)
-        return take_up(direction);
+        return fold_into_parameters(direction);
     }
   }
   /// Moves in a direction, on the flank that this loads just after now.
-  void take_up(int direction) {
+  void fold_into_parameters(int direction) {
     mode = {direction, 0};
     if (!course_.drive().teeth) return;
     const auto ahead = course_.ahead({direction, 1}, std::max(Real(end_) - course_.t, Real(1e-9)));
@@ -138,7 +138,7 @@ class Judge {
     if (events.size() > most_events_) throw GivesUp("too many events");
   }
 
-  Course<Real> course_;
+  EventSequence<Real> course_;
   double end_;
   std::size_t most_events_;
 };

@@ -46,7 +46,7 @@ class Shadow {
   Quad omega() const { return course_.omega; }
 
  private:
-  using Polynomial = Course<Quad>::Polynomial;
+  using Polynomial = EventSequence<Quad>::Polynomial;
   static constexpr double rounding = 64 * 2.2e-16;  ///< of a torque, as a share of the terms that it is the sum of
 
   bool follow(double to) {
@@ -249,7 +249,7 @@ class Shadow {
     return digits;
   }
 
-  Course<Quad> course_;
+  EventSequence<Quad> course_;
   Exactness exactness_;
   Mode mode_;
   std::string complaint_;

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "core/compliant_drive.hpp"
-#include "core/compliant_start.hpp"
-#include "core/elastic_teeth.hpp"
+#include "core/elastic/compliant_drive.hpp"
+#include "core/elastic/compliant_start.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "near_ties/case.hpp"
-#include "scenarios/build.hpp"
 
 namespace wormdrive::test::near_ties {
 
@@ -130,7 +130,7 @@ ProgramRun run_drive(Drive drive, const Scenario& s, const Case& tie) {
     with_solver(drive, s.run.solver_settings(), [&](auto& solver) {
       simulate(drive, solver, idle, Timetable(0.0, s.run.duration, s.run.rows_every(), sampling), start, record);
     });
-  } catch (const Halt& halt) {
+  } catch (const SimulationFailure& halt) {
     result.halt = halt.what();
   } catch (const std::exception& error) {
     result.broken = fmt::format("ends in an exception: {}", error.what());

@@ -1,4 +1,4 @@
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 #include <cerrno>
 

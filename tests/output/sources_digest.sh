@@ -8,7 +8,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 tree=$folder/tree
 mkdir "$tree"
-for part in CMakeLists.txt README.md core events control output scenarios sweep diagnosis cli docs; do
+for part in CMakeLists.txt README.md core events statistics control description output simulation scenarios sweep diagnosis \
+  cli docs; do
   cp -r "$source/$part" "$tree/$part"
 done
 
@@ -38,12 +39,12 @@ is_new() { # WHAT
   [[ $seen != *" $(value sources) "* ]] || fail "$1: the digest stays $(value sources)"
   seen+="$(value sources) "
 }
-for file in core/mesh.hpp events/halt.hpp control/pid.cpp output/table.cpp scenarios/keys.cpp sweep/design.cpp \
-  diagnosis/certificate.cpp CMakeLists.txt; do
+for file in core/mesh.hpp events/simulation_failure.hpp statistics/parallel.cpp control/pid.cpp description/keys.cpp \
+  output/hdf5/table.cpp simulation/replay.hpp sweep/study/design.cpp diagnosis/verdict/certificate.cpp CMakeLists.txt; do
   echo >> "$tree/$file"
   is_new "$file changes"
 done
-mv "$tree/sweep/design.cpp" "$tree/sweep/drawing.cpp"
+mv "$tree/sweep/study/design.cpp" "$tree/sweep/study/drawing.cpp"
 is_new "a file has another name"
 rm "$tree/core/mesh.hpp"
 is_new "a file is missing"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include "diagnosis/read_recording.hpp"
+#include "diagnosis/data/read_recording.hpp"
 
 namespace recovery {
 namespace {
@@ -161,8 +161,8 @@ truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator) {
   return drive;
 }
 
-wormdrive::Recording follow(const truth::Drive& drive, const truth::Course& course, const wormdrive::Scenario& sheet,
-                            std::uint64_t seed) {
+wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
+                            const wormdrive::Scenario& sheet, std::uint64_t seed) {
   truth::Geometry stated;
   if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass) stated.mass = *arm->mass;
   const auto law = truth::follow(course, stated, truth::MeshFriction{}.level);

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnosis/data/recording.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/recording.hpp"
 #include "recovery/truth/excitation.hpp"
 #include "recovery/truth/hidden.hpp"
 
@@ -79,8 +79,8 @@ Bench record(const Case& drawn);
 truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator);
 
 /// Follows a course, writes a CSV file of it, and reads that as a user's.
-wormdrive::Recording follow(const truth::Drive& drive, const truth::Course& course, const wormdrive::Scenario& sheet,
-                            std::uint64_t seed);
+wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
+                            const wormdrive::Scenario& sheet, std::uint64_t seed);
 
 using Diagnose =
     std::function<wormdrive::Diagnosis(const wormdrive::Scenario&, const std::vector<wormdrive::Recording>&)>;

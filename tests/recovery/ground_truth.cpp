@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "recovery/truth/excitation.hpp"
 #include "recovery/truth/hidden.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 #include "support.hpp"
 
 // The ground truth of the recovery tests against what is known without it, and in its rigid limit against the program.

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "diagnosis/robust.hpp"
+#include "statistics/robust.hpp"
 
 namespace recovery {
 namespace {

@@ -4,10 +4,10 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "compliant_drives.hpp"
-#include "core/compliant_start.hpp"
-#include "core/elastic_teeth.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "core/elastic/compliant_start.hpp"
+#include "core/elastic/elastic_teeth.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 
 // Scenarios whose effects make the teeth elastic.
 

@@ -4,9 +4,9 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "output/hdf5.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "description/toml/parse_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "support.hpp"
 
 // Controlled scenarios on their way through the program: written, stored, run again, checked, shown.

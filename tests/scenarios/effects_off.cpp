@@ -5,9 +5,9 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "scenarios/keys.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_scenario.hpp"
+#include "description/keys.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_scenario.hpp"
 #include "support.hpp"
 
 // Off is absent: an effect that is not on leaves every bit of a run alone, and one of size zero changes nothing.

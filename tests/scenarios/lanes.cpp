@@ -4,8 +4,8 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/run_batch.hpp"
+#include "simulation/load_scenario.hpp"
+#include "simulation/run_batch.hpp"
 #include "support.hpp"
 
 // Several closed-loop runs in the lanes of one register: each gets the bits that it gets alone.
@@ -57,7 +57,7 @@ int strangers(const std::vector<Scenario>& scenarios, const std::vector<BatchRes
       const RunSummary alone = run_scenario(scenarios[k]);
       const auto* const run = std::get_if<RunSummary>(&results[k]);
       differ += !run || bits(*run) != bits(alone);
-    } catch (const Halt& halt) {
+    } catch (const SimulationFailure& halt) {
       const auto* const reason = std::get_if<std::string>(&results[k]);
       differ += !reason || *reason != halt.what();
     }

@@ -3,9 +3,9 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/number_text.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "description/number_text.hpp"
+#include "simulation/load_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
 
 // A program that the module or the libraries are loaded into may have a locale with a decimal comma; numbers do not.
 

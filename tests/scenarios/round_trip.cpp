@@ -7,8 +7,8 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/rigid_drive.hpp"
-#include "scenarios/load_scenario.hpp"
-#include "scenarios/write_scenario.hpp"
+#include "simulation/load_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
 
 // The resolved scenario that every result carries: text and struct are the same after reading and writing.
 

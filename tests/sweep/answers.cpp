@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "output/fixed_table.hpp"
-#include "sweep/distribution.hpp"
+#include "output/hdf5/fixed_table.hpp"
 #include "sweep/studies.hpp"
+#include "sweep/study/distribution.hpp"
 
 namespace wormdrive::test::sweep_answers {
 

@@ -6,10 +6,10 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "sweep/design.hpp"
-#include "sweep/keyed_permutation.hpp"
-#include "sweep/load_study.hpp"
 #include "sweep/studies.hpp"
+#include "sweep/study/design.hpp"
+#include "sweep/study/keyed_permutation.hpp"
+#include "sweep/study/load_study.hpp"
 #include "sweep/trial.hpp"
 
 namespace wormdrive::test::sweep_designs {

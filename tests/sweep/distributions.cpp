@@ -3,10 +3,10 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "sweep/correlation.hpp"
-#include "sweep/distribution.hpp"
-#include "sweep/normal.hpp"
-#include "sweep/random.hpp"
+#include "statistics/normal.hpp"
+#include "sweep/study/correlation.hpp"
+#include "sweep/study/distribution.hpp"
+#include "sweep/study/random.hpp"
 
 namespace wormdrive::test::sweep_distributions {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "catch.hpp"
-#include "sweep/load_study.hpp"
 #include "sweep/studies.hpp"
+#include "sweep/study/load_study.hpp"
 #include "sweep/trial.hpp"
 
 namespace wormdrive::test::sweep_lanes {

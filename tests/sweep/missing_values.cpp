@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "sweep/load_study.hpp"
-#include "sweep/statistics.hpp"
 #include "sweep/studies.hpp"
-#include "sweep/summary.hpp"
+#include "sweep/study/load_study.hpp"
+#include "sweep/summary/statistics.hpp"
+#include "sweep/summary/summary.hpp"
 
 namespace wormdrive::test::sweep_missing_values {
 

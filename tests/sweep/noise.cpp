@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "catch.hpp"
-#include "sweep/load_study.hpp"
 #include "sweep/studies.hpp"
+#include "sweep/study/load_study.hpp"
 #include "sweep/trial.hpp"
 
 namespace wormdrive::test::sweep_noise {

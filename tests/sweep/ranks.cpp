@@ -1,5 +1,5 @@
 // Ranks that share a sweep make the rows that one process makes, also when one of them is lost.
-#include "sweep/ranks.hpp"
+#include "sweep/ranks/ranks.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "sweep/load_study.hpp"
+#include "sweep/file/sweep_file.hpp"
 #include "sweep/studies.hpp"
-#include "sweep/sweep_file.hpp"
+#include "sweep/study/load_study.hpp"
 
 namespace wormdrive::test::sweep_safety {
 

@@ -1,5 +1,5 @@
 // Statistics against published and exact values.
-#include "sweep/statistics.hpp"
+#include "sweep/summary/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "sweep/design.hpp"
-#include "sweep/order_statistics.hpp"
-#include "sweep/random.hpp"
-#include "sweep/rank_correlation.hpp"
+#include "statistics/order_statistics.hpp"
+#include "statistics/rank_correlation.hpp"
+#include "sweep/study/design.hpp"
+#include "sweep/study/random.hpp"
 
 namespace wormdrive::test::sweep_statistics {
 

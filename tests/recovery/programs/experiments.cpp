@@ -11,16 +11,16 @@
 namespace recovery {
 namespace {
 
-truth::Course course_of(const wormdrive::Scenario& experiment) {
+truth::EventSequence course_of(const wormdrive::Scenario& experiment) {
   std::vector<double> angle;
-  const double period = truth::Course{}.period;
+  const double period = truth::EventSequence{}.period;
   for (double t = 0.0; t < experiment.run.duration; t += period)
     angle.push_back(experiment.control->reference.at(t).angle);
   return truth::course_through(std::move(angle));
 }
 
 /// A slow motion that leaves classes; the smaller and slower the larger ones.
-truth::Course poor_course(truth::Generator& generator, double duration) {
+truth::EventSequence poor_course(truth::Generator& generator, double duration) {
   const auto by_ratio = [&](double low, double high) {
     return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
   };

@@ -69,7 +69,7 @@ std::vector<Sine> sines(Stage::Kind kind, std::mt19937_64& generator) {
 /// The controller as a law of time and seen angle.
 class Pilot {
  public:
-  Pilot(Course course, const Geometry& g, double mu) : course_(std::move(course)) {
+  Pilot(EventSequence course, const Geometry& g, double mu) : course_(std::move(course)) {
     const double cp = std::cos(g.pressure_angle), sl = std::sin(g.lead_angle), cl = std::cos(g.lead_angle);
     with_load_ = g.worm_radius / g.gear_radius * (cp * sl - mu * cl) / (cp * cl + mu * sl);
     against_load_ = g.worm_radius / g.gear_radius * (cp * sl + mu * cl) / (cp * cl - mu * sl);
@@ -97,7 +97,7 @@ class Pilot {
 
  private:
   static constexpr double bandwidth = 25.0, filter = 250.0;  ///< [rad/s]
-  Course course_;
+  EventSequence course_;
   double with_load_, against_load_, weight_, worm_, gear_;
   double angle_ = 0.0, speed_ = 0.0;
   bool started_ = false;
@@ -105,10 +105,10 @@ class Pilot {
 
 }  // namespace
 
-Course rich_course(std::uint64_t seed, double duration) {
+EventSequence rich_course(std::uint64_t seed, double duration) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> either(-0.25, 0.25);
-  Course course;
+  EventSequence course;
   constexpr double smoothing = 40.0;  ///< [rad/s], twice critically damped
   const double T = course.period;
   double x = 0.0, v = 0.0, x2 = 0.0, v2 = 0.0;
@@ -145,16 +145,16 @@ Course rich_course(std::uint64_t seed, double duration) {
   return course_through(std::move(course.angle));
 }
 
-Course slow_course(double amplitude, double frequency, double duration) {
+EventSequence slow_course(double amplitude, double frequency, double duration) {
   std::vector<double> angle;
-  const long samples = std::lround(duration / Course{}.period);
+  const long samples = std::lround(duration / EventSequence{}.period);
   for (long k = 0; k < samples; ++k)
-    angle.push_back(amplitude * std::sin(turn * frequency * static_cast<double>(k) * Course{}.period));
+    angle.push_back(amplitude * std::sin(turn * frequency * static_cast<double>(k) * EventSequence{}.period));
   return course_through(std::move(angle));
 }
 
-Course course_through(std::vector<double> angle) {
-  Course course;
+EventSequence course_through(std::vector<double> angle) {
+  EventSequence course;
   course.angle = std::move(angle);
   const std::vector<double>& x = course.angle;
   const double T = course.period;
@@ -167,7 +167,7 @@ Course course_through(std::vector<double> angle) {
   return course;
 }
 
-Law follow(Course course, const Geometry& sheet, double friction) {
+Law follow(EventSequence course, const Geometry& sheet, double friction) {
   return [pilot = Pilot(std::move(course), sheet, friction)](double t, double seen) mutable { return pilot(t, seen); };
 }
 

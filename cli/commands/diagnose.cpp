@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/shell_words.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "simulation/load_scenario.hpp"
+#include "diagnosis/diagnose_files.hpp"
+#include "diagnosis/report/diagnosis_folder.hpp"
+#include "diagnosis/report/diagnosis_json.hpp"
+#include "diagnosis/verdict/certificate.hpp"
+#include "statistics/threads.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr std::size_t rows_told = 5;
+
+/// What goes on, on one line of a terminal that the next phrase overwrites.
+class Phases {
+ public:
+  explicit Phases(bool quiet) : wanted_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~Phases() { tell(""); }
+  void tell(const std::string& phase) const {
+    if (!wanted_) return;
+    fmt::print(stderr, "\r  {:<74.74}{}", phase, phase.empty() ? "\r" : "");
+    std::fflush(stderr);
+  }
+
+ private:
+  bool wanted_;
+};
+
+/// "+0.0150 +- 0.0010", in the unit of the edge.
+std::string estimate(const EstimatedEffect& effect) {
+  if (effect.parameters.empty()) return "";
+  const Estimate& e = effect.parameters.front();
+  std::string text = fmt::format("{:+.3g}", e.value / e.unit.si);
+  if (e.standard_error > 0.0) text += fmt::format(" +- {:.2g}", e.standard_error / e.unit.si);
+  return e.unit.suffix.empty() ? text : fmt::format("{} {}", text, e.unit.symbol);
+}
+
+void print_ranking(const Diagnosis& d) {
+  fmt::print("  {:<20} {:>8} {:>14}   {:<30} {}\n", "effect", "dBIC", "held-out gain", "estimate", "verdict");
+  for (std::size_t k = 0; k < std::min(rows_told, d.ranking.size()); ++k) {
+    const RankedCandidate& c = d.ranking[k];
+    fmt::print("  {:<20} {:>8.0f} {:>14.0f}   {:<30} {}\n", c.effect.effect, c.delta_bic, c.held_out_gain,
+               estimate(c.effect), c.named ? c.outcome : "rejected: " + c.outcome);
+  }
+}
+
+void print_gain(const Diagnosis& d) {
+  for (const PredictionError& e : d.prediction) {
+    const bool torque = std::isnan(e.horizon);
+    print_item("gain", fmt::format("{} on data not used for the fit: {:.3g} -> {:.3g} m{} (95 %: {:.3g} to {:.3g}){}",
+                                   torque ? "error of the " + in_words_of(d.extended.axis, "torque")
+                                          : fmt::format("error {:g} s ahead", e.horizon),
+                                   1e3 * e.before, 1e3 * e.after, e.unit.symbol, 1e3 * e.after_low, 1e3 * e.after_high,
+                                   std::isfinite(e.floor) ? fmt::format(", noise floor {:.2g}", 1e3 * e.floor) : ""));
+  }
+}
+
+/// What these data can never show; what they show only above a size is in the file.
+void print_blind_spots(const Diagnosis& d) {
+  const std::vector<std::string> unseen = unobservable(d.certificate);
+  if (!unseen.empty()) print_item("unseen", fmt::format("{}", fmt::join(unseen, ", ")));
+}
+
+void print(const Diagnosis& d) {
+  fmt::print("{}\n", d.sentence);
+  for (const std::string& remark : d.remarks) print_item("data", remark);
+  print_ranking(d);
+  print_gain(d);
+  for (const Estimate& e : d.identified)
+    print_item("found", fmt::format("{} = {:.4g} +- {:.2g} (95 %: {:.4g} to {:.4g})", e.field, e.value,
+                                    e.standard_error, e.low, e.high));
+  print_blind_spots(d);
+  if (d.experiment) print_item("next", d.experiment_reason);
+  std::fflush(stdout);  // pictures take a second
+}
+
+/// Draws all pictures of a diagnosis; none, with a word on it, where the program that draws is not there.
+std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_time, Replace replace) {
+  if (draw_all(folder.inside("diagnosis.h5"), folder.path(), at_a_time, replace) != 0) return {};
+  std::vector<std::string> pictures;
+  for (const char* const part : {"prediction", "residual", "ranking", "certificate"})
+    pictures.push_back(folder.inside(std::string(part) + ".png"));
+  return pictures;
+}
+
+/// Loads of recordings that are not the scenario's, by file.
+std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, DataKind kind) {
+  std::map<std::string, std::vector<std::string>> overrides;
+  for (const std::string& load : options.loads) {
+    const auto file = std::find_if(options.data.begin(), options.data.end(),
+                                   [&](const std::string& data) { return load.starts_with(data + ":"); });
+    if (file == options.data.end())
+      reject({"--load " + load}, fmt::format("must be FILE:KEY=VALUE of one of the recordings {}, as in {}:mass_kg=0.9",
+                                             fmt::join(options.data, ", "), options.data.front()));
+    if (kind != DataKind::recording)
+      reject({*file}, fmt::format("holds {}; a load of its own is for a recording over time", name(kind)));
+    overrides[*file].push_back("load." + load.substr(file->size() + 1));
+  }
+  std::map<std::string, LoadParameters> loads;
+  for (const auto& [file, keys] : overrides) {
+    std::vector<std::string> all = options.scenario.overrides;
+    all.insert(all.end(), keys.begin(), keys.end());
+    loads[file] = load_scenario(options.scenario.file, all, Purpose::look).load;
+  }
+  return loads;
+}
+
+}  // namespace
+
+int diagnose_command(const DiagnoseOptions& options) {
+  const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
+  std::vector<std::string> inputs = options.data;
+  inputs.push_back(options.scenario.file);
+  const DiagnosisFolder folder(options.output, inputs, options.replace);
+  const DataKind kind = kind_of_data(options.data, scenario);
+  const std::map<std::string, LoadParameters> loads = own_loads(options, kind);
+  const bool talk = !options.scenario.quiet && !options.scenario.json;
+  const int threads = static_cast<int>(threads_for(options.threads));
+  const Diagnosis diagnosis = [&] {
+    const Phases phases(!talk);
+    DiagnosisSettings settings;
+    settings.seed = static_cast<std::uint64_t>(options.seed);
+    settings.threads = threads;
+    settings.progress = [&](const std::string& phase) { phases.tell(phase); };
+    return diagnose_files(scenario, kind, options.data, settings, loads);
+  }();
+
+  if (talk) print(diagnosis);
+  const nlohmann::json json = as_json(diagnosis, name(kind), options.data);
+  const std::vector<std::string> written = folder.write(
+      diagnosis, json, scenario.title, options.scenario.command_line,
+      [&] { return options.pictures ? draw_pictures(folder, threads, options.replace) : std::vector<std::string>{}; });
+  if (options.scenario.json) print_json(json);
+  if (talk)
+    print_item("wrote",
+               fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), shell_path(folder.path())));
+  return 0;
+}
+
+}  // namespace wormdrive

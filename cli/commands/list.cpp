@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands.hpp"
+#include "description/keys.hpp"
+#include "simulation/load_scenario.hpp"
+#include "description/toml/table_reader.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// How a field is written, and its default in that unit if it has one to show.
+template <class Parameters, class Field>
+std::pair<Spelling, std::optional<double>> stated(const Field& field) {
+  const Parameters defaults{};
+  const Spelling s = spellings(field.name, field.unit, Axis::rotary).front();
+  const std::optional<double> value = defaults.*field.member;
+  if (field.presence == Presence::required || !value || !std::isfinite(*value)) return {s, std::nullopt};
+  return {s, *value / s.unit.si};
+}
+
+bool bounded(const Bounds& bounds) { return std::isfinite(bounds.low) || std::isfinite(bounds.high); }
+
+template <class Parameters>
+void print_fields() {
+  for_each_field<Parameters>([](const auto& field) {
+    const auto [s, value] = stated<Parameters>(field);
+    std::string note = field.presence == Presence::required ? ", required" : "";
+    if (value) note = fmt::format(", default {:g}", *value);
+    fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note,
+               bounded(field.bounds) ? "; " + rule(field.bounds, s.unit) : "");
+  });
+}
+
+void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<18} {}\n", kind, meaning); }
+
+/// Prints a kind with its fields; one without fields is described by `otherwise`.
+template <class Kind>
+void print_kind(std::string_view otherwise) {
+  print_kind(Kind::kind, Kind::meaning);
+  if constexpr (requires { Kind::fields(); })
+    print_fields<Kind>();
+  else
+    fmt::print("      {}\n", otherwise);
+}
+
+/// Prints every alternative of a variant.
+template <class Variant>
+void print_kinds(std::string_view otherwise) {
+  [&]<std::size_t... K>(std::index_sequence<K...>) {
+    (print_kind<std::variant_alternative_t<K, Variant>>(otherwise), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
+}
+
+/// Calls visit.template operator()<Effect>() for every effect of the catalogue.
+template <class Visit>
+void for_each_effect(Visit&& visit) {
+  Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) { visit.template operator()<Effect>(); });
+}
+
+void list_effects() {
+  fmt::print("effects: [effect.ID] in a scenario; on = false keeps one without using it\n");
+  for_each_effect([]<class Effect>() {
+    print_kind(Effect::id, fmt::format("{}: {}", name(Effect::place), Effect::cause));
+    fmt::print("      {}\n", Effect::law);
+    print_fields<Effect>();
+  });
+}
+
+/// The catalogue as docs/effects.md has it, without the worked values.
+void list_effects_as_markdown() {
+  for_each_effect([]<class Effect>() {
+    fmt::print("## `{}`\n\nActs on the **{}**: {}.\n\n    {}\n\n", Effect::id, name(Effect::place), Effect::cause,
+               Effect::law);
+    if constexpr (requires { Effect::source; }) fmt::print("Source: {}.\n\n", Effect::source);
+    fmt::print("| key | unit | default | limits | meaning |\n|---|---|---|---|---|\n");
+    for_each_field<Effect>([](const auto& field) {
+      const auto [s, value] = stated<Effect>(field);
+      const std::string absent = field.presence == Presence::required ? "required" : "none";
+      fmt::print("| `{}` | {} | {} | {} | {} |\n", s.key, s.unit.symbol, value ? fmt::format("{:g}", *value) : absent,
+                 bounded(field.bounds) ? rule(field.bounds, s.unit) : "", field.meaning);
+    });
+    fmt::print("\n");
+  });
+}
+
+void list_torques() {
+  fmt::print("torques: [motor.torque] kind = \"...\", or several as [[motor.torque]], which add up\n");
+  print_kinds<SignalTerm>(
+      "file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"");
+}
+
+void list_loads() {
+  fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
+  for_each_load([]<class Load>() { print_kind<Load>("file (with x_column, y_column), or angles_deg and torques_Nm"); });
+}
+
+void list_controllers() {
+  fmt::print("controllers: [controller] kind = \"...\", with any kind\n");
+  print_fields<SamplingSettings>();
+  print_kinds<ControllerParameters>("torque: [[controller.torque]], any torque over time (wormdrive list torques)");
+  fmt::print("its model of the drive: [controller.nominal]\n");
+  print_fields<NominalSettings>();
+  fmt::print("what it is to withstand: [controller.variation]\n");
+  print_fields<Variations>();
+  fmt::print("what it measures: [sensor] speed = \"difference\" or \"exact\"\n");
+  print_fields<SensorSettings>();
+  fmt::print("a random torque on the worm: [disturbance]\n");
+  print_fields<DisturbanceSettings>();
+  fmt::print("when its metrics are taken: [metrics]\n");
+  print_fields<MetricsWindow>();
+}
+
+void list_references() {
+  fmt::print("references: [reference] kind = \"...\", or several as [[reference]], which add up\n");
+  print_kinds<ReferenceTerm>("file (with x_column, y_column), or times_s and angles_rad");
+}
+
+/// The installed scenarios, or those of the source tree that built this program.
+void list_scenarios() {
+  const std::filesystem::path installed = WORMDRIVE_SCENARIOS_INSTALLED, source = WORMDRIVE_SCENARIOS_SOURCE;
+  const auto& folder = std::filesystem::exists(installed) ? installed : source;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  fmt::print("scenarios in {}\n", folder.string());
+  for (const auto& file : files)
+    fmt::print("  {:<36} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
+}
+
+}  // namespace
+
+int list_command(const std::string& what) {
+  if (what == "effects") list_effects();
+  if (what == "effects.md") list_effects_as_markdown();
+  if (what == "torques") list_torques();
+  if (what == "loads") list_loads();
+  if (what == "controllers") list_controllers();
+  if (what == "references") list_references();
+  if (what == "scenarios") list_scenarios();
+  return 0;
+}
+
+}  // namespace wormdrive

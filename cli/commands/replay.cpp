@@ -1,0 +1,66 @@
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/replay_trial.hpp"
+#include "cli/run_and_write.hpp"
+#include "description/build_control.hpp"
+#include "description/diagnostics.hpp"
+#include "events/simulation_failure.hpp"
+#include "sweep/file/so_far.hpp"
+
+namespace wormdrive {
+namespace {
+
+Trial stored(const SweepReader& sweep, std::uint64_t index) {
+  if (!sweep.has(index)) {
+    const TrialRange range = sweep.range();
+    reject({sweep.path()}, fmt::format("holds no trial {}; {} of {} to {} are there", index, sweep.trials(),
+                                       range.first, range.end - 1));
+  }
+  return sweep.read({index, index + 1}).front();
+}
+
+/// The first metric of which a bit is another one than in the sweep.
+std::string difference(const Study& study, const Trial& trial, const Outcome& outcome) {
+  for (std::size_t k = 0; k < study.metrics.size(); ++k) {
+    const double now = study.metrics[k].of(outcome);
+    const bool neither = std::isnan(now) && std::isnan(trial.metrics[k]);
+    if (!neither && std::bit_cast<std::uint64_t>(now) != std::bit_cast<std::uint64_t>(trial.metrics[k]))
+      return fmt::format("{} = {}, in the sweep {}", study.metrics[k].name, now, trial.metrics[k]);
+  }
+  return "";
+}
+
+}  // namespace
+
+void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::string& output, const RunOptions& options) {
+  const Trial trial = stored(sweep, index);
+  if (trial.status == TrialStatus::refused)
+    reject({sweep.path()}, fmt::format("trial {} was not run: {}", index, trial.reason));
+  Trials trials(sweep.study());
+  Scenario scenario = trials.scenario(index);
+  scenario.title = fmt::format("{}, trial {}", sweep.study().title, index);
+  const Outcome outcome{run_and_write(scenario, output, options), lemma1_conditions(scenario)};
+  if (const std::string other = difference(sweep.study(), trial, outcome); !other.empty())
+    throw SimulationFailure(
+        fmt::format("trial {} came out differently: {}; was {} made by this program on this kind of machine?", index,
+                    other, sweep.path()));
+}
+
+int replay_command(const ReplayOptions& options) {
+  refuse_to_overwrite(options.output, options.sweep);
+  RunOptions run;
+  run.scenario.quiet = options.quiet;
+  run.scenario.command_line = options.command_line;
+  run.replace = options.replace;
+  const SweepSoFar so_far(options.sweep);
+  replay_trial(SweepReader(so_far.path()), options.trial, options.output, run);
+  if (!options.quiet) print_item("replay", "every metric is that of the sweep, to the last bit");
+  return 0;
+}
+
+}  // namespace wormdrive

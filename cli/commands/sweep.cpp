@@ -1,0 +1,160 @@
+#include "cli/describe/sweep.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/commands/sweep_ranks.hpp"
+#include "cli/commands/sweep_steps.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/progress.hpp"
+#include "cli/replay_trial.hpp"
+#include "cli/shell_words.hpp"
+#include "description/diagnostics.hpp"
+#include "events/simulation_failure.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/file/resume.hpp"
+#include "sweep/ranks/rank_files.hpp"
+#include "sweep/study/load_study.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+void print_cost(const SweepCost& cost) {
+  const double all = cost.trials + cost.file + cost.referee + cost.summary;
+  const auto share = [&](double part) { return 100.0 * part / all; };
+  print_item("cost",
+             fmt::format("{:.3g} s of CPU time: trials {:.1f} %, file {:.1f} %, referee {:.1f} %, summary {:.1f} %",
+                         all, share(cost.trials), share(cost.file), share(cost.referee), share(cost.summary)));
+}
+
+int sweep_alone(const SweepOptions& options, const Study& study, const std::string& output) {
+  const TrialRange range = range_of(options.shard, study.trials());
+  const OpenSweep open =
+      open_sweep(output, OutputLock(output), study, range, options.command_line, options.resume, options.replace);
+  if (!options.quiet) print_study(study, range);
+  if (!open.file) {
+    if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
+    return 0;
+  }
+  SweepFile& file = *open.file;
+
+  const unsigned threads = threads_for(options.threads);
+  const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
+  std::uint64_t made = 0, failed = open.failed;
+  const auto too_many = [&] { return options.max_failures && failed > *options.max_failures; };
+  std::vector<RefereeVerdict> verdicts;
+  double seconds = 0.0;
+  SweepCost cost;
+  const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = cpu_time(), file_begin = thread_cpu_time();
+  try {
+    Progress progress(static_cast<double>(wanted), options.quiet);
+    auto next = open.missing.begin();
+    const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
+    const auto take = [&](Trial trial) {
+      failed += trial.status != TrialStatus::done;
+      file.append(std::move(trial));
+      progress.at(static_cast<double>(++made), [&](double passed) {
+        return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, failed);
+      });
+    };
+    const auto is_to_end = [&] {
+      const bool interrupted = Interruptible::signal() != 0;
+      if (interrupted)
+        file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
+      else
+        file.keep_safe();
+      return interrupted || too_many();
+    };
+    if (!too_many()) run_ensemble(study, source, threads, take, is_to_end);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cost.file = thread_cpu_time() - file_begin;  // this thread has done nothing else
+    cost.trials = cpu_time() - cpu_begin - cost.file;
+    if (made == wanted && !too_many()) {
+      const double judge_begin = cpu_time();
+      verdicts = judge(file, study, options, cost.trials, least_judged);
+      cost.referee = cpu_time() - judge_begin;
+      file.finish();
+      cost.summary = cpu_time() - judge_begin - cost.referee;
+    } else {
+      file.flush();
+    }
+  } catch (const OutputFault& fault) {
+    throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
+                                  how_to_resume(options)));
+  }
+  if (too_many()) {  // threads were ahead of the trial that was one too many
+    const EarlyEnd early = ended_early({file.part_path()}, *options.max_failures);
+    file.drop_from(early.end);
+    throw SimulationFailure(fmt::format("{}; {} keeps them all", early.told, file.part_path()));
+  }
+  if (made < wanted) {
+    fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
+               range.size(), file.part_path(), how_to_resume(options));
+    return 128 + Interruptible::signal();
+  }
+  keep_trajectories(output, options.command_line, options.quiet, options.replace);
+  if (options.quiet) return 0;
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
+                                threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
+                                before > 0 ? fmt::format("; {} were there already", before) : ""));
+  print_cost(cost);
+  print_failures(SweepReader(output).counted_reasons());
+  print_verdicts(verdicts, study);
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
+  return 0;
+}
+
+/// Bad input is told by the first rank alone: it looks at everything before the others do.
+template <class Look>
+bool looks_good(Ranks& ranks, Look&& look) {
+  if (ranks.first()) {
+    try {
+      look();
+    } catch (...) {
+      ranks.told({1});
+      throw;
+    }
+  }
+  return ranks.told({0}).front() == 0;
+}
+
+int sweep_together(Ranks& ranks, const SweepOptions& options) {
+  const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
+  const bool good = looks_good(ranks, [&] {
+    load_study(options.study);
+    refuse_to_overwrite(output, options.study);
+    if (ranks.count() > 1 && !options.shard.empty())
+      reject({"--shard " + options.shard}, "the ranks share all trials; leave it out");
+  });
+  if (!good) return 2;
+  const Study study = load_study(options.study);
+  const Interruptible interruptible;
+  if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
+  return sweep_alone(options, study, output);
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options) {
+  std::optional<Ranks> ranks;
+  try {
+    ranks.emplace(!options.shard.empty());
+    return sweep_together(*ranks, options);
+  } catch (const InputFault& fault) {
+    // mpirun may lose what is said behind the ranks' common end
+    if (ranks && ranks->count() == 1) throw;
+    if (!fault.faults.empty()) fmt::print(stderr, "{}\n", fault.what());
+    return 2;
+  } catch (const OutputFault& fault) {
+    if (!ranks || ranks->count() == 1) throw;
+    fmt::print(stderr, "wormdrive: {}\n", fault.what());
+    return 4;
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,227 @@
+#include "cli/commands/sweep_ranks.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands/sweep_steps.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/describe/sweep.hpp"
+#include "cli/progress.hpp"
+#include "cli/replay_trial.hpp"
+#include "cli/shell_words.hpp"
+#include "events/simulation_failure.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/file/merge.hpp"
+#include "sweep/ranks/rank_files.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// The k-th of all trials that are missing, and those behind it, as far as one range goes.
+class Missing {
+ public:
+  explicit Missing(std::vector<TrialRange> ranges) : ranges_(std::move(ranges)), count_(trials_in(ranges_)) {}
+
+  std::uint64_t count() const { return count_; }
+  /// Takes from the k-th on at most so many.
+  TrialRange at(std::uint64_t k, std::uint64_t most) const {
+    for (const TrialRange& range : ranges_) {
+      if (k < range.size()) return {range.first + k, std::min(range.end, range.first + k + most)};
+      k -= range.size();
+    }
+    return {};
+  }
+
+ private:
+  std::vector<TrialRange> ranges_;
+  std::uint64_t count_;
+};
+
+/// What a rank does of a sweep.
+class RankSweep {
+ public:
+  RankSweep(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& path, Missing missing)
+      : ranks_(ranks),
+        options_(options),
+        study_(study),
+        path_(path),
+        missing_(std::move(missing)),
+        portion_(std::clamp<std::uint64_t>(missing_.count() / (64 * static_cast<std::uint64_t>(ranks.count())), 1,
+                                           256 * std::uint64_t{threads_for(options.threads)})) {}
+
+  void make() {
+    const TrialRange all{0, study_.trials()};
+    SweepFile::create(path_, study_, all, options_.command_line);
+    SweepFile file(path_, study_, all);
+    Progress progress(static_cast<double>(missing_.count()), options_.quiet || !ranks_.first());
+    const double begin = cpu_time();
+    const auto take = [&](Trial trial) {
+      if (trial.status != TrialStatus::done) ++failures_;
+      file.append(std::move(trial));
+      ++made_;
+      progress.at(static_cast<double>(std::min(reached_.load(), missing_.count())), [&](double seconds) {
+        return fmt::format(", about {:.0f} trials/s on {} ranks", static_cast<double>(reached_.load()) / seconds,
+                           ranks_.count());
+      });
+    };
+    run_ensemble(
+        study_, [this] { return next(); }, threads_for(options_.threads), take, [&] { return is_to_end(file); });
+    const auto ranks = static_cast<std::size_t>(ranks_.count());
+    if (!too_many() && Interruptible::signal() == 0)
+      judge(file, study_, options_, cpu_time() - begin, (least_judged + ranks - 1) / ranks);
+    file.flush();
+  }
+  std::uint64_t made() const { return made_; }
+  /// What was taken by then is made nevertheless, so that every trial before the last one is there.
+  bool too_many() {
+    const std::uint64_t failures = failures_.exchange(0);
+    return ranks_.add({0, failures}).failures + failures > most_failures();
+  }
+
+ private:
+  std::uint64_t most_failures() const { return options_.max_failures.value_or(~std::uint64_t{0}); }
+
+  /// The next trials that no rank has taken. Failures are told with the question, so that they cost no other.
+  std::optional<TrialRange> next() {
+    if (left_ == 0) {
+      const std::uint64_t failures = failures_.exchange(0);
+      const Tally before = ranks_.add({1, failures});
+      if (before.failures + failures > most_failures()) return std::nullopt;
+      at_ = before.portions * portion_;
+      left_ = at_ < missing_.count() ? std::min(portion_, missing_.count() - at_) : 0;
+      reached_ = at_;
+    }
+    if (left_ == 0) return std::nullopt;
+    const TrialRange range = missing_.at(at_, left_);
+    at_ += range.size();
+    left_ -= range.size();
+    return range;
+  }
+
+  static bool is_to_end(SweepFile& file) {
+    const bool ends = Interruptible::signal() != 0;
+    if (ends)
+      file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
+    else
+      file.keep_safe();
+    return ends;
+  }
+
+  Ranks& ranks_;
+  const SweepOptions& options_;
+  const Study& study_;
+  std::string path_;
+  Missing missing_;
+  std::uint64_t portion_, at_ = 0, left_ = 0;
+  std::atomic<std::uint64_t> reached_{0};
+  std::atomic<std::uint64_t> failures_{0};  ///< that the others have not been told
+  std::uint64_t made_ = 0;
+};
+
+/// What the first rank finds of earlier ones, for all of them; nothing for the others if it has a fault to tell.
+std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output,
+                               OutputLock& lock) {
+  RankPlan plan;
+  std::vector<std::uint64_t> told{2};  // that something is wrong
+  if (ranks.first()) {
+    try {
+      lock = OutputLock(output);
+      plan = plan_ranks(output, study, options.resume, options.replace);
+      ranks.add({0, plan.failed});
+    } catch (...) {
+      ranks.told(told);
+      throw;
+    }
+    told = {plan.complete ? std::uint64_t{1} : 0, plan.generation};
+    for (const TrialRange& range : plan.missing) told.insert(told.end(), {range.first, range.end});
+  }
+  told = ranks.told(std::move(told));
+  if (told.front() == 2) return std::nullopt;
+  plan = {told[0] == 1, told[1], 0, {}};
+  for (std::size_t k = 2; k < told.size(); k += 2) plan.missing.push_back({told[k], told[k + 1]});
+  return plan;
+}
+
+/// Puts together what the ranks have made; the first one does it.
+void join(const SweepOptions& options, const std::string& output, OutputLock lock) {
+  const std::vector<std::string> parts = rank_parts(output);
+  std::vector<std::string> used;
+  for (const std::string& part : parts)
+    if (SweepReader(part).trials() > 0) used.push_back(part);
+  merge_shards(used, output, std::move(lock), options.command_line, options.replace);
+  for (const std::string& part : parts) std::filesystem::remove(part);
+}
+
+/// ", 317 to 323 each", how many trials each rank has made this time; nothing for a single one.
+std::string shares(const std::string& output, std::uint64_t generation, int ranks) {
+  if (ranks == 1) return "";
+  std::uint64_t least = ~std::uint64_t{0}, most = 0;
+  for (int rank = 0; rank < ranks; ++rank) {
+    const std::uint64_t made = SweepReader(rank_file(output, generation, rank) + ".part").trials();
+    least = std::min(least, made);
+    most = std::max(most, made);
+  }
+  return least == most ? fmt::format(", {} each", least) : fmt::format(", {} to {} each", least, most);
+}
+
+}  // namespace
+
+int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output) {
+  OutputLock lock;  // the first one holds it for all
+  const std::optional<RankPlan> agreement = agreed(ranks, options, study, output, lock);
+  if (!agreement) return 2;
+  const RankPlan& plan = *agreement;
+  const bool talks = ranks.first() && !options.quiet;
+  if (talks) print_study(study, {0, study.trials()});
+  if (plan.complete) {
+    if (talks) print_item("resume", fmt::format("every trial is in {} already", output));
+    return 0;
+  }
+  const Missing missing(plan.missing);
+  const auto begin = std::chrono::steady_clock::now();
+  RankSweep sweep(ranks, options, study, rank_file(output, plan.generation, ranks.rank()), missing);
+  std::string fault;
+  try {
+    sweep.make();
+  } catch (const std::exception& what) {  // the others go on: they must not wait for this one
+    fault = what.what();
+    fmt::print(stderr, "wormdrive: rank {}: {}\n", ranks.rank(), fault);
+  }
+  const std::uint64_t made = ranks.sum(sweep.made());
+  const bool broken = ranks.sum(fault.empty() ? 0 : 1) > 0, too_many = sweep.too_many();
+  const std::uint64_t there = study.trials() - missing.count() + made;
+  const std::string resume = fmt::format("go on with: mpirun -n {} {}", ranks.count(),
+                                         how_to_resume(options).substr(std::string("go on with: ").size()));
+  if (broken || too_many || made < missing.count()) {
+    if (ranks.first() && too_many)
+      fmt::print(stderr, "wormdrive: {}; {}.rank_* keep them all\n",
+                 ended_early(rank_parts(output), *options.max_failures).told, output);
+    else if (ranks.first())
+      fmt::print(stderr, "wormdrive: ended after {} of {} trials, all of them in {}.rank_*; {}\n", there,
+                 study.trials(), output, resume);
+    return too_many ? 3 : broken ? 4 : 128 + Interruptible::signal();
+  }
+  std::string each;
+  if (ranks.first()) {
+    each = shares(output, plan.generation, ranks.count());
+    join(options, output, std::move(lock));
+    keep_trajectories(output, options.command_line, options.quiet, options.replace);
+  }
+  if (!talks) return 0;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}{}, {:.0f} a second{}", made, seconds, ranks.count(),
+                                ranks.count() == 1 ? "" : "s", each, static_cast<double>(made) / seconds,
+                                there > made ? fmt::format("; {} were there already", there - made) : ""));
+  const SweepReader result(output);
+  print_failures(result.counted_reasons());
+  print_verdicts(result.verdicts(), study);
+  print_item("wrote", fmt::format("{}    see it: wormdrive summary {}", output, shell_path(output)));
+  return 0;
+}
+
+}  // namespace wormdrive

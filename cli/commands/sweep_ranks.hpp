@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+#include "cli/commands.hpp"
+#include "sweep/ranks/ranks.hpp"
+#include "sweep/study/study.hpp"
+
+namespace wormdrive {
+
+/// Makes a sweep on several ranks, or goes on with one that ranks have left; returns the exit code.
+int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output);
+
+}  // namespace wormdrive

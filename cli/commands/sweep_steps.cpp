@@ -1,0 +1,96 @@
+#include "cli/commands/sweep_steps.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "cli/describe/sweep.hpp"
+#include "description/diagnostics.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/file/pieces.hpp"
+#include "sweep/referee.hpp"
+
+namespace wormdrive {
+namespace {
+volatile std::sig_atomic_t interrupted = 0;
+}
+
+Interruptible::Interruptible() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { interrupted = signal; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &action, &before_[k]);
+}
+
+Interruptible::~Interruptible() {
+  for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &before_[k], nullptr);
+}
+
+int Interruptible::signal() { return interrupted; }
+
+TrialRange range_of(const std::string& shard, std::uint64_t trials) {
+  if (shard.empty()) return {0, trials};
+  std::uint64_t part = 0, parts = 0;
+  const char* const end = shard.data() + shard.size();
+  const auto first = std::from_chars(shard.data(), end, part);
+  const bool slash = first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
+  if (!slash || first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || part < 1 || part > parts)
+    reject({"--shard " + shard}, "must be i/n with 1 <= i <= n, as in 3/7");
+  if (parts > trials)
+    reject({"--shard " + shard}, fmt::format("the study has only {} trials; take at most as many shards", trials));
+  const auto begin = [&](std::uint64_t k) { return trials / parts * k + std::min(k, trials % parts); };
+  return {begin(part - 1), begin(part)};
+}
+
+std::string how_to_resume(const SweepOptions& options) {
+  const std::string& typed = options.command_line;
+  if (options.resume) return "go on with: " + typed;
+  const std::size_t end = std::min(typed.find(" -- "), typed.size());  // behind it there are no options
+  return fmt::format("go on with: {} --resume{}", typed.substr(0, end), typed.substr(end));
+}
+
+EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures) {
+  const SweepPieces pieces(parts);
+  ReasonTable reasons;
+  std::uint64_t trials = 0, end = 0;
+  for (const auto& [range, part] : pieces.in_order)
+    for_each_trial(*part, range, [&](const Trial& trial) {
+      if (reasons.total() > max_failures) return;
+      reasons.code(trial.reason, trial.index);
+      ++trials;
+      end = trial.index + 1;
+    });
+  return {end, too_many_failed(reasons, trials, max_failures)};
+}
+
+namespace {
+double time_of(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+}  // namespace
+
+double cpu_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
+double thread_cpu_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
+
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least) {
+  constexpr double share = 0.05;
+  if (study.scenario.run.solver == SolverKind::cvode) return {};
+  file.flush();
+  const double begin = cpu_time();
+  const auto enough = [&](std::size_t count) {
+    if (Interruptible::signal() != 0) return true;
+    if (options.referee) return count >= *options.referee;
+    return count >= at_least && cpu_time() - begin >= share * trials_took;
+  };
+  std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_for(options.threads), enough);
+  file.write(verdicts);
+  return verdicts;
+}
+
+}  // namespace wormdrive

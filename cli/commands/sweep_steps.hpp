@@ -1,0 +1,59 @@
+#pragma once
+#include <csignal>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "sweep/ensemble.hpp"
+#include "sweep/file/sweep_file.hpp"
+
+namespace wormdrive {
+
+/// While it lives, SIGINT, SIGTERM and SIGUSR1 ask for an end instead of being one; a second one ends at once. mpirun
+/// passes SIGUSR1 on and lets the ranks live; after SIGTERM it kills them.
+class Interruptible {
+ public:
+  Interruptible();
+  Interruptible(const Interruptible&) = delete;
+  ~Interruptible();
+  /// The signal that came, 0 for none.
+  static int signal();
+
+ private:
+  static constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1};
+  struct sigaction before_[std::size(signals)]{};
+};
+
+/// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.
+TrialRange range_of(const std::string& shard, std::uint64_t trials);
+
+/// "go on with: wormdrive sweep ... --resume"
+std::string how_to_resume(const SweepOptions& options);
+
+/// How a sweep ends that is made one trial after the other until one more has failed than may.
+struct EarlyEnd {
+  std::uint64_t end{};  ///< the first trial that it does not make
+  std::string told;
+};
+/// Finds that in files which have every trial before, and perhaps others.
+EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures);
+
+/// Trials of a sweep that a referee looks at in any case.
+inline constexpr std::size_t least_judged = 8;
+
+/// CPU time of this process, and of the calling thread [s].
+double cpu_time();
+double thread_cpu_time();
+
+/// What a sweep spends its CPU time on [s].
+struct SweepCost {
+  double trials = 0.0, file = 0.0, referee = 0.0, summary = 0.0;
+};
+
+/// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at_least, and more while
+/// that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself.
+std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
+                                  std::size_t at_least);
+
+}  // namespace wormdrive

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/describe/sweep.hpp"
+#include "cli/run_and_write.hpp"
+#include "cli/shell_words.hpp"
+#include "description/build_control.hpp"
+#include "description/diagnostics.hpp"
+#include "description/keys.hpp"
+#include "simulation/solver_cross_check.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/worst_case.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// What CVODE says of the worst drive: with its own controller, and under the torque of the fast path.
+std::string second_opinion_on(const Scenario& scenario, const Study& study, const std::string& metric) {
+  Scenario again = scenario;
+  again.run.solver = SolverKind::cvode;
+  const Outcome outcome{run_scenario(again), lemma1_conditions(again)};
+  std::string said;
+  for (const Metric& m : study.metrics)
+    if (m.name == metric) said = fmt::format("with cvode {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));
+  if (scenario.run.solver == SolverKind::cvode) return said;
+  const Disagreement found = cross_check(scenario);
+  return said + fmt::format("; under the same {} {} within {:.2g} {}", in_words_of(scenario.axis, "torque"),
+                            angles_on(scenario.axis), found.angle, units_on(scenario.axis, "rad"));
+}
+
+}  // namespace
+
+int worst_command(const WorstOptions& options) {
+  refuse_to_overwrite(options.output, options.sweep);
+  refuse_to_replace(followed(options.output), "run", options.replace);  // before the search, which takes its time
+  const SweepReader sweep(options.sweep);
+  const Study& study = sweep.study();
+  const WorstCase worst = find_worst(
+      sweep, {options.metric, options.evaluations, options.tail, threads_for(options.threads), options.done_only});
+  const std::string found = how_it_ended(study, worst.metric, worst.found),
+                    before = fmt::format("trial {}", worst.before.index);
+  if (worst.found.status == TrialStatus::refused)
+    reject({options.sweep}, fmt::format("{} is the worst, and cannot run: {}; --done-only looks among drives that do",
+                                        worst.evaluations == 0 ? before : "a drive that was found in the uncertain box",
+                                        worst.found.reason));
+  Scenario scenario = worst.scenario;
+  scenario.title = fmt::format("{}, worst case by {}", study.title, worst.metric);
+  if (!options.quiet) {
+    fmt::print("{}\n", scenario.title);
+    print_item("worst", worst.evaluations == 0
+                            ? fmt::format("{} of the sweep, {}; nothing can be worse", before, found)
+                            : fmt::format("{} in {} runs; the sweep's worst, {}, has {}", found, worst.evaluations,
+                                          before, how_it_ended(study, worst.metric, worst.before)));
+    for (std::size_t k = 0; k < study.parameters.size(); ++k)
+      print_item(k == 0 ? "with" : "", fmt::format("{} {:.6g}{}", study.parameters[k].name, worst.found.parameters[k],
+                                                   in_unit(study.parameters[k].si_unit)));
+  }
+  RunOptions run;
+  run.scenario.quiet = true;
+  run.scenario.command_line = options.command_line;
+  run.replace = options.replace;
+  run_and_write(scenario, options.output, run);
+  if (options.quiet) return 0;
+  print_item("referee", second_opinion_on(scenario, study, worst.metric));
+  print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
+  return 0;
+}
+
+}  // namespace wormdrive

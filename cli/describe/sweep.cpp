@@ -1,0 +1,114 @@
+#include "cli/describe/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/describe/drive.hpp"
+#include "description/keys.hpp"
+
+namespace wormdrive {
+namespace {
+
+std::vector<ReasonTable::Entry> by_frequency(const ReasonTable& reasons) {
+  std::vector<ReasonTable::Entry> list = reasons.entries();
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.count > b.count; });
+  return list;
+}
+
+void raise(Disagreement& largest, const Disagreement& found) {
+  largest.angle = std::max(largest.angle, found.angle);
+  largest.speed = std::max(largest.speed, found.speed);
+}
+
+}  // namespace
+
+std::string in_unit(const Unit& unit) {
+  return unit.symbol == unit::none.symbol ? "" : fmt::format(" {}", unit.symbol);
+}
+
+std::string with_interval(const SampleEstimate& e, double scale) {
+  if (!e.has_interval()) return fmt::format("{:.4g}", e.value * scale);
+  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
+}
+
+std::string how_it_ended(const Study& study, const std::string& metric_name, const Trial& trial) {
+  if (trial.status != TrialStatus::done) return fmt::format("{}: {}", name(trial.status), trial.reason);
+  for (std::size_t k = 0; k < study.metrics.size(); ++k)
+    if (const Metric& metric = study.metrics[k]; metric.name == metric_name)
+      return std::isnan(trial.metrics[k])
+                 ? fmt::format("without {}", metric.name)
+                 : fmt::format("{} {:.6g}{}", metric.name, trial.metrics[k], in_unit(metric.unit));
+  return "";
+}
+
+void print_study(const Study& study, TrialRange range) {
+  fmt::print("{}\n", study.title);
+  const std::string part =
+      range.size() == study.trials() ? "" : fmt::format(", of these {} to {}", range.first, range.end - 1);
+  print_item("study", fmt::format("{} of {} parameter{}, {} trials{}, seed {}",
+                                  std::visit([](const auto& design) { return design.kind; }, study.design),
+                                  study.parameters.size(), study.parameters.size() == 1 ? "" : "s", study.trials(),
+                                  part, study.seed));
+  print_item("scenario", study.scenario.title);
+}
+
+void print_failures(const ReasonTable& reasons) {
+  constexpr std::size_t most = 5;
+  const auto list = by_frequency(reasons);
+  for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
+    print_item("failed", fmt::format("{}: {}", list[k].count, list[k].example));
+  if (list.size() > most)
+    print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
+}
+
+void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study) {
+  if (verdicts.empty()) return;
+  const std::string rad = units_on(study.scenario.axis, "rad"), rad_per_s = units_on(study.scenario.axis, "rad/s");
+  const std::string_view angles = angles_on(study.scenario.axis);
+  Disagreement replayed, closed;
+  std::vector<std::uint64_t> others;
+  std::size_t in_loop = 0, parted = 0;
+  const RefereeVerdict* first_parted = nullptr;
+  for (const RefereeVerdict& verdict : verdicts) {
+    raise(replayed, verdict.found);
+    if (verdict.in_loop.closed) {
+      ++in_loop;
+      raise(closed, *verdict.in_loop.closed);
+    }
+    if (const auto& at = verdict.in_loop.parted) {
+      ++parted;
+      if (!first_parted || *at < *first_parted->in_loop.parted) first_parted = &verdict;
+    }
+    if (!verdict.agrees(study.referee_tolerance)) others.push_back(verdict.trial);
+  }
+  std::sort(others.begin(), others.end());
+  print_item("referee", fmt::format("{} trials again with cvode under the recorded {}: {} within {:.2g} {}, "
+                                    "speeds within {:.2g} {}",
+                                    verdicts.size(), in_words_of(study.scenario.axis, "torque"), angles, replayed.angle,
+                                    rad, replayed.speed, rad_per_s));
+  if (in_loop > 0)
+    print_item("referee", fmt::format("{} of them with their own controller: {} within {:.2g} {}, speeds within "
+                                      "{:.2g} {}",
+                                      in_loop, angles, closed.angle, rad, closed.speed, rad_per_s));
+  if (parted > 0)
+    print_item("referee",
+               fmt::format("in {} of them, with their own controller, the sensor's counts part; first in trial "
+                           "{} at {:.6g} s",
+                           parted, first_parted->trial, *first_parted->in_loop.parted));
+  constexpr std::size_t most = 10;
+  const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
+  if (!others.empty())
+    print_item("referee", fmt::format("disagrees by more than {:g} {}, or cannot go on, in {} of them: trial{} {}{}",
+                                      study.referee_tolerance, rad, others.size(), others.size() == 1 ? "" : "s",
+                                      fmt::join(first, ", "), others.size() > most ? ", ..." : ""));
+}
+
+std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {
+  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials,
+                     most, by_frequency(reasons).front().example);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/hdf5/stored_table.hpp"
+
+namespace wormdrive {
+
+/// A result file to read from, with the names of what is in it. All of it was looked at when it was opened.
+class ResultFile {
+ public:
+  /// Throws InputFault if it is no result file, or a damaged one.
+  explicit ResultFile(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  bool has(const std::string& table) const { return has_member(file_, table); }
+  std::vector<double> column(const std::string& name) const { return read_column(file_, name); }
+  /// A column of texts.
+  std::vector<std::string> texts(const std::string& name) const;
+  /// The columns of numbers of a table, flags included.
+  std::vector<std::string> columns(const std::string& table) const;
+  /// The attributes of a table that are one number, by their names.
+  std::vector<std::pair<std::string, double>> numbers(const std::string& table) const;
+  /// A number of the file itself; throws ReadFault if there is none.
+  double number(const std::string& name) const { return read_number_attribute(file_, name); }
+  /// A text attribute of an object of the file, "/" for the file itself; empty if there is none.
+  std::string attribute(const std::string& object, const std::string& name) const;
+
+ private:
+  std::string path_;
+  Hdf5Handle file_;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,104 @@
+#pragma once
+#include "control/lanes/batch.hpp"
+
+// Included by one file for each instruction set, which instantiates it with a type of its own: nothing that is compiled
+// for a newer processor may be seen by the rest of the program.
+
+namespace wormdrive {
+
+/// One sample of the trials of one register.
+template <class Width>
+class LaneKernel {
+ public:
+  using V = Lanes<Width>;
+
+  static void take(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
+    auto* const trials = reinterpret_cast<LaneTrial<V>*>(batch.trials);
+    for (; sample != end; ++sample)
+      for (int r = 0; r < batch.registers; ++r) take(batch, *sample, r, trials[r]);
+  }
+
+ private:
+  static_assert(sizeof(LaneTrial<V>) == Width::lanes * sizeof(LaneTrial<double>));
+
+  [[gnu::always_inline]] static void take(const LaneBatch& batch, const LaneSample& sample, int r, LaneTrial<V>& x) {
+    const V theta_now = x.theta;
+    const SineAndCosineOf<V> gear = sine_and_cosine(batch, r, theta_now);
+    const V estimated =
+        batch.estimate_is_aligned ? gear.cosine : sine_and_cosine(batch, r, theta_now + x.load_angle_offset).cosine;
+    const MeasurementOf<V> m{sample.t, theta_now, x.speed(theta_now), sample.period, sample.desired};
+    const ControlSignalsOf<V> decided = x.law(m, x.load_torque * estimated + x.load_constant);
+    const ControlRecordOf<V> record{theta_now, m, decided, decided.torque, 0.0};
+    if (sample.counts) x.sums.add(record);
+    if (const unsigned loud = set_bits(!x.quiet(record)) & batch.alive[r]) [[unlikely]]
+      note(batch, r, loud, record);
+
+    V theta = theta_now, omega = x.omega;
+    const HeldTorquesOf<V> held = x.drive.under(record.applied + 0.0);  // the motor adds its signal, none
+    const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
+    const auto known = x.drive.held.goes_on(omega, held, arm) &
+                       x.drive.held.template leap<true, false>(theta, omega, sample.step, held, arm, batch.accuracy);
+    const unsigned alone = set_bits(!known) & batch.alive[r];
+    if (alone == 0U) [[likely]] {
+      x.theta = theta;
+      x.omega = omega;
+    } else {
+      x.theta = select(known, theta, theta_now);
+      x.omega = select(known, omega, x.omega);
+      go_on(batch, sample, r, alone, record.applied);
+    }
+  }
+
+  /// Trials alone, in memory.
+  struct Each {
+    alignas(64) double of[Width::lanes];
+    explicit Each(const V& v) { __builtin_memcpy(of, &v, sizeof of); }
+  };
+
+  [[gnu::always_inline]] static SineAndCosineOf<V> sine_and_cosine(const LaneBatch& batch, int r, const V& angle) {
+    const unsigned distant = set_bits(!(abs(angle) < quarter_turn::furthest)) & batch.alive[r];
+    const Both<V> found = quarter_turn::within(angle);
+    if (distant == 0U) [[likely]]
+      return {found[0], found[1]};
+    return far(batch, angle, {found[0], found[1]}, distant);
+  }
+  [[gnu::noinline]] static SineAndCosineOf<V> far(const LaneBatch& batch, const V& angle,
+                                                  const SineAndCosineOf<V>& near, unsigned lanes) {
+    Each angles(angle), sine(near.sine), cosine(near.cosine);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = __builtin_ctz(lanes);
+      const SineAndCosine found = batch.sine_and_cosine(angles.of[lane]);
+      sine.of[lane] = found.sine;
+      cosine.of[lane] = found.cosine;
+    }
+    SineAndCosineOf<V> all;
+    __builtin_memcpy(&all.sine, sine.of, sizeof sine.of);
+    __builtin_memcpy(&all.cosine, cosine.of, sizeof cosine.of);
+    return all;
+  }
+
+  [[gnu::noinline]] static void note(const LaneBatch& batch, int r, unsigned lanes, const ControlRecordOf<V>& record) {
+    const Each theta(record.gear_angle), speed(record.measured.speed), torque(record.decided.torque),
+        s(record.decided.s), u(record.decided.u), compensation(record.decided.compensation), applied(record.applied);
+    const MeasurementOf<V>& m = record.measured;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int k = __builtin_ctz(lanes);
+      batch.note(batch.owner, r * Width::lanes + k,
+                 {theta.of[k],
+                  {m.t, theta.of[k], speed.of[k], m.period, m.desired},
+                  {torque.of[k], s.of[k], u.of[k], compensation.of[k]},
+                  applied.of[k],
+                  0.0});
+    }
+  }
+  [[gnu::noinline]] static void go_on(const LaneBatch& batch, const LaneSample& sample, int r, unsigned lanes,
+                                      const V& torque) {
+    const Each torques(torque);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = __builtin_ctz(lanes);
+      batch.go_on(batch.owner, r * Width::lanes + lane, sample, torques.of[lane]);
+    }
+  }
+};
+
+}  // namespace wormdrive

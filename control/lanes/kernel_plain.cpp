@@ -1,0 +1,33 @@
+// Two trials in a register, for every processor.
+#include "control/lanes/library.hpp"
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "control/lanes/kernel.hpp"
+#include "control/lanes/kernels.hpp"
+
+namespace wormdrive {
+namespace {
+
+struct Width {
+  static constexpr int lanes = 2;
+  using Register = double __attribute__((vector_size(16)));
+  using Bits = long long __attribute__((vector_size(16)));
+
+  [[gnu::always_inline]] static unsigned signs(Bits bits) {
+#if defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(bits)));
+#else
+    return (bits[0] < 0 ? 1U : 0U) | (bits[1] < 0 ? 2U : 0U);
+#endif
+  }
+};
+
+}  // namespace
+
+void take_samples_plain(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end) {
+  LaneKernel<Width>::take(batch, begin, end);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,11 @@
+#pragma once
+#include "control/lanes/batch.hpp"
+
+namespace wormdrive {
+
+// The kernels, each for processors that have its instructions.
+void take_samples_plain(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end);
+void take_samples_avx2(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end);
+void take_samples_avx512(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end);
+
+}  // namespace wormdrive

@@ -1,0 +1,54 @@
+#pragma once
+#include <cstring>
+#include <type_traits>
+
+#include "control/lemma1_monitor.hpp"
+#include "control/metrics.hpp"
+#include "control/sliding.hpp"
+#include "control/speed_estimator.hpp"
+#include "events/taylor/leap.hpp"
+
+namespace wormdrive {
+
+/// All that a sample of a closed loop changes or needs, of one trial or of several at once: sliding controller, exact
+/// encoder, an arm under gravity, a mode under a held torque. It consists of V alone.
+template <class V>
+struct LaneTrial {
+  SlidingLawOf<V> law;
+  V load_torque, load_angle_offset, load_constant;  ///< of the estimated load
+  SpeedEstimatorOf<V> speed;
+  SampleSums<V> sums;
+  Lemma1Quiet<V> quiet;
+  DrivenMotionOf<V> drive;        ///< the present mode; motion 0 at rest
+  SineAndCosineOf<V> arm_offset;  ///< of the arm against the gear
+  V theta, omega;                 ///< of the gear [rad, rad/s]
+};
+
+inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);
+
+/// A trial in its lane among others: field k of all trials of a register, then field k + 1.
+class Lane {
+ public:
+  /// memory: of the register's LaneTrial; lanes: in a register.
+  Lane(double* memory, int lanes, int lane) : first_(memory + lane), lanes_(lanes) {}
+
+  LaneTrial<double> read() const {
+    double fields[lane_fields];
+    for (std::size_t k = 0; k < lane_fields; ++k) fields[k] = first_[k * lanes_];
+    LaneTrial<double> trial;
+    std::memcpy(&trial, fields, sizeof trial);
+    return trial;
+  }
+  void write(const LaneTrial<double>& trial) const {
+    static_assert(std::is_trivially_copyable_v<LaneTrial<double>>);
+    double fields[lane_fields];
+    std::memcpy(fields, &trial, sizeof trial);
+    for (std::size_t k = 0; k < lane_fields; ++k) first_[k * lanes_] = fields[k];
+  }
+
+ private:
+  double* first_;
+  std::size_t lanes_;
+};
+
+}  // namespace wormdrive

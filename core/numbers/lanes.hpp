@@ -1,0 +1,144 @@
+#pragma once
+#include <cmath>
+#include <type_traits>
+
+#include "core/numbers/pair.hpp"
+
+namespace wormdrive {
+
+/// Which of several lanes something holds for.
+template <class Width>
+struct LaneMask {
+  using Bits = typename Width::Bits;
+  Bits bits;
+
+  [[gnu::always_inline]] friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return {a.bits & b.bits}; }
+  [[gnu::always_inline]] friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return {a.bits | b.bits}; }
+  [[gnu::always_inline]] friend LaneMask operator!(const LaneMask& a) { return {~a.bits}; }
+};
+
+/// The same number of several trials side by side in one register; each is rounded as a double alone. Width says how
+/// many: `lanes`, the types `Register` of doubles and `Bits` of 64-bit integers, and `signs(Bits)`, their upper bits.
+template <class Width>
+struct Lanes {
+  using Register = typename Width::Register;
+  using Mask = LaneMask<Width>;
+  Register x;
+
+  Lanes() = default;
+  [[gnu::always_inline]] Lanes(double all) : x(all - Register{}) {}
+  [[gnu::always_inline]] explicit Lanes(Register each) : x(each) {}
+
+  [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.x + b.x); }
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.x - b.x); }
+  [[gnu::always_inline]] friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.x * b.x); }
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) { return Lanes(-a.x); }
+  [[gnu::always_inline]] Lanes& operator+=(const Lanes& b) { return x += b.x, *this; }
+  [[gnu::always_inline]] friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.x < b.x}; }
+  [[gnu::always_inline]] friend Mask operator<=(const Lanes& a, const Lanes& b) { return {a.x <= b.x}; }
+  [[gnu::always_inline]] friend Mask operator>(const Lanes& a, const Lanes& b) { return {a.x > b.x}; }
+  [[gnu::always_inline]] friend Mask operator>=(const Lanes& a, const Lanes& b) { return {a.x >= b.x}; }
+  [[gnu::always_inline]] friend Mask operator!=(const Lanes& a, const Lanes& b) { return {a.x != b.x}; }
+
+  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) {
+    using Bits = typename Width::Bits;
+    return Lanes(reinterpret_cast<Register>(reinterpret_cast<Bits>(a.x) & 0x7fff'ffff'ffff'ffff));
+  }
+  [[gnu::always_inline]] friend Lanes select(const Mask& which, const Lanes& yes, const Lanes& no) {
+    return Lanes(which.bits ? yes.x : no.x);
+  }
+};
+
+/// A bit for every lane, the first the lowest.
+template <class Width>
+[[gnu::always_inline]] inline unsigned set_bits(const LaneMask<Width>& mask) {
+  return Width::signs(mask.bits);
+}
+template <class Width>
+[[gnu::always_inline]] inline bool all(const LaneMask<Width>& mask) {
+  return Width::signs(mask.bits) == (1U << Width::lanes) - 1U;
+}
+
+template <class Width>
+[[gnu::always_inline]] inline bool any(const LaneMask<Width>& mask) {
+  return Width::signs(mask.bits) != 0U;
+}
+
+// The same for a trial alone.
+[[gnu::always_inline]] inline bool all(bool mask) { return mask; }
+[[gnu::always_inline]] inline bool any(bool mask) { return mask; }
+[[gnu::always_inline]] inline double abs(double x) { return std::fabs(x); }
+[[gnu::always_inline]] inline double select(bool which, double yes, double no) { return which ? yes : no; }
+/// True or false for a trial alone, a mask for several.
+template <class V>
+using MaskOf = decltype(V() < V());
+
+/// The same for what mostly stays as it was: a processor foretells the branch and need not wait for the condition.
+template <class V>
+[[gnu::always_inline]] inline V select_steady(const MaskOf<V>& which, const V& yes, const V& no) {
+  if constexpr (std::is_same_v<V, double>) {
+    if (__builtin_expect_with_probability(which, true, 0.999)) return yes;
+    return no;
+  } else {
+    return select(which, yes, no);
+  }
+}
+
+/// std::min, std::max and std::clamp for either, with the same choice between equals and where one is no number.
+template <class V>
+[[gnu::always_inline]] inline V least(const V& a, const V& b) {
+  return select(b < a, b, a);
+}
+template <class V>
+[[gnu::always_inline]] inline V greatest(const V& a, const V& b) {
+  return select(a < b, b, a);
+}
+template <class V>
+[[gnu::always_inline]] inline V within_limits(const V& x, const V& low, const V& high) {
+  return select(x < low, low, select(high < x, high, x));
+}
+
+/// Two numbers that go through the same formulas; a Pair where they are those of one trial.
+template <class V>
+struct BothLanes {
+  V first, second;
+
+  [[gnu::always_inline]] const V& operator[](int k) const { return k == 0 ? first : second; }
+  [[gnu::always_inline]] friend BothLanes operator+(const BothLanes& a, const BothLanes& b) {
+    return {a.first + b.first, a.second + b.second};
+  }
+  [[gnu::always_inline]] friend BothLanes operator-(const BothLanes& a, const BothLanes& b) {
+    return {a.first - b.first, a.second - b.second};
+  }
+  [[gnu::always_inline]] friend BothLanes operator*(const BothLanes& a, const BothLanes& b) {
+    return {a.first * b.first, a.second * b.second};
+  }
+  [[gnu::always_inline]] friend BothLanes operator*(const V& a, const BothLanes& b) {
+    return {a * b.first, a * b.second};
+  }
+  [[gnu::always_inline]] friend BothLanes operator-(const V& a, const BothLanes& b) {
+    return {a - b.first, a - b.second};
+  }
+  [[gnu::always_inline]] friend BothLanes abs(const BothLanes& a) { return {abs(a.first), abs(a.second)}; }
+};
+
+namespace lanes {
+template <class V>
+struct Both {
+  using Type = BothLanes<V>;
+};
+template <>
+struct Both<double> {
+  using Type = Pair;
+};
+}  // namespace lanes
+template <class V>
+using Both = typename lanes::Both<V>::Type;
+
+/// The same for all trials.
+template <class V>
+[[gnu::always_inline]] inline Both<V> both(Pair of_all) {
+  return Both<V>{V(of_all[0]), V(of_all[1])};
+}
+
+}  // namespace wormdrive

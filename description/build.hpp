@@ -1,0 +1,62 @@
+#pragma once
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "core/worm_drive.hpp"
+#include "description/fold_into_parameters.hpp"
+#include "description/scenario.hpp"
+
+namespace wormdrive {
+
+/// The mesh as a scenario states it, with teeth or without; effects do not show in it.
+inline GearMesh<double> stated_mesh(const Scenario& scenario) {
+  if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh)) return GearMesh<double>(*worm);
+  return GearMesh<double>::without_teeth(std::get<SingleInertia<double>>(scenario.mesh).J);
+}
+
+/// Builds the drive of a scenario with other effects and another motor torque. Of the effects it has those that are not
+/// taken up by mesh and load.
+template <class LoadParameters>
+auto make_drive(const Scenario& scenario, const LoadParameters& parameters, const Effects<double>& effects,
+                const Signal& motor) {
+  auto load = make_load(parameters);
+  GearMesh<double> mesh = stated_mesh(scenario);
+  const Effects<double> left = fold_into_parameters(effects, mesh, load);
+  return WormDrive<double, decltype(load)>(mesh, load, left, motor);
+}
+
+/// The same, and calls use(drive): its load's type is known from here on.
+template <class Use>
+decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
+  return std::visit(
+      [&](const auto& parameters) {
+        auto drive = make_drive(scenario, parameters, effects, motor);
+        return use(drive);
+      },
+      scenario.load);
+}
+/// The same as the scenario states it.
+template <class Use>
+decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
+  return with_drive(scenario, scenario.effects, scenario.motor, std::forward<Use>(use));
+}
+
+/// The mesh of a scenario with what its effects add to the inertias and, at the start and after a long rest, to the
+/// friction; with a direction, as the drive starts to move in it.
+inline GearMesh<double> make_mesh(const Scenario& scenario, Motion motion = Motion::stuck) {
+  return with_drive(scenario, [&](const auto& drive) {
+    GearMesh<double> mesh = drive.mesh();
+    Moment<double> at = drive.moment(0.0, scenario.initial.theta_g, 0.0);
+    at.rest = std::numeric_limits<double>::infinity();
+    if (mesh.has_teeth) mesh.mu = drive.friction(at, motion);
+    return mesh;
+  });
+}
+
+/// Inertia of the gear side with the load's own and what effects add [kg m^2]; without teeth all that moves.
+inline double total_gear_inertia(const Scenario& scenario) {
+  return with_drive(scenario, [](const auto& drive) { return drive.Jg(); });
+}
+
+}  // namespace wormdrive

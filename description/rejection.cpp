@@ -1,0 +1,178 @@
+#include "description/rejection.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build_control.hpp"
+#include "description/keys.hpp"
+
+namespace wormdrive {
+namespace {
+
+// What the bounds of an effect's fields cannot say; empty if nothing speaks against it.
+
+template <class Effect>
+std::string refusal(const Effect&, const Scenario&) {
+  return "";
+}
+
+/// An effect that takes off more inertia than there is beside it [kg m^2, or kg].
+std::string too_little(const std::string& where, double beside, double effect, Axis axis) {
+  if (effect >= 0.0 || beside + effect > 0.0) return "";
+  const Spelling s = spellings("inertia", unit::kilogram_square_metre, axis).front();
+  return fmt::format("leaves no {} {}: {:.6g} + {:.6g} {}", in_words_of(axis, "inertia"), where, beside, effect,
+                     s.unit.symbol);
+}
+/// What moves on the gear side beside an effect, the load's own inertia included; without teeth it moves with the rest.
+template <class Effect>
+std::string too_little_on_the_gear(const Effect& effect, Scenario scenario) {
+  std::get<std::optional<Effect>>(scenario.effects.list).reset();
+  const std::string where = stated_mesh(scenario).has_teeth ? "on the gear side" : "that moves";
+  return too_little(where, total_gear_inertia(scenario), effect.inertia, scenario.axis);
+}
+std::string refusal(const WormInertia<double>& effect, const Scenario& scenario) {
+  const GearMesh<double> mesh = stated_mesh(scenario);
+  return mesh.has_teeth ? too_little("on the worm side", mesh.Jw, effect.inertia, scenario.axis)
+                        : too_little_on_the_gear(effect, scenario);
+}
+std::string refusal(const GearInertia<double>& effect, const Scenario& scenario) {
+  return too_little_on_the_gear(effect, scenario);
+}
+
+std::string refusal(const BearingAsymmetry<double>& effect, const Scenario& scenario) {
+  const auto& dry = std::get<std::optional<WormCoulomb<double>>>(scenario.effects.list);
+  const auto& viscous = std::get<std::optional<WormViscous<double>>>(scenario.effects.list);
+  if (std::abs(effect.torque) <= (dry ? dry->torque : 0.0) &&
+      std::abs(effect.coefficient) <= (viscous ? viscous->coefficient : 0.0))
+    return "";
+  return "is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm";
+}
+std::string refusal(const ToothCompliance<double>& teeth, const Scenario&) {
+  if (teeth.growing_damping && teeth.limited_damping)
+    return "states damping_s_per_m along with damping_Ns_per_m; keep one, the law of Hunt and Crossley or the limited "
+           "damper";
+  if (!teeth.growing_damping && !teeth.limited_damping)
+    return "states no damping; add damping_s_per_m (law of Hunt and Crossley) or damping_Ns_per_m (limited damper), 0 "
+           "for none";
+  return "";
+}
+/// The gap is less than the pitch of the gear's teeth, which is largest for a worm with one start: 2 pi / i.
+std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) {
+  if (!has_elastic_teeth(scenario.effects))
+    return "needs teeth that yield where they meet; add [effect.tooth_compliance] with stiffness_N_per_m and "
+           "damping_s_per_m";
+  if (const double pitch = 2.0 * std::numbers::pi / stated_mesh(scenario).i; backlash.gap >= pitch)
+    return fmt::format(
+        "has a gap of {:.6g} deg, which must be less than the pitch of the gear's teeth, {:.6g} deg (360 "
+        "deg / ratio)",
+        backlash.gap / unit::degree, pitch / unit::degree);
+  return "";
+}
+
+/// Why an effect cannot be on along with another one that is; empty if it can.
+template <class Effect>
+std::string conflict(const Effects<double>& on) {
+  std::string why;
+  if constexpr (requires { Effect::excludes; })
+    on.for_each([&]<class Other>(const std::optional<Other>& other) {
+      for (const Exclusion& exclusion : Effect::excludes)
+        if (other && Other::id == exclusion.id)
+          why = fmt::format("excludes effect.{}: {}; keep one of them", exclusion.id, exclusion.why);
+    });
+  return why;
+}
+
+template <class Effect>
+std::string why_not(const Effect& effect, const Scenario& scenario) {
+  if (Effect::place == Place::mesh && !stated_mesh(scenario).has_teeth) return "needs teeth, and mesh.kind is \"none\"";
+  const std::string refused = refusal(effect, scenario);
+  return refused.empty() ? conflict<Effect>(scenario.effects) : refused;
+}
+
+}  // namespace
+
+std::vector<EffectRejection> effect_rejections(const Scenario& scenario) {
+  std::vector<EffectRejection> list;
+  scenario.effects.for_each([&]<class Effect>(const std::optional<Effect>& effect) {
+    if (!effect) return;
+    if (const std::string why = why_not(*effect, scenario); !why.empty())
+      list.push_back({std::string(Effect::id), fmt::format("effect.{} {}", Effect::id, why)});
+  });
+  return list;
+}
+
+/// Beyond mu_g the worm brakes itself, for C2 has passed through infinity; without eq. 17 no motion is unique.
+std::optional<std::string> why_it_cannot_move(const Scenario& scenario) {
+  const auto* const parameters = std::get_if<MeshParameters<double>>(&scenario.mesh);
+  if (!parameters) return std::nullopt;
+  GearMesh<double> mesh = make_mesh(scenario);
+  const double stated = parameters->mu;
+  const FrictionRange range = scenario.effects.friction_range({stated, stated}, scenario.run.duration);
+  if (range.low < 0.0)
+    return fmt::format("mesh.friction = {} may fall to {:.6g} with its effects; friction must be at least 0", stated,
+                       range.low);
+  if (has_elastic_teeth(scenario.effects)) return std::nullopt;  // which have one motion for every friction
+  mesh.mu = range.high;
+  std::string friction = fmt::format("mesh.friction = {}", stated);
+  if (mesh.mu != stated) friction += fmt::format(", which may rise to {:.6g} with its effects,", mesh.mu);
+  if (mesh.mu >= mesh.mu_g())
+    return fmt::format(
+        "{} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would lock itself; only "
+        "elastic teeth, [effect.tooth_compliance], can follow it",
+        friction, mesh.mu_g());
+  const double slope = scenario.effects.least_slope(), Jw_i = mesh.Jw * mesh.i * slope * slope;
+  const double Jg = total_gear_inertia(scenario), surface = Jw_i / Jg;
+  if (mesh.C1() > -surface) return std::nullopt;
+  const std::string limit =
+      slope < 1.0 ? fmt::format("-Jw i k^2/Jg where the worm is slowest, k = {:.6g},", slope) : "-Jw i/Jg";
+  return fmt::format(
+      "{} violates eq. 17, C1 > -Jw i/Jg: C1 = {:.6g}, {} = {:.6g} with Jg = {:.6g} kg m^2; the rigid drive would jam. "
+      "Lower the friction, raise worm_inertia_kgm2, lower the gear-side inertia below {:.6g} kg m^2, or add "
+      "[effect.tooth_compliance]: elastic teeth can jam",
+      friction, mesh.C1(), limit, -surface, Jg, -Jw_i / mesh.C1());
+}
+
+/// Both branches must have a positive inertia, for the law divides by it, and the linear design a solution.
+std::vector<ControllerRejection> controller_rejections(const Scenario& scenario) {
+  if (!scenario.control || std::holds_alternative<OpenLoopParameters>(scenario.control->law)) return {};
+  std::vector<ControllerRejection> list;
+  const NominalModel nominal = make_nominal(scenario);
+  for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})
+    if (nominal.inertia(C) <= 0.0)
+      list.push_back({"nominal", fmt::format("the nominal model violates eq. 17: Jw i + {} Jg = {:.6g} kg m^2 must be "
+                                             "greater than 0",
+                                             name, nominal.inertia(C))});
+  const auto* const sliding = std::get_if<SlidingParameters>(&scenario.control->law);
+  if (sliding && list.empty()) {
+    const SlidingBounds bounds(*sliding, make_lemma1(scenario));
+    for (const std::size_t k : {0, 1})
+      if (std::isinf(bounds.D[k]) || std::isinf(bounds.E[k]))
+        list.push_back({"variation",
+                        fmt::format("controller.variation leaves the branch C{0} without inertia, Jw i + C{0} Jg <= 0, "
+                                    "and no gain withstands that; vary less, or state D{0}_per_kgm2 and "
+                                    "E{0}_rad_per_s2",
+                                    k + 1)});
+  }
+  const auto* const pid = std::get_if<PidParameters>(&scenario.control->law);
+  if (pid && pid->integral_weight > 0.0 && list.empty() &&
+      !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
+    list.push_back(
+        {"kind", "the weights have no stabilising gains in double precision; bring them closer to each other"});
+  return list;
+}
+
+std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {
+  if (const auto effects = effect_rejections(scenario); !effects.empty()) return effects.front().what;
+  return why_it_cannot_move(scenario);
+}
+
+std::optional<std::string> why_it_cannot_run(const Scenario& scenario) {
+  if (auto why = why_the_drive_cannot_run(scenario)) return why;
+  if (const auto controller = controller_rejections(scenario); !controller.empty()) return controller.front().what;
+  return std::nullopt;
+}
+
+}  // namespace wormdrive

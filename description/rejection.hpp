@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "description/scenario.hpp"
+
+namespace wormdrive {
+
+// What the bounds of single fields cannot say against a run.
+
+/// An effect that cannot be on as it is stated.
+struct EffectRejection {
+  std::string id, what;
+};
+std::vector<EffectRejection> effect_rejections(const Scenario& scenario);
+
+/// Why no unique motion exists: friction beyond mu_g, where the worm locks itself, or against eq. 17.
+std::optional<std::string> why_it_cannot_move(const Scenario& scenario);
+
+/// A key of [controller] whose values give no controller.
+struct ControllerRejection {
+  std::string key, what;
+};
+std::vector<ControllerRejection> controller_rejections(const Scenario& scenario);
+
+/// The first reason that lies in the drive: an effect or a friction that cannot be.
+std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario);
+
+/// The first of all these reasons.
+std::optional<std::string> why_it_cannot_run(const Scenario& scenario);
+
+}  // namespace wormdrive

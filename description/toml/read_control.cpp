@@ -1,0 +1,139 @@
+#include "description/toml/read_control.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/rejection.hpp"
+#include "description/toml/read_reference.hpp"
+#include "description/toml/read_signal.hpp"
+#include "description/variant_kinds.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr double most_samples = 1e9;  ///< of a run; whoever asks for more has slipped in the unit
+
+template <class Parameters>
+void read_law(TableReader& table, Parameters& parameters, const std::string&) {
+  table.read_fields(parameters);
+}
+void read_law(TableReader& table, OpenLoopParameters& parameters, const std::string& folder) {
+  const auto tables = table.tables("torque");
+  if (!table.has("torque")) table.lacks("'torque' (the torque over time that is to be held)");
+  parameters.torque = read_signal(tables, "controller.torque", table, folder);
+}
+
+class ControlReader {
+ public:
+  ControlReader(TableReader& root, Scenario& scenario, std::string folder)
+      : root_(root), scenario_(scenario), folder_(std::move(folder)) {}
+
+  void read() {
+    ControlScenario& control = scenario_.control.emplace();
+    root_.section("controller", [&](TableReader& controller) { read_controller(controller, control); });
+    control.reference = read_reference(root_, folder_);
+    root_.section("sensor", [&](TableReader& sensor) {
+      control.sensor.exact_speed = sensor.choice("speed", {"difference", "exact"}, Presence::optional) == "exact";
+      sensor.read_fields(control.sensor);
+      require_whole(sensor, "counts", control.sensor.counts);
+      require_whole(sensor, "seed", control.sensor.seed);
+      refuse_spoilt_speed(sensor, control.sensor);
+    });
+    if (root_.has("disturbance"))
+      root_.section("disturbance", [&](TableReader& disturbance) {
+        disturbance.read_fields(control.disturbance);
+        require_whole(disturbance, "seed", control.disturbance.seed);
+      });
+    root_.section("metrics", [&](TableReader& metrics) { read_window(metrics, control.window); });
+  }
+
+ private:
+  /// An exact speed is none that was made of counts, noise or a filtered difference.
+  static void refuse_spoilt_speed(TableReader& table, const SensorSettings& sensor) {
+    if (!sensor.exact_speed) return;
+    for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
+                                     std::pair{"speed_filter_Hz", sensor.filter_cutoff}})
+      if (value > 0.0)
+        table.fault(key, fmt::format("sensor.{} = {:g} has no part in speed = \"exact\"; leave it out, or take speed = "
+                                     "\"difference\"",
+                                     key, value));
+  }
+  void read_controller(TableReader& table, ControlScenario& control) {
+    table.read_fields(control.sampling);
+    check_sampling(table, control.sampling);
+    table.section("nominal", [&](TableReader& nominal) { nominal.read_fields(control.nominal); });
+    table.section("variation", [&](TableReader& variation) {
+      variation.read_fields(control.variations);
+      if (control.variations.friction && (control.variations.C1 > 0.0 || control.variations.C2 > 0.0))
+        variation.fault(
+            "friction",
+            "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others");
+    });
+    const auto kind = table.choice("kind", kinds_of<ControllerParameters>(), Presence::required);
+    if (!kind) table.ignore_unknown();  // which keys it may have hangs on its kind
+    if (!kind) return;
+    control.law = make_kind<ControllerParameters>(*kind);
+    std::visit([&](auto& law) { read_law(table, law, folder_); }, control.law);
+    const bool follows = !std::holds_alternative<OpenLoopParameters>(control.law);
+    if (follows && !root_.has("reference")) table.lacks("a [reference] to follow");
+    if (root_.faults().empty())
+      for (const ControllerRejection& refusal : controller_rejections(scenario_))
+        table.fault(refusal.key, refusal.what);
+  }
+
+  void check_sampling(TableReader& table, const SamplingSettings& sampling) {
+    const double duration = scenario_.run.duration, period = sampling.period;
+    require_whole(table, "delay_samples", sampling.delay);
+    if (duration <= 0.0 || period <= 0.0) return;
+    if (period > duration)
+      table.fault("sample_time_s",
+                  fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s", period, duration));
+    else if (duration > most_samples * period)
+      table.fault("sample_time_s",
+                  fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are taken",
+                              period, duration / period, most_samples));
+    if (sampling.offset >= duration)
+      table.fault("sample_offset_s",
+                  fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s", sampling.offset,
+                              duration));
+  }
+
+  void read_window(TableReader& metrics, MetricsWindow& window) {
+    metrics.read_fields(window);
+    const double duration = scenario_.run.duration;
+    if (window.from >= window.to)
+      metrics.fault("from_s",
+                    fmt::format("metrics.from_s = {} s must be less than to_s = {} s", window.from, window.to));
+    else if (duration > 0.0 && window.from >= duration)
+      metrics.fault("from_s",
+                    fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration));
+  }
+
+  TableReader& root_;
+  Scenario& scenario_;
+  std::string folder_;
+};
+
+}  // namespace
+
+void read_control(TableReader& root, Scenario& scenario, const std::string& folder) {
+  if (root.has("controller")) {
+    if (!scenario.motor.terms.empty())
+      root.fault("motor",
+                 "[motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over "
+                 "time between samples");
+    if (scenario.axis == Axis::linear)
+      root.fault("controller", "[controller] needs a rotary axis; mesh.axis is \"linear\"");
+    ControlReader(root, scenario, folder).read();
+    return;
+  }
+  root.table("controller");
+  for (const char* key : {"reference", "sensor", "disturbance", "metrics"})
+    if (root.has(key)) {
+      root.tables(key);
+      root.fault(key, fmt::format("[{}] belongs to a [controller], and there is none", key));
+    }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,80 @@
+#include "description/toml/read_pairs.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "description/toml/csv.hpp"
+
+namespace wormdrive {
+namespace {
+
+std::string count(std::size_t number, const std::string& things) {
+  return fmt::format("{} {}{}", number, things, number == 1 ? "" : "s");
+}
+
+Pairs from_file(TableReader& table, const PairSource& source, const std::string& file, const std::string& folder) {
+  const std::string x_column = table.text("x_column").value_or(source.x_column.spelled(table.axis()));
+  const std::string y_column = table.text("y_column").value_or(source.y_column.spelled(table.axis()));
+  for (const Name& name : {source.x, source.y})
+    if (const auto both = table.stated(name.stem, name.unit))
+      table.fault(both->key, fmt::format("{} is stated along with 'file'; keep one", table.path_of(both->key)));
+  const std::string stated = fmt::format("{} = \"{}\"", table.path_of("file"), file);
+  try {
+    const Csv csv = read_csv((std::filesystem::path(folder) / file).string());
+    const Pairs pairs{csv.numbers(x_column), csv.numbers(y_column)};
+    require_increasing(csv, x_column, pairs.x);
+    if (pairs.x.size() >= source.at_least) return pairs;
+    table.fault("file", fmt::format("{} has {} below its header line; at least {} are needed", stated,
+                                    count(pairs.x.size(), "row"), source.at_least));
+  } catch (const InputFault& fault) {
+    // A wrong line is put right in the file, a wrong name in the scenario.
+    for (const Fault& f : fault.faults)
+      if (f.where.line > 0)
+        table.faults().add(f.where,
+                           fmt::format("{} ({} at {})", f.what, table.path_of("file"), to_string(table.where("file"))));
+      else
+        table.fault("file", fmt::format("{} {}", stated, f.what));
+  }
+  return {};
+}
+
+Pairs inline_pairs(TableReader& table, const PairSource& source) {
+  const auto x_key = table.stated(source.x.stem, source.x.unit), y_key = table.stated(source.y.stem, source.y.unit);
+  if (!x_key || !y_key) {
+    table.lacks(fmt::format("'file' (a CSV file), or '{}' and '{}'", source.x.spelled(table.axis()),
+                            source.y.spelled(table.axis())));
+    return {};
+  }
+  const auto x = table.numbers(*x_key), y = table.numbers(*y_key);
+  if (!x || !y) return {};
+  const std::string path = table.path_of(x_key->key);
+  if (x->size() != y->size()) {
+    table.fault(x_key->key, fmt::format("{} has {} but {} has {}", path, count(x->size(), "value"), y_key->key,
+                                        count(y->size(), "value")));
+    return {};
+  }
+  if (x->size() < source.at_least) {
+    table.fault(x_key->key,
+                fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"), source.at_least));
+    return {};
+  }
+  for (std::size_t k = 1; k < x->size(); ++k) {
+    if ((*x)[k] > (*x)[k - 1]) continue;
+    const double si = x_key->unit.si;
+    table.fault(x_key->key, fmt::format("{}[{}] = {:.12g} does not increase after {:.12g}", path, k, (*x)[k] / si,
+                                        (*x)[k - 1] / si));
+    return {};
+  }
+  return {*x, *y};
+}
+
+}  // namespace
+
+Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder) {
+  if (!table.has("file")) return inline_pairs(table, source);
+  const auto file = table.text("file");
+  return file ? from_file(table, source, *file, folder) : Pairs{};
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,49 @@
+#include "description/warnings.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build_control.hpp"
+#include "description/keys.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr double closing_tolerance = 1e-3;  ///< data sheets round; beyond this the power balance suffers visibly
+
+/// About the controller.
+std::vector<std::string> control_warnings(const Scenario& scenario) {
+  std::vector<std::string> list;
+  if (!scenario.control) return list;
+  const NominalSettings& stated = scenario.control->nominal;
+  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
+      !stated.load_torque && !stated.load_constant)
+    list.push_back("the controller takes the load for 0: neither an arm nor a constant; state [controller.nominal]");
+  std::string failing;
+  for (const Condition& c : lemma1_conditions(scenario))
+    if (!c.holds()) failing += fmt::format("{}{}", failing.empty() ? "" : "; ", c.rule);
+  if (!failing.empty()) list.push_back(fmt::format("Lemma 1 does not hold (wormdrive check says why): {}", failing));
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Scenario& scenario) {
+  std::vector<std::string> list;
+  const GearMesh<double> mesh = make_mesh(scenario);
+  if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
+    list.push_back(
+        fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
+                    "{:.4f} would close it{}",
+                    mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
+                    has_elastic_teeth(scenario.effects) ? "; the flanks move as the ratio says" : ""));
+  if (scenario.motor.terms.empty() && !scenario.control)
+    list.push_back(
+        fmt::format("no [motor.torque]: the motor {} is 0 throughout", in_words_of(scenario.axis, "torque")));
+  for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
+  return list;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,180 @@
+#include "diagnosis/candidates/catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace wormdrive {
+
+namespace {
+
+using enum CoordinateForm;
+
+/// One coordinate that is a field.
+Coordinate plain_coordinate(std::string_view effect, std::string_view field, double scale, double low, double high) {
+  return {.effect = effect, .field = field, .scale = scale, .low = low, .high = high};
+}
+
+/// An effect that acts in proportion to one field.
+Candidate linear(std::string_view effect, std::string_view field, double scale, double low, double high) {
+  Candidate s;
+  s.effect = effect;
+  s.coordinates = {plain_coordinate(effect, field, scale, low, high)};
+  s.starts = {{{0.0}, {}}};
+  return s;
+}
+
+/// An amplitude with a phase.
+Candidate periodic(std::string_view effect, double scale, double most) {
+  Candidate s;
+  s.effect = effect;
+  for (const CoordinateForm form : {in_phase, in_quadrature})
+    s.coordinates.push_back(
+        {.effect = effect, .field = "amplitude", .scale = scale, .low = -most, .high = most, .form = form});
+  s.starts = {{{0.0, 0.0}, {}}};
+  return s;
+}
+
+Candidate finite(std::string_view effect, std::string_view field, double scale, double low, double high,
+                 const std::vector<double>& starts) {
+  Candidate s = linear(effect, field, scale, low, high);
+  s.finite = true;
+  s.starts.clear();
+  for (const double x : starts) s.starts.push_back({{x}, {}});
+  return s;
+}
+
+Candidate stribeck(const Magnitudes& m) {
+  Candidate s = linear("stribeck", "drop", 0.08 * m.friction, -2.0 * m.friction, 2.0 * m.friction);
+  // a fall within a smaller speed is passed within a few samples: that is friction of rest
+  s.coordinates.push_back(
+      plain_coordinate("stribeck", "speed", 0.06 * m.sliding_speed, 0.02 * m.sliding_speed, 3.0 * m.sliding_speed));
+  s.finite = s.either_sign = true;
+  s.starts.clear();
+  // exponential [Tustin], bell [Bo & Pavelescu], Lorentzian [Hess & Soom]
+  constexpr std::array<std::array<double, 2>, 3> shapes{{{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}};
+  for (const auto& [exponent, tail] : shapes)
+    for (const double share : {0.04, 0.2, 0.75})
+      s.starts.push_back({{0.04 * m.friction, share * m.sliding_speed},
+                          {{"stribeck", "exponent", exponent}, {"stribeck", "tail", tail}}});
+  s.choices = 2.0 * std::log(static_cast<double>(shapes.size()));
+  s.frees = "mesh_friction";
+  return s;
+}
+
+Candidate cogging(const Magnitudes& m) {
+  Candidate s = periodic("cogging", 0.02 * m.torque, m.largest_torque);
+  const std::vector<double> orders{1, 2, 3, 4, 6, 8, 12};
+  s.starts.clear();
+  for (const double order : orders) s.starts.push_back({{0.0, 0.0}, {{"cogging", "periods", order}}});
+  s.choices = 2.0 * std::log(static_cast<double>(orders.size()));
+  return s;
+}
+
+/// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes.
+Candidate backlash() {
+  Candidate s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 5.5e-4, 1e-3, 1.8e-3, 3.3e-3, 6e-3});
+  s.impacts = true;
+  return s;
+}
+
+/// Teeth that yield are seen as a worm that lags behind; their stiffness without the effect is infinite.
+Candidate tooth_compliance(const Magnitudes& m) {
+  const double per_turn = 1e-4 * m.gear_arm * m.gear_arm;  // [m/N], of 1e-4 rad/(N m) at the gear
+  Candidate s = linear("tooth_compliance", "stiffness", per_turn, 0.0, 300.0 * per_turn);
+  s.coordinates[0].form = inverse;
+  return s;
+}
+
+/// An effect that the scenario has already is sought as a change of what it states.
+void start_from_stated(Candidate& s, const Effects<double>& stated) {
+  if (!field_of(stated, s.effect, s.coordinates[0].field).on) return;
+  SuspectStart start{std::vector<double>(s.coordinates.size()), {}};
+  for (std::size_t k = 0; k < s.coordinates.size(); ++k) {
+    Coordinate& c = s.coordinates[k];
+    start.values[k] = coordinate_value(stated, c);
+    c.centre = start.values[k];
+  }
+  if (s.finite) s.resizable = false;  // the start is what is stated
+  s.starts = {start};
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitudes& m,
+                                  const std::vector<Coordinate>& toleranced) {
+  std::vector<Candidate> all;
+  const double friction_per_speed = m.torque / m.worm_speed;
+  all.push_back(linear("worm_coulomb", "torque", 0.04 * m.torque, 0.0, 2.0 * m.largest_torque));
+  all.push_back(linear("worm_viscous", "coefficient", 0.02 * friction_per_speed, 0.0, 3.0 * friction_per_speed));
+  // its torque is that of torque_offset
+  all.push_back(linear("bearing_asymmetry", "coefficient", 0.02 * friction_per_speed, -3.0 * friction_per_speed,
+                       3.0 * friction_per_speed));
+  all.push_back(cogging(m));
+  all.push_back(finite("actuator_lag", "time_constant", m.period, 0.02 * m.period, 30.0 * m.period,
+                       {0.5 * m.period, 3.0 * m.period}));
+  all.push_back(finite("actuator_delay", "delay", m.period, 0.0, 30.0 * m.period, {0.5 * m.period, 3.0 * m.period}));
+  all.back().twins = {"encoder_delay"};
+  // a limit far above the true one cuts little, and what it leaves passes for outliers
+  all.push_back(finite("torque_saturation", "limit", 0.02 * m.largest_torque, 0.1 * m.largest_torque,
+                       1.2 * m.largest_torque,
+                       {0.97 * m.largest_torque, m.rare_torques[0], m.rare_torques[1], m.rare_torques[2]}));
+  all.back().resizable = false;
+  all.push_back(linear("encoder_scale", "share", 0.01, -0.3, 0.3));
+  if (m.has_teeth) {
+    const double gear_torque = m.torque * m.worm_speed / m.gear_speed;
+    all.push_back(stribeck(m));
+    all.push_back(linear("friction_asymmetry", "change", 0.04 * m.friction, -0.6 * m.friction, 0.6 * m.friction));
+    all.push_back(periodic("position_friction", 0.05, 0.7));
+    all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
+    all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
+    all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, 2.0 * m.friction,
+                         {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.36 * m.friction, 0.5 * m.friction,
+                          0.7 * m.friction, m.friction, 1.4 * m.friction}));
+    all.push_back(periodic("transmission_error", 5e-4, 0.02));
+    all.push_back(backlash());
+    if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
+    all.push_back(linear("gear_coulomb", "torque", 0.02 * gear_torque, 0.0, gear_torque));
+    all.push_back(
+        linear("gear_viscous", "coefficient", 0.01 * gear_torque / m.gear_speed, 0.0, gear_torque / m.gear_speed));
+  }
+  if (m.load_torque > 0.0 || !m.has_teeth) {
+    const double torque = m.has_teeth ? m.load_torque : m.torque;
+    all.push_back(linear("load_spring", "stiffness", 0.03 * torque, -3.0 * torque, 3.0 * torque));
+    all.back().coordinates.push_back(plain_coordinate("load_spring", "angle", 0.1, -10.0, 10.0));
+    all.back().starts[0].values.push_back(0.0);
+  }
+  for (const Coordinate& c : toleranced) {
+    Candidate s = linear(c.effect, c.field, c.scale, c.low, c.high);
+    s.coordinates[0] = c;
+    s.starts[0].values = {c.centre};
+    s.toleranced = c.tolerance > 0.0;
+    if (c.effect == "load_angle") s.twins = {"encoder_offset"};
+    all.push_back(s);
+  }
+  for (Candidate& s : all) start_from_stated(s, stated);
+  return all;
+}
+
+std::vector<NotExamined> not_examined(const Magnitudes& m) {
+  std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"}};
+  if (m.has_teeth && !m.has_worm_encoder) list.push_back({"tooth_compliance", "only an encoder on the worm shows it"});
+  if (!m.load_turns)
+    list.push_back({"encoder_offset", "nothing in the drive depends on where the zero of the angle is"});
+  if (!m.has_teeth)
+    for (const std::string_view effect :
+         {"stribeck", "friction_asymmetry", "position_friction", "friction_drift", "static_friction",
+          "transmission_error", "mesh_friction", "backlash", "tooth_compliance"})
+      list.push_back({effect, "the drive has no teeth"});
+  if (!m.has_teeth)
+    for (const std::string_view effect : {"gear_coulomb", "gear_viscous", "gear_inertia"})
+      list.push_back({effect, "without a gear the worm's side stands for both"});
+  if (m.load_torque <= 0.0)
+    for (const std::string_view effect : {"load_magnitude", "load_angle"}) list.push_back({effect, "there is no load"});
+  else if (!m.load_turns)
+    list.push_back({"load_angle", "the load does not depend on the angle"});
+  return list;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,45 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/candidates/coordinates.hpp"
+#include "diagnosis/candidates/magnitudes.hpp"
+
+namespace wormdrive {
+
+/// Where a fit of a candidate starts.
+struct SuspectStart {
+  std::vector<double> values;      ///< of its coordinates
+  std::vector<FieldValue> chosen;  ///< fields that are not fitted but tried out
+};
+
+/// An effect of the catalogue as a possible cause: what a fit of it moves, and from where.
+struct Candidate {
+  std::string_view effect;
+  std::vector<Coordinate> coordinates;
+  std::vector<SuspectStart> starts;
+  /// Where the effect has no derivative at no effect, its signature is what a start of its own does.
+  bool finite = false;
+  bool resizable = true;                  ///< the first coordinate of a finite start may be scaled down to no effect
+  bool either_sign = false;               ///< ... and beyond
+  bool impacts = false;                   ///< its likelihood is rough, and a restitution belongs to it
+  double choices = 0.0;                   ///< what trying out costs, as BIC
+  std::string_view frees{};               ///< an effect whose tolerance does not hold beside this one
+  std::vector<std::string_view> twins{};  ///< effects that no recording of this kind tells from it
+
+  /// Whether all its coordinates have a tolerance.
+  bool toleranced = false;
+};
+
+/// Every effect that could be at work in a drive of this kind.
+std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitudes& sizes,
+                                  const std::vector<Coordinate>& toleranced);
+
+/// Effects of the catalogue that are no candidates in a drive of this kind, with the reason.
+struct NotExamined {
+  std::string_view effect;
+  std::string_view reason;
+};
+std::vector<NotExamined> not_examined(const Magnitudes& sizes);
+
+}  // namespace wormdrive

@@ -1,0 +1,91 @@
+#include "diagnosis/candidates/coordinates.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace wormdrive {
+
+namespace {
+
+/// Calls visit(optional effect, field) for the field of those names.
+template <class Catalogue, class Visit>
+void with_field(Catalogue& effects, std::string_view effect, std::string_view field, Visit&& visit) {
+  bool found = false;
+  effects.for_each([&](auto& optional) {
+    using E = typename std::remove_cvref_t<decltype(optional)>::value_type;
+    if (E::id != effect) return;
+    for_each_field<E>([&](const auto& f) {
+      if constexpr (std::is_same_v<decltype(f.member), double E::*>)
+        if (!found && f.name == field) {
+          found = true;
+          visit(optional, f);
+        }
+    });
+  });
+  if (!found)
+    throw std::invalid_argument("no effect '" + std::string(effect) + "' with a field '" + std::string(field) + "'");
+}
+
+constexpr std::string_view phase = "phase";
+
+}  // namespace
+
+FieldOfEffect field_of(const Effects<double>& effects, std::string_view effect, std::string_view field) {
+  FieldOfEffect found;
+  with_field(effects, effect, field, [&](const auto& optional, const auto& f) {
+    found = {optional.has_value(), optional ? (*optional).*f.member : 0.0, f.unit, f.bounds};
+  });
+  return found;
+}
+
+void set_field(Effects<double>& effects, const FieldValue& to) {
+  with_field(effects, to.effect, to.field, [&](auto& optional, const auto& f) {
+    if (!optional) optional.emplace();
+    (*optional).*f.member = to.value;
+  });
+}
+
+void switch_off(Effects<double>& effects, std::string_view id) {
+  effects.for_each([&]<class E>(std::optional<E>& optional) {
+    if (E::id == id) optional.reset();
+  });
+}
+
+void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, std::span<const double> values) {
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const Coordinate& c = coordinates[k];
+    switch (c.form) {
+      case CoordinateForm::plain: set_field(effects, {c.effect, c.field, values[k]}); break;
+      case CoordinateForm::inverse: set_field(effects, {c.effect, c.field, 1.0 / values[k]}); break;
+      case CoordinateForm::in_phase:
+        set_field(effects, {c.effect, c.field, std::hypot(values[k], values[k + 1])});
+        set_field(effects, {c.effect, phase, std::atan2(values[k + 1], values[k])});
+        break;
+      case CoordinateForm::in_quadrature: break;  // done with its neighbour
+    }
+  }
+}
+
+double coordinate_value(const Effects<double>& effects, const Coordinate& c) {
+  const double value = field_of(effects, c.effect, c.field).value;
+  switch (c.form) {
+    case CoordinateForm::plain: return value;
+    case CoordinateForm::inverse: return 1.0 / value;
+    case CoordinateForm::in_phase: return value * std::cos(field_of(effects, c.effect, phase).value);
+    case CoordinateForm::in_quadrature: return value * std::sin(field_of(effects, c.effect, phase).value);
+  }
+  return value;
+}
+
+std::vector<std::string_view> fields_of(const Coordinate& c) {
+  switch (c.form) {
+    case CoordinateForm::plain:
+    case CoordinateForm::inverse: return {c.field};
+    case CoordinateForm::in_phase: return {c.field, phase};
+    case CoordinateForm::in_quadrature: return {};
+  }
+  return {};
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,64 @@
+#include "diagnosis/candidates/magnitudes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "description/build.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+std::array<double, 3> rare_torques(const std::vector<PreparedRecording>& recordings) {
+  std::vector<double> sizes;
+  for (const PreparedRecording& r : recordings)
+    for (const double u : r.data.motor_torque) sizes.push_back(std::abs(u));
+  std::array<double, 3> rare{};
+  constexpr std::array<double, 3> shares{0.004, 0.015, 0.05};
+  for (std::size_t k = 0; k < shares.size() && !sizes.empty(); ++k) {
+    const auto at = static_cast<std::size_t>((1.0 - shares[k]) * static_cast<double>(sizes.size() - 1));
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(at), sizes.end());
+    rare[k] = sizes[at];
+  }
+  return rare;
+}
+
+}  // namespace
+
+Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecording>& recordings) {
+  Magnitudes m;
+  for (const PreparedRecording& r : recordings) {
+    m.torque = std::max(m.torque, r.rms_torque);
+    m.largest_torque = std::max(m.largest_torque, r.largest_torque);
+    m.gear_speed = std::max(m.gear_speed, r.rms_speed);
+    m.duration = std::max(m.duration, r.duration());
+    m.period = std::max(m.period, r.data.period);
+    m.has_worm_encoder = m.has_worm_encoder || r.data.has_worm_encoder();
+  }
+  m.rare_torques = rare_torques(recordings);
+  const GearMesh<double> mesh = stated_mesh(scenario);
+  m.has_teeth = mesh.has_teeth;
+  m.worm_speed = mesh.i * m.gear_speed;
+  m.worm_inertia = mesh.has_teeth ? mesh.Jw : mesh.Jg;
+  if (mesh.has_teeth) {
+    m.friction = mesh.mu;
+    m.gear_arm = mesh.gear_arm(0.0);
+    m.sliding_speed = mesh.sliding_speed(m.worm_speed);
+    m.gear_inertia = total_gear_inertia(scenario);
+  }
+  for (const PreparedRecording& r : recordings) {
+    Scenario loaded = scenario;
+    if (r.data.load) loaded.load = *r.data.load;
+    m.load_turns = m.load_turns || !std::holds_alternative<Signal>(loaded.load);
+    with_drive(loaded, [&](auto& drive) {
+      drive.enter(0.0);
+      for (std::size_t k = 0; k < r.samples(); k += 50) {
+        const double tau = drive.load().torque(drive.moment(r.data.time(k), r.data.gear_angle[k], 0.0));
+        m.load_torque = std::max(m.load_torque, std::abs(tau));
+      }
+    });
+  }
+  return m;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,180 @@
+#include "diagnosis/data/impossible_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "statistics/robust.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr double robust_deviations = 20.0;    ///< beyond which a value is impossible
+constexpr std::size_t longest_group = 5;      ///< of neighbours that are left out together
+constexpr double most_impossible = 0.01;      ///< share of all samples
+constexpr std::size_t standing_samples = 10;  ///< equal readings in a row that count as standing
+
+/// The readings of an encoder, and how far a sample may lie from where its neighbours put it.
+class Path {
+ public:
+  Path(std::vector<double>& y, const SampleLimits& limits) : y_(y) {
+    std::vector<double> seconds;
+    for (std::size_t k = 1; k + 1 < y.size(); ++k) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
+    const double noise = std::max(robust_deviation(std::move(seconds)), resolution(y));
+    bend_ = limits.largest_acceleration * limits.period * limits.period;
+    tolerance_ = robust_deviations * noise;
+  }
+
+  /// Whether the samples a < b continue what ends with the samples before k.
+  bool continues(std::size_t k, std::size_t at) const {
+    const std::size_t reach = std::min<std::size_t>(3, k - 1);
+    const double slope = (y_[k - 1] - y_[k - 1 - reach]) / static_cast<double>(reach);
+    const double ahead = static_cast<double>(at - k + 1), span = ahead + static_cast<double>(reach);
+    return std::abs(y_[at] - y_[k - 1] - slope * ahead) <
+           tolerance_ * (1.0 + ahead / static_cast<double>(reach)) + bend_ * span * span;
+  }
+  void bridge(std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k)
+      y_[k] = y_[from - 1] +
+              (y_[to] - y_[from - 1]) * static_cast<double>(k - from + 1) / static_cast<double>(to - from + 1);
+  }
+  double tolerance() const { return tolerance_ + bend_; }
+
+ private:
+  std::vector<double>& y_;
+  double bend_, tolerance_;
+};
+
+[[noreturn]] void refuse_jump(const RecordedTable& table, const RecordedValues& angle, std::size_t k) {
+  const double jump = angle.values[k] - angle.values[k - 1], turns = jump / (2.0 * std::numbers::pi);
+  const bool within_a_turn = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
+  reject(table.where(k),
+         fmt::format("{} jumps from {:.6g} to {:.6g} within one sample: {}", angle.name,
+                     angle.in_file(angle.values[k - 1]), angle.in_file(angle.values[k]),
+                     within_a_turn ? "it is counted within one turn; unwrap it"
+                                   : "no drive moves so fast; cut the recording there or mend its encoder"));
+}
+
+/// Readings that stand still beside samples at which the gear moved at a speed that nothing reaches so soon.
+void refuse_standing(const RecordedTable& table, const RecordedValues& angle, const SampleLimits& limits) {
+  const std::vector<double>& y = angle.values;
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  constexpr std::size_t look = 5;
+  const double sudden = 1.5 * limits.largest_acceleration * static_cast<double>(look) * limits.period +
+                        4.0 * resolution(y) / (static_cast<double>(look - 1) * limits.period);
+  // speed between two samples, or between the first and the one before the second, should that be a wrong one
+  const auto speed = [&](std::size_t a, std::size_t b) {
+    const double steps = static_cast<double>(b - a);
+    const double all = (y[b] - y[a]) / (steps * limits.period);
+    const double fewer = (y[b - 1] - y[a]) / ((steps - 1.0) * limits.period);
+    return std::min(std::abs(all), std::abs(fewer));
+  };
+  for (std::size_t from = 0; from < y.size();) {
+    std::size_t to = from + 1;
+    while (to < y.size() && y[to] == y[from]) ++to;
+    if (to - from >= standing_samples) {
+      const double before = from < look ? 0.0 : speed(from - look, from - 1);
+      const double after = to + look > y.size() ? 0.0 : speed(to, to + look - 1);
+      if (std::max(before, after) > sudden)
+        reject(
+            table.where(from),
+            fmt::format("{} stands at {:.6g} from {:.4g} s to {:.4g} s and moves at {:.2g} {} just {}: the encoder {}",
+                        angle.name, angle.in_file(y[from]), table.time.values[from], table.time.values[to - 1],
+                        std::max(before, after), units_on(table.axis, "rad/s"), before > after ? "before" : "after",
+                        y[from] == *low || y[from] == *high ? "is at the end of its range" : "was stuck"));
+    }
+    from = to;
+  }
+}
+
+std::string group_told(const RecordedTable& table, const std::string& what, double value, std::size_t from,
+                       std::size_t to) {
+  const std::string where = table.has_lines ? fmt::format(" (line {})", from + 2) : "";
+  if (to - from == 1)
+    return fmt::format("left out: {} = {:.6g} at {:.6g} s{}, which no measurement can have given", what, value,
+                       table.time.values[from], where);
+  return fmt::format("left out: {} from {:.6g} s to {:.6g} s{}, {} samples that no measurement can have given", what,
+                     table.time.values[from], table.time.values[to - 1], where, to - from);
+}
+
+}  // namespace
+
+double resolution(const std::vector<double>& angles) {
+  std::vector<double> sorted = angles;
+  std::sort(sorted.begin(), sorted.end());
+  const double range = sorted.back() - sorted.front();
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < sorted.size(); ++k)
+    if (sorted[k] - sorted[k - 1] > 1e-9 * range) steps.push_back(sorted[k] - sorted[k - 1]);
+  if (steps.size() < 10) return 0.0;
+  std::sort(steps.begin(), steps.end());
+  const double step = steps[steps.size() / 500];  // not the very smallest: a last digit may round
+  // readings of an encoder differ by whole steps; only small differences can tell
+  double near = 0.0, whole = 0.0;
+  for (const double s : steps) {
+    if (s > 5.5 * step) break;
+    near += 1.0;
+    whole += std::abs(s / step - std::round(s / step)) < 0.05 ? 1.0 : 0.0;
+  }
+  return whole > 0.9 * near ? step : 0.0;
+}
+
+std::vector<std::string> leave_out_impossible(RecordedTable& table, const SampleLimits& limits,
+                                              std::vector<std::uint8_t>& valid) {
+  std::vector<std::string> remarks;
+  std::size_t left_out = 0;
+  const auto leave = [&](const std::string& what, double value, std::size_t from, std::size_t to) {
+    remarks.push_back(group_told(table, what, value, from, to));
+    for (std::size_t k = from; k < to; ++k) valid[k] = 0;
+    left_out += to - from;
+  };
+  std::vector<double>& u = table.torque.values;
+  // a drive that rests most of the time has torques far from the median too, but never one of a size all its own
+  const double middle = median(u);
+  std::vector<double> sizes;
+  for (const double torque : u) sizes.push_back(torque - middle);
+  const double far = std::max(robust_deviations * robust_deviation(u), 5.0 * usual_peak(std::move(sizes)));
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    if (far == 0.0 || std::abs(u[k] - middle) <= far) continue;
+    leave(table.torque.name, table.torque.in_file(u[k]), k, k + 1);
+    u[k] = k > 0 ? u[k - 1] : middle;
+  }
+  SampleLimits of_worm = limits;
+  of_worm.largest_acceleration *= limits.ratio;
+  for (const auto& [angle, own] : {std::pair{&table.angle, limits}, std::pair{&table.worm_angle, of_worm}}) {
+    std::vector<double>& y = angle->values;
+    if (y.empty()) continue;
+    refuse_standing(table, *angle, own);
+    // the path is followed from an undisturbed stretch on, backward to the start and forward to the end
+    std::reverse(y.begin(), y.end());
+    Path path(y, own);
+    const auto sample = [&](std::size_t k, bool reversed) { return reversed ? y.size() - 1 - k : k; };
+    for (const bool reversed : {true, false}) {
+      for (std::size_t k = reversed ? y.size() - 8 : 8; k < y.size(); ++k) {
+        if (path.continues(k, k)) continue;
+        std::size_t back = k + 1;
+        while (back < y.size() && back - k <= longest_group && !path.continues(k, back)) ++back;
+        if (back < y.size() && back - k > longest_group) {
+          if (reversed) break;
+          refuse_jump(table, *angle, k);
+        }
+        const std::size_t from = reversed ? sample(back - 1, true) : k;
+        leave(angle->name, angle->in_file(y[k]), from, from + (back - k));
+        if (back < y.size())
+          path.bridge(k, back);
+        else
+          std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), y[k - 1]);
+      }
+      if (reversed) std::reverse(y.begin(), y.end());
+    }
+  }
+  if (static_cast<double>(left_out) > most_impossible * static_cast<double>(u.size()))
+    reject(table.where(),
+           fmt::format("{} of {} samples are such that no measurement can have given them", left_out, u.size()));
+  return remarks;
+}
+
+}  // namespace wormdrive

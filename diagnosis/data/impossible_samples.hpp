@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "diagnosis/data/recorded_table.hpp"
+
+namespace wormdrive {
+
+/// What speaks against single samples of a recording.
+struct SampleLimits {
+  double period;                ///< [s]
+  double largest_acceleration;  ///< that the drive can have at the gear [rad/s^2]
+  double ratio;                 ///< of the worm's angle to the gear's
+};
+
+/// Marks samples that no measurement can have given with 0 in `valid`, and puts what their neighbours suggest in their
+/// place: angles off the path of their neighbours, torques of another size than all others. One sentence for each group
+/// of them. Throws InputFault where the angle jumps for good, where a reading stands still while the drive moves, and
+/// where too many samples are impossible.
+std::vector<std::string> leave_out_impossible(RecordedTable& table, const SampleLimits& limits,
+                                              std::vector<std::uint8_t>& valid);
+
+/// The step of an encoder as its readings show it [rad], 0 if they show none.
+double resolution(const std::vector<double>& angles);
+
+}  // namespace wormdrive

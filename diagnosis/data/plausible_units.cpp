@@ -1,0 +1,168 @@
+#include "diagnosis/data/plausible_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/keys.hpp"
+#include "diagnosis/data/impossible_samples.hpp"
+#include "diagnosis/data/needed_torque.hpp"
+#include "statistics/robust.hpp"
+
+namespace wormdrive {
+namespace {
+
+using Values = std::vector<double>;
+
+double median_size(Values values) {
+  if (values.empty()) return 0.0;
+  for (double& value : values) value = std::abs(value);
+  return median(std::move(values));
+}
+
+Values times(Values values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// How well a torque is the one that a motion needs.
+struct Fit {
+  double missed = 1e9;  ///< median size of what is left over that of the torque
+  double factor = 0.0;  ///< median size of the torque over that of the need
+};
+
+class Judge {
+ public:
+  Judge(const Scenario& scenario, double start, double period)
+      : scenario_(scenario), start_(start), period_(period), half_width_(std::max(4L, std::lround(0.012 / period))) {}
+
+  Fit fit(const Values& torque, const Values& angle) const {
+    const auto w = static_cast<std::size_t>(half_width_);
+    const MeasuredMotion motion = measured_motion(angle, period_, w);
+    const double still = std::max(0.3 * median_size(motion.speed), 1e-9);
+    const Values needed = needed_torque(scenario_, motion, start_, period_, still);
+    Values left, given, asked;
+    for (std::size_t k = w; k + w < torque.size(); ++k) {
+      if (needed[k] == 0.0) continue;
+      double mean = 0.0;
+      for (std::size_t j = k - w; j < k + w; ++j) mean += torque[j] / static_cast<double>(2 * w);
+      left.push_back(mean - needed[k]);
+      given.push_back(mean);
+      asked.push_back(needed[k]);
+    }
+    if (given.size() < 100 || median_size(given) == 0.0 || median_size(asked) == 0.0) return {};
+    return {median_size(left) / median_size(given), median_size(given) / median_size(asked)};
+  }
+
+ private:
+  const Scenario& scenario_;
+  double start_, period_;
+  long half_width_;
+};
+
+double span(const Values& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+/// What is said if the recording would be that of the drive when read so.
+struct Reading {
+  std::string says;
+  Values torque, angle;
+};
+
+std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenario) {
+  const Values &u = table.torque.values, &y = table.angle.values;
+  const std::string &torque = table.torque.name, &angle = table.angle.name;
+  std::vector<Reading> all{
+      {fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u},
+      {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y},
+      {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0)},
+      {fmt::format("{} fits the drive when it is read in m{}", torque, units_on(scenario.axis, "N m")), times(u, 1e-3),
+       y}};
+  if (scenario.axis == Axis::linear) return all;
+  constexpr double pi = std::numbers::pi;
+  all.push_back({fmt::format("{} fits the drive when it is read in degrees", angle), u, times(y, pi / 180.0)});
+  all.push_back({fmt::format("{} fits the drive when it is read in turns", angle), u, times(y, 2.0 * pi)});
+  all.push_back(
+      {fmt::format("{} fits the drive when it is read in rad, not in degrees", angle), u, times(y, 180.0 / pi)});
+  if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh))
+    all.push_back(
+        {fmt::format("{} fits the drive when it is the angle of the worm", angle), u, times(y, 1.0 / worm->i)});
+  return all;
+}
+
+void refuse_rest(const RecordedTable& table, const RecordedValues& column, const std::string& consequence) {
+  const Values& values = column.values;
+  if (span(values) == 0.0)
+    reject(table.where(),
+           fmt::format("{} is {:.6g} throughout: {}", column.name, column.in_file(values.front()), consequence));
+}
+
+/// A speed that is recorded beside the angle has to be its derivative.
+void refuse_other_speed(const RecordedTable& table, double period, const Scenario& scenario) {
+  if (table.speed.values.empty()) return;
+  const Values speed = measured_motion(table.angle.values, period, 12).speed;
+  double product = 0.0, square = 0.0, other = 0.0;
+  for (std::size_t k = 0; k < speed.size(); ++k) {
+    product += speed[k] * table.speed.values[k];
+    square += speed[k] * speed[k];
+    other += table.speed.values[k] * table.speed.values[k];
+  }
+  if (square == 0.0 || other == 0.0) return;
+  const double factor = product / square;
+  if (product * product > 0.8 * square * other && factor > 0.8 && factor < 1.25) return;
+  const auto is = [&](double expected) { return std::abs(factor / expected - 1.0) < 0.05; };
+  std::string why = "is not the derivative of";
+  if (is(30.0 / std::numbers::pi)) why = "is in rpm beside";
+  if (is(180.0 / std::numbers::pi)) why = "is in degrees per second beside";
+  if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh))
+    if (is(worm->i)) why = "is the speed of the worm beside";
+  reject(table.where(),
+         fmt::format("{} {} {}: {:.3g} times its derivative", table.speed.name, why, table.angle.name, factor));
+}
+
+}  // namespace
+
+void refuse_implausible_units(const RecordedTable& table, double period, const Scenario& scenario) {
+  refuse_rest(table, table.torque,
+              in_words_of(scenario.axis, "a torque that never changes shows nothing of the drive"));
+  refuse_rest(table, table.angle,
+              scenario.axis == Axis::linear ? "nothing ever moved, or its encoder was stuck"
+                                            : "the gear never moved, or its encoder was stuck");
+  const double step = resolution(table.angle.values);
+  if (span(table.angle.values) < 20.0 * step)
+    reject(table.where(),
+           fmt::format("{} moves by {:.3g} {}, less than 20 steps of its encoder: too little to learn from",
+                       table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
+  refuse_other_speed(table, period, scenario);
+  const Judge judge(scenario, table.time.values.front(), period);
+  const Fit as_is = judge.fit(table.torque.values, table.angle.values);
+  if (as_is.missed < 0.6) return;
+  std::optional<std::pair<double, std::string>> best;
+  for (const Reading& reading : readings(table, scenario)) {
+    const double missed = judge.fit(reading.torque, reading.angle).missed;
+    if (!best || missed < best->first) best = {missed, reading.says};
+  }
+  if (best && best->first < 0.35 && best->first < 0.5 * as_is.missed)
+    reject(
+        table.where(),
+        fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->second,
+                    100.0 * best->first, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is.missed, 99.0)));
+}
+
+void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
+  if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
+  const Fit as_is = Judge(scenario, table.time.values.front(), period).fit(table.torque.values, table.angle.values);
+  if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
+    reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
+                                      "unit, or wrong scenario",
+                                      table.torque.name, as_is.factor));
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "diagnosis/data/recording.hpp"
+
+namespace wormdrive {
+
+/// How recordings are cut for a diagnosis.
+struct CuttingRules {
+  double burn_in = 0.1;             ///< dropped from the start: the initial speed is a guess [s]
+  double block = 0.5;               ///< data are held out and compared by blocks of this length [s]
+  int held_out_every = 3;           ///< each block of that number is held out
+  double slope_half_width = 0.012;  ///< of the line whose slope is the speed [s]
+  double standing_share = 0.008;    ///< slower than this share of the rms speed is standing
+};
+
+/// A recording with what a fit needs to know of every sample beforehand; it follows from the data alone.
+struct PreparedRecording {
+  Recording data;
+  std::vector<double> worm_angle;      ///< counted at the gear, from where the gear is [rad]; empty without an encoder
+  double worm_resolution{};            ///< likewise
+  std::vector<double> speed;           ///< of the gear, from a line through the samples around [rad/s]
+  std::vector<std::uint8_t> moving;    ///< 0: standing
+  std::vector<std::uint8_t> used;      ///< 0: left out, or in the burn-in
+  std::vector<std::uint8_t> held_out;  ///< not used for fits
+  std::size_t block_length{};          ///< samples
+  double rms_speed{};                  ///< [rad/s]
+  double rms_torque{};                 ///< [N m]
+  double largest_torque{};             ///< magnitude [N m]
+
+  std::size_t samples() const { return data.samples(); }
+  std::size_t blocks() const { return (samples() + block_length - 1) / block_length; }
+  double duration() const { return static_cast<double>(samples()) * data.period; }
+};
+
+/// first_block: number of the recording's first block, counted through all recordings. ratio: worm angle over gear
+/// angle.
+PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
+                           double ratio = 1.0);
+
+/// The same with nothing held out: for the final fit.
+PreparedRecording with_all_data(PreparedRecording recording);
+
+}  // namespace wormdrive

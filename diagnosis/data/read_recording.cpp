@@ -1,0 +1,38 @@
+#include "diagnosis/data/read_recording.hpp"
+
+#include <filesystem>
+
+#include "diagnosis/data/even_time.hpp"
+#include "diagnosis/data/impossible_samples.hpp"
+#include "diagnosis/data/needed_torque.hpp"
+#include "diagnosis/data/plausible_units.hpp"
+#include "diagnosis/data/recorded_table.hpp"
+#include "statistics/robust.hpp"
+
+namespace wormdrive {
+Recording read_recording(const std::string& path, const Scenario& scenario) {
+  RecordedTable table = read_recorded_table(path, scenario);
+  EvenTime time = even_time(table);
+  refuse_implausible_units(table, time.period, scenario);
+  Recording recording;
+  recording.name = std::filesystem::path(path).filename().string();
+  recording.start = time.start;
+  recording.period = time.period;
+  recording.times = std::move(time.times);
+  recording.remarks = std::move(time.remarks);
+  recording.valid.assign(table.time.values.size(), 1);
+  const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);
+  const SampleLimits limits{time.period, largest_acceleration(scenario, usual_peak(table.torque.values)),
+                            mesh ? mesh->i : 1.0};
+  for (std::string& remark : leave_out_impossible(table, limits, recording.valid))
+    recording.remarks.push_back(std::move(remark));
+  refuse_implausible_size(table, time.period, scenario);
+  recording.gear_resolution = resolution(table.angle.values);
+  if (!table.worm_angle.values.empty()) recording.worm_resolution = resolution(table.worm_angle.values);
+  recording.motor_torque = std::move(table.torque.values);
+  recording.gear_angle = std::move(table.angle.values);
+  recording.worm_angle = std::move(table.worm_angle.values);
+  return recording;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "description/diagnostics.hpp"
+#include "description/scenario.hpp"
+#include "description/toml/csv.hpp"
+
+namespace wormdrive {
+
+/// A column of a recording as it stands in its file, in SI.
+struct RecordedValues {
+  std::string name;            ///< as the file calls it, with its unit
+  double unit = 1.0;           ///< SI per unit of the file
+  std::vector<double> values;  ///< empty: the file has no such column
+
+  /// A value as the file spells it.
+  double in_file(double si) const { return si / unit; }
+};
+
+/// What a column of measured data is called in the files of a scenario, "motor_torque_Nm" if it says nothing else.
+std::string recorded_name(std::string_view name, const Scenario& scenario);
+
+/// A column of measured data in SI, by its name without the unit; empty where it may be absent and is. Throws
+/// InputFault.
+RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scenario& scenario, bool required);
+
+/// The columns of a recording, each as long as the time's.
+struct RecordedTable {
+  std::string path;
+  bool has_lines = true;  ///< a CSV file, sample k stands in line k + 2
+  RecordedValues time, torque, angle;
+  RecordedValues worm_angle, speed;  ///< may be empty
+  Axis axis = Axis::rotary;
+
+  Location where(std::size_t sample) const;
+  Location where() const { return {path}; }
+};
+
+/// Reads time, commanded motor torque, gear angle and what else there is of a CSV file or of a run of this program: the
+/// samples of its controller, or its rows at even intervals. Columns are called as usual or as the scenario says;
+/// angles may stand in degrees. Throws InputFault.
+RecordedTable read_recorded_table(const std::string& path, const Scenario& scenario);
+
+}  // namespace wormdrive

@@ -1,0 +1,76 @@
+#include "diagnosis/data/speed_torque_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "description/diagnostics.hpp"
+#include "diagnosis/data/recorded_table.hpp"
+#include "statistics/robust.hpp"
+
+namespace wormdrive {
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Standard deviation that rounding to the common step between the values leaves: where most samples are equal they
+/// show no other spread. The median, because a file's last digit may round the steps differently.
+double quantisation_deviation(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (values[k] > values[k - 1]) steps.push_back(values[k] - values[k - 1]);
+  return steps.empty() ? 0.0 : median(std::move(steps)) / std::sqrt(12.0);
+}
+
+SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& speeds,
+                            const std::vector<double>& torques, const std::vector<std::size_t>& lines) {
+  const double centre = median(torques);
+  std::vector<double> distances;
+  for (const double torque : torques) distances.push_back(std::abs(torque - centre));
+  const double sigma = std::max(1.4826 * median(distances), quantisation_deviation(torques));
+  SpeedTorqueRecord record{name, 0.0, 0.0, 0, {}};
+  std::vector<double> kept_speeds, kept_torques;
+  for (std::size_t k = 0; k < torques.size(); ++k) {
+    if (distances[k] > implausible_deviations * sigma) {
+      record.left_out.push_back({lines[k], torques[k], distances[k] / sigma});
+    } else {
+      kept_speeds.push_back(speeds[k]);
+      kept_torques.push_back(torques[k]);
+    }
+  }
+  record.worm_speed = mean(kept_speeds);
+  record.motor_torque = mean(kept_torques);
+  record.samples = kept_torques.size();
+  return record;
+}
+
+}  // namespace
+
+std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario) {
+  const Csv csv = read_csv(path);
+  const std::vector<std::string>& names = csv.texts(recorded_name("record", scenario));
+  const std::vector<double> speeds = recorded_values(csv, "worm_speed", scenario, true).values,
+                            torques = recorded_values(csv, "motor_torque", scenario, true).values;
+  if (names.empty()) reject({path}, "there are no samples below the header line");
+  std::vector<std::string> order;
+  for (const std::string& name : names)
+    if (std::find(order.begin(), order.end(), name) == order.end()) order.push_back(name);
+  std::vector<SpeedTorqueRecord> records;
+  for (const std::string& name : order) {
+    std::vector<double> record_speeds, record_torques;
+    std::vector<std::size_t> lines;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (names[k] != name) continue;
+      record_speeds.push_back(speeds[k]);
+      record_torques.push_back(torques[k]);
+      lines.push_back(k + 2);
+    }
+    records.push_back(summarise(name, record_speeds, record_torques, lines));
+  }
+  return records;
+}
+
+}  // namespace wormdrive

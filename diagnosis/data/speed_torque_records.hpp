@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "description/scenario.hpp"
+
+namespace wormdrive {
+
+/// A sample that no measurement can have given, with its distance from the record's median in robust standard
+/// deviations.
+struct ImplausibleSample {
+  std::size_t line;  ///< in the CSV file
+  double torque;     ///< [N m]
+  double deviations;
+};
+
+/// One recording at constant speed: means over the plausible samples.
+struct SpeedTorqueRecord {
+  std::string name;
+  double worm_speed;    ///< [rad/s]
+  double motor_torque;  ///< [N m]
+  std::size_t samples;  ///< that entered the means
+  std::vector<ImplausibleSample> left_out;
+};
+
+/// Robust standard deviations (1.4826 MAD) beyond which a sample is left out.
+inline constexpr double implausible_deviations = 20.0;
+
+/// Reads a CSV with the columns record, worm_speed_rad_per_s and motor_torque_Nm, or what the scenario calls them;
+/// records in the order of the file. Throws InputFault for a file that cannot be read so.
+std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario = {});
+
+}  // namespace wormdrive

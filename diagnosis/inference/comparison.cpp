@@ -1,0 +1,101 @@
+#include "diagnosis/inference/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/inference/stepwise.hpp"
+
+namespace wormdrive {
+
+Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candidate& candidate,
+                 const InnovationLayout& layout) {
+  Evidence e;
+  e.delta_bic = without.bic - with.bic;
+  std::vector<std::uint8_t> out(layout.blocks, 0);
+  for (std::size_t k = 0; k < layout.size; ++k)
+    if (layout.part[k] == 2) out[layout.block[k]] = 1;
+  std::vector<double> gains, sizes;
+  double best_of_all = 0.0;
+  for (std::size_t b = 0; b < layout.blocks; ++b) {
+    const double gain = without.misfit.blocks[b] - with.misfit.blocks[b];
+    if (out[b]) gains.push_back(gain);
+    best_of_all = std::max(best_of_all, gain);
+    e.everywhere_but_best += gain;
+  }
+  e.everywhere_but_best -= best_of_all;
+  if (!gains.empty()) {
+    double best = gains.front();
+    for (const double g : gains) {
+      e.held_out += g;
+      best = std::max(best, g);
+      e.positive_share += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(gains.size());
+      sizes.push_back(std::abs(g));
+    }
+    e.without_best = e.held_out - best;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const double most = AcceptanceRules{}.clip * *middle;
+    for (const double g : gains) e.clipped += std::clamp(g, -most, most);
+  }
+  e.beside_gap = candidate.effect != "backlash" && gap_of(with);
+  for (const Coordinate& c : candidate.coordinates) {
+    const int k = index_of(with, c);
+    if (k < 0) continue;
+    const double x = with.values[static_cast<std::size_t>(k)];
+    if (c.tolerance > 0.0) e.tolerances = std::max(e.tolerances, std::abs(x - c.centre) / c.tolerance);
+    // what has no slope is known to its scale at best; a size of less than two is none
+    const double near = has_slope(c) ? 1e-6 * (c.high - c.low) : 2.0 * c.scale;
+    e.at_bound = e.at_bound || x <= c.low + near || x >= c.high - near;
+  }
+  return e;
+}
+
+namespace {
+
+/// Whether what was held out bears a candidate out.
+bool holds(const Evidence& e, const Candidate& candidate, const AcceptanceRules& rules) {
+  const bool gains = e.held_out > rules.least_held_out;
+  const bool steady = gains && e.without_best > 0.0;
+  const bool broad = e.clipped > rules.least_held_out && e.positive_share >= rules.positive_share;
+  // teeth that bounce throw single blocks about, by more than many causes are worth
+  if (e.beside_gap) return steady && broad;
+  // a number that is free within its tolerance without being named has gained most of it already
+  if (candidate.toleranced) return e.held_out > -std::max(rules.least_held_out, rules.loss_share * e.delta_bic);
+  const bool has_steps = std::any_of(candidate.coordinates.begin(), candidate.coordinates.end(),
+                                     [](const Coordinate& c) { return !has_slope(c); });
+  return steady || broad || (has_steps && gains && e.everywhere_but_best > rules.least_bic);
+}
+
+/// The first rule that is broken, empty if none is.
+std::string broken_rule(const Evidence& e, const Candidate& candidate, const AcceptanceRules& rules) {
+  if (e.at_bound) return "its parameter stands at a bound";
+  if (candidate.toleranced && e.delta_bic <= rules.least_bic_toleranced)
+    return "no evidence beyond the stated tolerance";
+  if (candidate.toleranced && e.tolerances <= rules.least_tolerances) return "within what its tolerance leaves open";
+  if (!candidate.toleranced && e.delta_bic <= rules.least_bic)
+    return e.delta_bic > 0.0 ? "too little evidence" : "no evidence";
+  return holds(e, candidate, rules) ? "" : "does not predict the data that were held out";
+}
+
+}  // namespace
+
+bool accepted(const Evidence& evidence, const Candidate& candidate, const AcceptanceRules& rules) {
+  return broken_rule(evidence, candidate, rules).empty();
+}
+
+bool indistinguishable_from(const Hypothesis& h, const Candidate& candidate, const Candidate& other) {
+  if (candidate.effect != "stribeck" || other.effect != "static_friction") return false;
+  constexpr double little_more = 2.0;
+  const int k = index_of(h, "stribeck", "speed");
+  if (k < 0) return false;
+  const auto speed = static_cast<std::size_t>(k);
+  return h.values[speed] < little_more * h.free[speed].low;
+}
+
+std::string outcome(const Evidence& evidence, const Candidate& candidate, const AcceptanceRules& rules) {
+  const std::string rule = broken_rule(evidence, candidate, rules);
+  return rule.empty() ? "named" : rule;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,85 @@
+#include "diagnosis/inference/evaluation.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "description/build.hpp"
+#include "diagnosis/predictor/predictor.hpp"
+
+namespace wormdrive {
+
+Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
+    : scenario_(std::move(scenario)), layout_(std::move(layout)), threads_(threads) {
+  scenario_.motor = {};  // the recorded command is all there is
+  scenario_.control.reset();
+}
+
+template <class Use>
+void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
+                                std::span<const double> extra, Use&& use) const {
+  Effects<double> followed = effects;
+  const TakenOut out = take_out(followed);
+  const PreparedRecording& prepared = layout_.recordings[recording];
+  std::visit(
+      [&](const auto& parameters) {
+        using Load = decltype(make_load(parameters));
+        WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
+        Predictor<Load> predictor(std::move(drive), out, noise.impact, prepared,
+                                  observer_gains(noise, prepared.data.period), extra);
+        use(predictor);
+      },
+      prepared.data.load ? *prepared.data.load : scenario_.load);
+}
+
+std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>& effects, const ProcessNoise& noise,
+                                                           std::span<const double> extra,
+                                                           std::vector<FilteredStates>* states) const {
+  std::vector<double> e(layout_.size, 0.0);
+  if (states) states->resize(layout_.recordings.size());
+  try {
+    for (std::size_t r = 0; r < layout_.recordings.size(); ++r) {
+      ++passes_;
+      const PreparedRecording& recording = layout_.recordings[r];
+      FilteredStates* kept = states ? &(*states)[r] : nullptr;
+      if (kept) *kept = FilteredStates(recording.samples());
+      with_predictor(effects, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
+                     [&](auto& predictor) {
+                       const std::span<double> all(e);
+                       predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
+                     });
+    }
+  } catch (const SolverFault&) {
+    return std::nullopt;
+  }
+  for (const double x : e)
+    if (!(std::abs(x) < 1e6)) return std::nullopt;
+  return e;
+}
+
+std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effects, const ProcessNoise& noise,
+                                                    std::size_t recording, const FilteredStates& states,
+                                                    std::span<const std::size_t> begins, std::size_t steps,
+                                                    std::span<const double> innovations) const {
+  std::vector<std::vector<double>> rows;
+  std::span<const double> of_gear, of_worm;
+  if (!innovations.empty()) {
+    of_gear = layout_.of(recording, innovations);
+    of_worm = layout_.of_worm(recording, innovations);
+  }
+  const Recording& data = layout_.recordings[recording].data;
+  with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
+    for (const std::size_t begin : begins) {
+      // not a number from where the model can no longer move
+      std::vector<double> angles(std::min(steps, data.samples() - 1 - begin), std::nan(""));
+      try {
+        predictor.run_on(begin, states, of_gear, of_worm, angles);
+      } catch (const SolverFault&) {
+        // what was predicted up to there counts
+      }
+      rows.push_back(std::move(angles));
+    }
+  });
+  return rows;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,50 @@
+#pragma once
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "description/scenario.hpp"
+#include "diagnosis/candidates/coordinates.hpp"
+#include "diagnosis/predictor/filtered_states.hpp"
+#include "diagnosis/predictor/noise_model.hpp"
+#include "diagnosis/predictor/observer_gains.hpp"
+
+namespace wormdrive {
+
+/// Predicts all recordings by a scenario whose effects are changed.
+class Evaluation {
+ public:
+  Evaluation(Scenario scenario, InnovationLayout layout, int threads);
+
+  const Scenario& scenario() const { return scenario_; }
+  const InnovationLayout& layout() const { return layout_; }
+  int threads() const { return threads_; }
+  /// Recordings predicted so far.
+  long passes() const { return passes_; }
+
+  /// Innovations of all recordings [rad]; nothing where the model cannot move so. extra: torque added to the command at
+  /// every sample [N m], empty for none. states: of every recording, if wanted.
+  std::optional<std::vector<double>> innovations(const Effects<double>& effects, const ProcessNoise& noise,
+                                                 std::span<const double> extra = {},
+                                                 std::vector<FilteredStates>* states = nullptr) const;
+
+  /// The gear angles that the sensor would show `steps` samples on from samples of one recording, row by row [rad], if
+  /// these were the innovations of all; predictions without any.
+  std::vector<std::vector<double>> run_on(const Effects<double>& effects, const ProcessNoise& noise,
+                                          std::size_t recording, const FilteredStates& states,
+                                          std::span<const std::size_t> begins, std::size_t steps,
+                                          std::span<const double> innovations = {}) const;
+
+ private:
+  template <class Use>
+  void with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
+                      std::span<const double> extra, Use&& use) const;
+
+  Scenario scenario_;
+  InnovationLayout layout_;
+  int threads_;
+  mutable std::atomic<long> passes_{0};
+};
+
+}  // namespace wormdrive

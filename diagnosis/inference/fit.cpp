@@ -1,0 +1,94 @@
+#include "diagnosis/inference/fit.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/inference/stepwise.hpp"
+#include "statistics/parallel.hpp"
+
+namespace wormdrive {
+
+void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b) {
+  for (std::size_t k = 0; k < h.free.size(); ++k) {
+    const Coordinate& c = h.free[k];
+    if (c.tolerance <= 0.0) continue;
+    const double share = c.scale / c.tolerance;
+    const auto i = static_cast<Eigen::Index>(k);
+    A(i, i) += share * share;
+    b[i] -= share * (h.values[k] - c.centre) / c.tolerance;
+  }
+}
+
+namespace {
+
+void follow_slopes(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_gain) {
+  const std::size_t n = h.free.size();
+  double damping = 1e-3;
+  for (int round = 0; round < rounds; ++round) {
+    const WeightedColumns weigh(fit_weights(evaluation.layout(), h.residuals, h.noise_model));
+    const Eigen::VectorXd residual = weigh(h.residuals);
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(residual.size(), static_cast<Eigen::Index>(n));
+    parallel_for(n, evaluation.threads(), [&](std::size_t k) {
+      if (has_slope(h.free[k]))
+        J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(evaluation, h, k, derivative_step));
+    });
+    Eigen::MatrixXd A = J.transpose() * J;
+    Eigen::VectorXd b = -J.transpose() * residual;
+    add_tolerances(h, A, b);
+
+    const double before = h.objective;
+    bool better = false;
+    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
+      const Eigen::VectorXd step = solve_normal(A, b, damping);
+      constexpr double nothing = 0.03;  // of what makes a round worth another one
+      if (0.5 * b.dot(step) < nothing * least_gain) return;
+      Hypothesis trial = h;
+      for (std::size_t k = 0; k < n; ++k) {
+        constexpr double longest = 20.0;  // scales
+        const double by_scale = std::clamp(step[static_cast<Eigen::Index>(k)], -longest, longest);
+        trial.values[k] = std::clamp(h.values[k] + by_scale * h.free[k].scale, h.free[k].low, h.free[k].high);
+      }
+      better = evaluate(evaluation, trial) && trial.objective < h.objective;
+      if (better) h = std::move(trial);
+      damping = better ? std::max(0.1 * damping, 1e-6) : std::max(10.0 * damping, 1e-2);
+    }
+    if (!better || before - h.objective < least_gain) return;
+  }
+}
+
+}  // namespace
+
+void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_gain) {
+  if (!evaluate(evaluation, h) || h.free.empty()) return;
+  follow_slopes(evaluation, h, rounds, least_gain);
+  if (search_steps(evaluation, h)) follow_slopes(evaluation, h, rounds, least_gain);
+}
+
+void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
+  constexpr double least = 1e-5, most = 3.0, least_gain = 0.05;
+  for (double ProcessNoise::*kind : {&ProcessNoise::white, &ProcessNoise::coloured})
+    for (const double factor : {2.0, 0.5}) {
+      bool any = false;
+      for (int k = 0; k < depth; ++k) {
+        Hypothesis trial = h;
+        trial.noise.*kind *= factor;
+        if (trial.noise.white < least || trial.noise.white > most || trial.noise.coloured > most) break;
+        if (!evaluate(evaluation, trial) || trial.objective >= h.objective - least_gain) break;
+        h = std::move(trial);
+        any = true;
+      }
+      if (any) break;
+    }
+}
+
+void restart_noise(const Evaluation& evaluation, Hypothesis& h) {
+  if (!h.whitens) return;
+  for (const auto& [white, coloured] : {std::pair{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}) {
+    Hypothesis trial = h;
+    trial.noise.white = white;
+    trial.noise.coloured = coloured;
+    if (evaluate(evaluation, trial) && trial.objective < h.objective) h = std::move(trial);
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,25 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/inference/normal_equations.hpp"
+
+namespace wormdrive {
+
+/// Step of a free coordinate for its derivative, in scales.
+inline constexpr double derivative_step = 0.02;
+
+/// Fits the free coordinates by Levenberg and Marquardt on Student's t, whose scales and whitening are estimated anew
+/// at every trial. Stops after so many rounds, or when one gains less than so many nats.
+void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_gain = 0.3);
+
+/// Doubles or halves the two kinds of process noise, up to `depth` times, as long as that gains.
+void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth);
+
+/// Tries three different mixtures of process noise, where there is a model of it.
+void restart_noise(const Evaluation& evaluation, Hypothesis& h);
+
+/// Precision of the tolerances in scales, on the diagonal, and their pull on the right-hand side.
+void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b);
+
+}  // namespace wormdrive

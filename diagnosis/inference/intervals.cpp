@@ -1,0 +1,182 @@
+#include "diagnosis/inference/intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/inference/stepwise.hpp"
+#include "statistics/parallel.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// Curvature and slope of the log likelihood of one block of time, in scales of the free coordinates.
+struct BlockSlopes {
+  Eigen::MatrixXd curvature;
+  Eigen::VectorXd slope;
+};
+
+/// Of the blocks that are fitted. steps: of the free coordinates for their derivatives, in scales.
+std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hypothesis& h,
+                                         const std::vector<double>& steps) {
+  const InnovationLayout& layout = evaluation.layout();
+  const auto n = static_cast<Eigen::Index>(h.free.size());
+  std::vector<std::vector<double>> J(h.free.size());
+  parallel_for(h.free.size(), evaluation.threads(), [&](std::size_t k) {
+    J[k].assign(layout.size, 0.0);
+    if (!has_slope(h.free[k])) return;
+    for (const double step : {steps[k], -steps[k]}) {
+      const std::vector<double> side = sensitivity(evaluation, h, k, step);
+      for (std::size_t r = 0; r < layout.size; ++r) J[k][r] += 0.5 * side[r];
+    }
+  });
+  constexpr double nu = tail_freedom;
+  std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
+  std::vector<std::uint8_t> used(layout.blocks, 0);
+  Eigen::VectorXd row(n);
+  for (std::size_t r = 0; r < layout.size; ++r) {
+    if (layout.part[r] != 1) continue;
+    const double s = h.noise_model.groups[layout.group[r]].scale, z = h.residuals[r] / s, z2 = z * z;
+    for (Eigen::Index k = 0; k < n; ++k) row[k] = J[static_cast<std::size_t>(k)][r] / s;
+    BlockSlopes& block = all[layout.block[r]];
+    block.slope += ((nu + 1.0) * z / (nu + z2)) * row;
+    block.curvature += ((nu + 1.0) * (nu - z2) / ((nu + z2) * (nu + z2))) * (row * row.transpose());
+    used[layout.block[r]] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t b = 0; b < all.size(); ++b)
+    if (used[b]) std::swap(all[kept++], all[b]);
+  all.resize(kept);
+  return all;
+}
+
+/// Covariance in scales.
+Eigen::MatrixXd sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps) {
+  const std::vector<BlockSlopes> blocks = slopes_by_block(evaluation, h, steps);
+  const auto n = static_cast<Eigen::Index>(h.free.size());
+  Eigen::MatrixXd tolerances = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), pull = Eigen::VectorXd::Zero(n);
+  add_tolerances(h, tolerances, pull);
+  Eigen::MatrixXd H = tolerances;
+  for (const BlockSlopes& b : blocks) {
+    H += b.curvature;
+    mean += b.slope / static_cast<double>(blocks.size());
+  }
+  // in coordinates in which the curvature is that of independent unit errors
+  using Eigendecomposition = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+  const Eigendecomposition of_curvature(H);
+  constexpr double flat = 1e-12;
+  const Eigen::MatrixXd W =
+      of_curvature.eigenvectors() * of_curvature.eigenvalues().cwiseMax(flat).cwiseSqrt().cwiseInverse().asDiagonal();
+  Eigen::MatrixXd scatter = W.transpose() * tolerances * W;
+  for (const BlockSlopes& b : blocks) {
+    // what a block says is judged without what it has itself done to the fit
+    constexpr double most = 0.9;
+    const Eigendecomposition own(Eigen::MatrixXd(W.transpose() * b.curvature * W));
+    const Eigen::ArrayXd left = 1.0 - own.eigenvalues().array().max(0.0).min(most);
+    const Eigen::VectorXd y = own.eigenvectors().transpose() * (W.transpose() * (b.slope - mean));
+    const Eigen::VectorXd alone = own.eigenvectors() * (y.array() / left).matrix();
+    scatter += alone * alone.transpose();
+  }
+  // few blocks may scatter less than the likelihood allows
+  const Eigendecomposition of_scatter(scatter);
+  const Eigen::MatrixXd U = W * of_scatter.eigenvectors();
+  return U * of_scatter.eigenvalues().cwiseMax(1.0).asDiagonal() * U.transpose();
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds) {
+  if (h.free.empty()) return {};
+  const auto n = static_cast<Eigen::Index>(h.free.size());
+  std::vector<double> steps(h.free.size(), derivative_step);
+  Eigen::MatrixXd spread = sandwich(evaluation, h, steps);
+  for (int round = 0; round < rounds; ++round) {
+    constexpr double longest = 1.0;
+    for (Eigen::Index k = 0; k < n; ++k)
+      steps[static_cast<std::size_t>(k)] = std::clamp(std::sqrt(spread(k, k)), derivative_step, longest);
+    spread = sandwich(evaluation, h, steps);
+  }
+  Eigen::VectorXd scales(n);
+  for (Eigen::Index k = 0; k < n; ++k) scales[k] = h.free[static_cast<std::size_t>(k)].scale;
+  spread = scales.asDiagonal() * spread * scales.asDiagonal();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Coordinate& c = h.free[static_cast<std::size_t>(k)];
+    if (!has_slope(c)) {
+      spread.row(k).setZero();
+      spread.col(k).setZero();
+      spread(k, k) = std::pow(spread_of_steps(evaluation, h, static_cast<std::size_t>(k)), 2);
+    }
+    spread(k, k) = std::min(spread(k, k), std::pow(c.high - c.low, 2));  // these data tell no size
+  }
+  return spread;
+}
+
+namespace {
+
+/// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
+/// free coordinate in SI.
+double structural_error(const Hypothesis& h, std::size_t k) {
+  constexpr double rigid_share = 0.0035;  // of a size that shows: less than a thousandth of all that acts
+  constexpr double moving_share = 0.02;   // of an inertia, which seems the smaller the faster the motion
+  constexpr double held_torque = 1.5e-5;  // [s], of a lag or delay that acts on a torque held over a sample
+  constexpr double impact_share = 0.05;   // of a gap, by how an impact goes on
+  constexpr double yielding = 2e-5;       // [rad], of a gap, by which loaded teeth make it seem wider
+  constexpr double limit_share = 7e-4;    // of a limit that is met in the fastest motions
+  constexpr double shape_share = 0.1;     // of a fall over the speed, by laws of other shapes
+  const Coordinate& c = h.free[k];
+  const double value = h.values[k];
+  if (c.effect == "backlash") return std::hypot(impact_share * value, yielding);
+  // teeth that bounce make the likelihood rough, and what is stated look known better than it is
+  if (c.tolerance > 0.0 && gap_of(h)) return c.tolerance;
+  if (c.effect == "stribeck") return shape_share * value;
+  if (c.effect == "mesh_friction")  // at rest, from where it falls
+    if (const int q = index_of(h, "stribeck", "drop"); q >= 0)
+      return shape_share * h.values[static_cast<std::size_t>(q)];
+  if (c.effect == "torque_saturation") return limit_share * value;
+  if (c.effect == "worm_inertia" || c.effect == "gear_inertia") return moving_share * c.scale;
+  return c.effect == "actuator_lag" || c.effect == "actuator_delay" ? held_torque : rigid_share * c.scale;
+}
+
+}  // namespace
+
+EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
+                          const std::vector<Coordinate>& coordinates) {
+  EstimatedEffect e{std::string(effect), {}};
+  const Effects<double> now = extended(h);
+  const auto n = static_cast<Eigen::Index>(h.free.size());
+  const auto add = [&](std::string_view field) {
+    const FieldOfEffect at = field_of(now, effect, field);
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(n), structural = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto q = static_cast<std::size_t>(k);
+      if (h.free[q].effect != effect) continue;
+      constexpr double step = 1e-5;
+      Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values};
+      moved.values[q] += step * h.free[q].scale;
+      const double change = field_of(extended(moved), effect, field).value - at.value;
+      slope[k] =
+          (field == "phase" ? std::remainder(change, 2.0 * std::numbers::pi) : change) / (step * h.free[q].scale);
+      structural[k] = slope[k] * structural_error(h, q);
+    }
+    const double error = std::sqrt(std::max(0.0, slope.dot(covariance * slope)) + structural.squaredNorm());
+    constexpr double normal_95 = 1.96;
+    e.parameters.push_back(
+        {std::string(field), at.unit, at.value, error, at.value - normal_95 * error, at.value + normal_95 * error});
+  };
+  for (const Coordinate& c : coordinates)
+    for (const std::string_view field : fields_of(c)) add(field);
+  if (effect == "cogging")
+    e.parameters.push_back([&] {
+      const FieldOfEffect periods = field_of(now, effect, "periods");
+      return Estimate{"periods", periods.unit, periods.value, 0.0, periods.value, periods.value};
+    }());
+  return e;
+}
+
+}  // namespace wormdrive

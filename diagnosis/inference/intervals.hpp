@@ -1,0 +1,20 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/inference/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// Covariance of the free coordinates in SI by a sandwich: the curvature of the likelihood, and the scatter of its
+/// slopes over blocks of time, which need not be as independent as the likelihood takes them [Huber 1967], each block
+/// judged without its own share in the fit [Bell and McCaffrey 2002]; nowhere less than the likelihood alone says. Of
+/// an evaluated hypothesis. rounds: how often the slopes are taken again, over as much as the errors that came out: an
+/// event that passes a sample makes the likelihood steep over less.
+Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds);
+
+/// The parameters of a candidate in a hypothesis with standard errors and 95 % intervals.
+EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
+                          const std::vector<Coordinate>& coordinates);
+
+}  // namespace wormdrive

@@ -1,0 +1,239 @@
+#include "diagnosis/inference/selection.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/inference/laws.hpp"
+#include "diagnosis/verdict/prediction_error.hpp"
+#include "statistics/parallel.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+void finish_with_noise_model(const Evaluation& evaluation, Hypothesis& h, const ProcessNoise& noise) {
+  h.whitens = true;
+  h.noise = noise;
+  evaluate(evaluation, h);
+  restart_noise(evaluation, h);
+  fit(evaluation, h, 5);
+}
+
+}  // namespace
+
+Start fitted_start(const Evaluation& evaluation, const std::vector<Candidate>& all, Hypothesis base) {
+  evaluate(evaluation, base);
+  adjust_noise(evaluation, base, 6);
+  fit(evaluation, base, 6);
+  adjust_noise(evaluation, base, 6);
+  fit(evaluation, base, 2);
+  if (base.whitens) {
+    Hypothesis second = without_noise_model(base);
+    fit(evaluation, second, 5);
+    finish_with_noise_model(evaluation, second, base.noise);
+    if (second.objective < base.objective) base = std::move(second);
+  }
+  Screening screening = screen(evaluation, base, all);
+  return {std::move(base), std::move(screening)};
+}
+
+void CauseSearch::select(const Start& start, const Start* other) {
+  s_.base = s_.model = start.base;
+  s_.screening = start.screening;
+  for (int round = 0; round < most_causes_; ++round) {
+    tell(fmt::format("trying candidates, round {}", round + 1));
+    const bool first = round == 0;
+    std::vector<Tried> tried =
+        first ? try_suspects(start, other) : try_suspects({s_.model, screen(evaluation_, s_.model, all_)}, nullptr);
+    if (first) s_.tried = tried;
+    const double before = s_.model.bic;
+    if (tried.empty() || !take_best(tried, first)) break;
+    eliminate(before);
+  }
+  simplify();
+  s_.linear = linear_system(evaluation_, s_.base, s_.screening);
+}
+
+Selection CauseSearch::confirmed() {
+  confirm_classes();
+  judge_freed_numbers();
+  return std::move(s_);
+}
+
+/// The best starts of the candidates that promise most.
+std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& found) const {
+  constexpr std::size_t most_suspects = 6, most = 12;
+  std::vector<Screened> worth;
+  std::vector<std::size_t> seen;
+  const double best = found.empty() ? 0.0 : found.front().gain;
+  for (const Screened& s : found) {
+    if (worth.size() >= most || std::isinf(s.gain)) break;
+    const auto starts = std::count(seen.begin(), seen.end(), s.candidate);
+    const auto candidates = std::count_if(seen.begin(), seen.end(), [&](std::size_t c) { return c != s.candidate; });
+    if (starts >= 2) continue;
+    if (starts == 1) {
+      const auto known =
+          std::find_if(worth.begin(), worth.end(), [&](const auto& w) { return w.candidate == s.candidate; });
+      if (s.gain < 0.5 * known->gain || s.gain < 0.3 * best) continue;
+    } else if (static_cast<std::size_t>(candidates) >= most_suspects && s.gain < 0.4 * best) {
+      continue;
+    }
+    seen.push_back(s.candidate);
+    worth.push_back(s);
+  }
+  return worth;
+}
+
+std::vector<Tried> CauseSearch::try_suspects(const Start& start, const Start* other) {
+  const Hypothesis& current = start.base;
+  const std::vector<Screened> worth = worth_fitting(start.screening.found);
+  std::vector<Hypothesis> fitted(worth.size());
+  parallel_for(worth.size(), evaluation_.threads(), [&](std::size_t k) {
+    fitted[k] = worth[k].model;
+    fit(evaluation_, fitted[k], 6, 0.5);
+  });
+  std::vector<Tried> tried;
+  const auto keep = [&](std::size_t candidate, Hypothesis model) {
+    const auto known =
+        std::find_if(tried.begin(), tried.end(), [&](const Tried& t) { return t.candidate == candidate; });
+    if (known == tried.end())
+      tried.push_back({candidate, std::move(model), {}});
+    else if (model.bic < known->model.bic)
+      known->model = std::move(model);
+  };
+  for (std::size_t k = 0; k < worth.size(); ++k) keep(worth[k].candidate, std::move(fitted[k]));
+  if (other)
+    for (Tried& t : try_from(*other, current)) keep(t.candidate, std::move(t.model));
+  const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
+  std::stable_sort(tried.begin(), tried.end(), by_bic);
+  const std::size_t polished = std::min<std::size_t>(3, tried.size());
+  const double worth_refining = equivalence_share * (s_.base.bic - current.bic);
+  for (std::size_t k = 0; k < polished; ++k) {  // one after the other: each takes all threads itself
+    Hypothesis& h = tried[k].model;
+    const double gain = current.bic - h.bic;
+    if (all_[tried[k].candidate].impacts && gain > 0.0)
+      find_gap(evaluation_, h);
+    else if (gain > worth_refining)
+      refine_gap(evaluation_, h);
+    if (gain <= AcceptanceRules{}.least_bic) continue;
+    try_other_laws(evaluation_, h, all_[tried[k].candidate]);
+    for (const Found& found : s_.causes)  // a law that stood in for a number it frees may not be the best beside it
+      if (all_[found.candidate].frees == all_[tried[k].candidate].effect)
+        try_other_laws(evaluation_, h, all_[found.candidate]);
+  }
+  parallel_for(polished, evaluation_.threads(), [&](std::size_t k) {
+    Hypothesis& h = tried[k].model;
+    if (h.bic >= current.bic) return;
+    restart_noise(evaluation_, h);
+    adjust_noise(evaluation_, h, 3);
+    fit(evaluation_, h, 4);
+  });
+  std::stable_sort(tried.begin(), tried.end(), by_bic);
+  for (Tried& t : tried) t.evidence = compare(current, t.model, all_[t.candidate], evaluation_.layout());
+  return tried;
+}
+
+/// The candidates that do best at another start, with the noise model of the current hypothesis.
+std::vector<Tried> CauseSearch::try_from(const Start& other, const Hypothesis& current) const {
+  constexpr std::size_t most = 3;
+  constexpr double least_gain = 10.0;
+  std::vector<Tried> tried;
+  for (const Screened& s : other.screening.found) {
+    if (tried.size() >= most || s.gain < least_gain) break;
+    if (std::none_of(tried.begin(), tried.end(), [&](const Tried& t) { return t.candidate == s.candidate; }))
+      tried.push_back({s.candidate, s.model, {}});
+  }
+  parallel_for(tried.size(), evaluation_.threads(), [&](std::size_t k) {
+    fit(evaluation_, tried[k].model, 4);
+    finish_with_noise_model(evaluation_, tried[k].model, current.noise);
+  });
+  return tried;
+}
+
+/// A better optimum of what both share, or a better mixture of noise, is no merit of the candidate: the simpler model
+/// is fitted again from there.
+void CauseSearch::compare_fairly(Tried& with, bool base_too) {
+  Hypothesis simpler = s_.model;
+  simpler.noise = with.model.noise;
+  for (std::size_t k = 0; k < simpler.free.size(); ++k) {
+    const auto& own = all_[with.candidate].coordinates;
+    if (std::any_of(own.begin(), own.end(), [&](const Coordinate& c) { return c.is(simpler.free[k]); })) continue;
+    const int there = index_of(with.model, simpler.free[k]);
+    if (there >= 0) simpler.values[k] = with.model.values[static_cast<std::size_t>(there)];
+  }
+  fit(evaluation_, simpler, 5);
+  refine_gap(evaluation_, simpler);
+  if (simpler.objective < s_.model.objective) {
+    s_.model = std::move(simpler);
+    if (base_too) s_.base = s_.model;
+  }
+  with.evidence = compare(s_.model, with.model, all_[with.candidate], evaluation_.layout());
+}
+
+/// Long data find traces of what is of no account. A further cause has to lower the error ahead as well, or to gain
+/// more than all before it: how teeth bounce over a wide gap nobody can predict.
+bool CauseSearch::improves_prediction(const Tried& with) const {
+  constexpr double least_share = 0.01;
+  return s_.causes.empty() || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
+         error_ahead(evaluation_, with.model, told_horizon) <
+             (1.0 - least_share) * error_ahead(evaluation_, s_.model, told_horizon);
+}
+
+/// Whether the data bear a cause out beside others. What the law of an impact, or of a fall over the speed, gets wrong
+/// grows with what a gap or a fall explains, and passes for small causes, beside a gap of some size by chance.
+bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, const Candidate& candidate) const {
+  if (!accepted(evidence, candidate)) return false;
+  const bool beside_fall = candidate.effect != "stribeck" && index_of(with, "stribeck", "drop") >= 0;
+  if (!evidence.beside_gap && !beside_fall) return true;
+  if (evidence.delta_bic <= equivalence_share * (s_.base.bic - with.bic)) return false;
+  if (!evidence.beside_gap) return true;
+  const EstimatedEffect found =
+      estimated(with, covariance(evaluation_, with, 1), candidate.effect, candidate.coordinates);
+  const Estimate& size = found.parameters.front();
+  const double stated = field_of(evaluation_.scenario().effects, found.effect, size.field).value;
+  return stated < size.low || stated > size.high;
+}
+
+bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
+  // What stands at a bound is not what its name says; it must not keep others out.
+  std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
+  const double best = tried.front().evidence.delta_bic;
+  // Among equals the one with the fewest parameters comes first.
+  constexpr double as_good = 6.0;
+  auto first = tried.begin();
+  for (auto t = tried.begin(); t != tried.end(); ++t)
+    if (!t->evidence.at_bound && best - t->evidence.delta_bic < as_good &&
+        t->model.free.size() < first->model.free.size())
+      first = t;
+  std::rotate(tried.begin(), first, first + 1);
+
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    Tried& t = tried[k];
+    if (best - t.evidence.delta_bic > equivalence_margin(best)) break;
+    const Candidate& candidate = all_[t.candidate];
+    if (t.evidence.delta_bic > (candidate.toleranced ? 0.0 : AcceptanceRules{}.least_bic))
+      compare_fairly(t, first_round);
+    if (first_round)
+      for (Tried& kept : s_.tried)
+        if (kept.candidate == t.candidate) kept.evidence = t.evidence;
+    if (!supported(t.evidence, t.model, candidate) || !improves_prediction(t)) continue;
+    Found found{t.candidate, {}};
+    for (const Tried& other : tried) {
+      const Candidate& rival = all_[other.candidate];
+      if (other.candidate == t.candidate || other.evidence.at_bound || rival.frees == candidate.effect) continue;
+      if (t.evidence.delta_bic - other.evidence.delta_bic < equivalence_margin(best) ||
+          (indistinguishable_from(t.model, candidate, rival) && accepted(other.evidence, rival)))
+        found.equals.push_back(other.candidate);
+    }
+    s_.causes.push_back(found);
+    s_.model = t.model;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,84 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/comparison.hpp"
+#include "diagnosis/inference/linear_system.hpp"
+
+namespace wormdrive {
+
+/// A candidate that was fitted beside a hypothesis.
+struct Tried {
+  std::size_t candidate;
+  Hypothesis model;
+  Evidence evidence;
+};
+
+/// A cause that was found, with the candidates that do as well.
+struct Found {
+  std::size_t candidate;
+  std::vector<std::size_t> equals;  ///< other candidates within reach of its evidence
+};
+
+/// Where a search for causes sets out.
+struct Start {
+  Hypothesis base;      ///< the scenario with its tolerances, fitted
+  Screening screening;  ///< of the base
+};
+
+/// Fits what is stated and screens all candidates beside it.
+Start fitted_start(const Evaluation& evaluation, const std::vector<Candidate>& all, Hypothesis base);
+
+/// What the search for causes came to.
+struct Selection {
+  Hypothesis base;   ///< the scenario with its tolerances
+  Hypothesis model;  ///< with the causes
+  std::vector<Found> causes;
+  std::vector<Tried> tried;  ///< candidates beside the base, the best first
+  Screening screening;       ///< of the base
+  LinearSystem linear{};     ///< of the base with it
+};
+
+/// A search for causes, step by step.
+class CauseSearch {
+ public:
+  CauseSearch(const Evaluation& evaluation, const std::vector<Candidate>& all, int most_causes,
+              std::function<void(const std::string&)> progress)
+      : evaluation_(evaluation), all_(all), most_causes_(most_causes), progress_(std::move(progress)) {}
+
+  /// Forward selection with backward elimination. The candidates that do best at another start, if there is one, are
+  /// tried as well.
+  void select(const Start& start, const Start* other);
+  /// Tries pairs of candidates that mask each other.
+  void try_pairs();
+  /// The causes with what does as well as each of them; nothing can be done after that.
+  Selection confirmed();
+  const Hypothesis& model() const { return s_.model; }
+
+ private:
+  std::vector<Tried> try_suspects(const Start& start, const Start* other);
+  std::vector<Screened> worth_fitting(const std::vector<Screened>& found) const;
+  std::vector<Tried> try_from(const Start& other, const Hypothesis& current) const;
+  bool improves_prediction(const Tried& with) const;
+  bool supported(const Evidence& evidence, const Hypothesis& with, const Candidate& candidate) const;
+  bool take_best(std::vector<Tried>& tried, bool first_round);
+  void compare_fairly(Tried& with, bool base_too);
+  void eliminate(double enough);
+  void simplify();
+  bool exchange_for_fewer();
+  Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
+  void confirm_classes();
+  void judge_freed_numbers();
+  void tell(const std::string& what) const {
+    if (progress_) progress_(what);
+  }
+
+  const Evaluation& evaluation_;
+  const std::vector<Candidate>& all_;
+  int most_causes_;
+  std::function<void(const std::string&)> progress_;
+  Selection s_;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,239 @@
+#include "diagnosis/predictor/noise_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <Eigen/Dense>
+
+namespace wormdrive {
+
+namespace {
+
+constexpr std::size_t terms = whitening_times.size();
+constexpr double nu = tail_freedom;
+using Vector = Eigen::Matrix<double, terms, 1>;
+using Matrix = Eigen::Matrix<double, terms, terms>;
+
+/// Runs the exponential means through a recording: visit(sample, means before it).
+class Means {
+ public:
+  explicit Means(double period) {
+    for (std::size_t j = 0; j < terms; ++j)
+      keep_[j] = whitening_times[j] > 0.0 ? std::exp(-period / whitening_times[j]) : 0.0;
+  }
+  const std::array<double, terms>& values() const { return z_; }
+  void add(double e) {
+    for (std::size_t j = 0; j < terms; ++j) z_[j] = keep_[j] * (z_[j] - e) + e;
+  }
+
+ private:
+  std::array<double, terms> keep_{}, z_{};
+};
+
+double predicted(const WhiteningWeights& weights, const double* z) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < terms; ++j) sum += weights[j] * z[j];
+  return sum;
+}
+
+/// The smallest scale that a group may have: a sensor of finite resolution has the noise of rounding at least.
+double least_scale(const PreparedRecording& recording, double resolution, bool moving) {
+  constexpr double standing_share = 0.29;  // standard deviation of rounding to one step
+  constexpr double moving_share = 0.1;     // while moving, what is rounded is predicted in part
+  return std::max(1e-9 * std::max(1e-3, recording.rms_speed), (moving ? moving_share : standing_share) * resolution);
+}
+
+/// Median of magnitudes as a scale of Student's t.
+double robust_scale(std::vector<double>& sizes) {
+  if (sizes.empty()) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / 0.741;
+}
+
+double iterated_scale(const std::vector<double>& squares, double scale, double least, int rounds) {
+  for (int k = 0; k < rounds; ++k) {
+    double sum = 0.0;
+    const double inverse = 1.0 / (scale * scale);
+    for (const double q : squares) sum += (nu + 1.0) * q / (nu + q * inverse);
+    scale = std::max(least, std::sqrt(sum / static_cast<double>(squares.size())));
+    if (scale == least) break;
+  }
+  return scale;
+}
+
+}  // namespace
+
+InnovationLayout::InnovationLayout(std::vector<PreparedRecording> all) : recordings(std::move(all)) {
+  for (const PreparedRecording& r : recordings) {
+    begins.push_back(samples);
+    first_blocks.push_back(blocks);
+    samples += r.samples();
+    blocks += r.blocks();
+  }
+  for (const bool of_worm : {false, true})
+    for (std::size_t q = 0; q < recordings.size(); ++q) {
+      const PreparedRecording& r = recordings[q];
+      if (of_worm && r.worm_angle.empty()) continue;
+      for (std::size_t k = 0; k < r.samples(); ++k) {
+        group.push_back(static_cast<std::uint8_t>(2 * channels.size() + (r.moving[k] ? 1 : 0)));
+        part.push_back(static_cast<std::uint8_t>(!r.used[k] ? 0 : r.held_out[k] ? 2 : 1));
+        block.push_back(static_cast<std::uint32_t>(first_blocks[q] + k / r.block_length));
+      }
+      channels.push_back({q, of_worm, size, of_worm ? r.worm_resolution : r.data.gear_resolution});
+      size += r.samples();
+    }
+}
+
+const Channel& InnovationLayout::leading(std::size_t recording) const {
+  return *std::find_if(channels.rbegin(), channels.rend(), [&](const Channel& c) { return c.recording == recording; });
+}
+
+std::size_t InnovationLayout::fitted() const {
+  return static_cast<std::size_t>(std::count(part.begin(), part.end(), std::uint8_t{1}));
+}
+
+NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double> innovations, bool whitens) {
+  NoiseModel noise{std::vector<NoiseGroup>(layout.groups()), whitens};
+  std::vector<double> means, rest;
+  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+    const Channel& channel = layout.channels[c];
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    const std::span<const double> e = layout.of(channel, innovations);
+    const std::size_t n = e.size(), begin = channel.begin;
+    if (whitens) {
+      means.resize(n * terms);
+      Means z(recording.data.period);
+      for (std::size_t k = 0; k < n; ++k) {
+        std::copy(z.values().begin(), z.values().end(), means.begin() + static_cast<std::ptrdiff_t>(k * terms));
+        z.add(e[k]);
+      }
+    }
+    for (const bool moving : {false, true}) {
+      NoiseGroup& group = noise.groups[2 * c + (moving ? 1 : 0)];
+      const double least = least_scale(recording, channel.resolution, moving);
+      const auto mine = [&](std::size_t k) {
+        return layout.part[begin + k] == 1 && (recording.moving[k] != 0) == moving;
+      };
+      std::vector<std::size_t> members;
+      for (std::size_t k = 0; k < n; ++k)
+        if (mine(k)) members.push_back(k);
+      rest.clear();
+      for (std::size_t q = 0; q < members.size(); q += 5) rest.push_back(std::abs(e[members[q]]));
+      group.scale = std::max(least, rest.size() > 20 ? robust_scale(rest) : 0.0);
+      if (members.empty()) continue;
+      constexpr std::size_t fewest_for_weights = 300;
+      const int rounds = whitens && members.size() >= fewest_for_weights ? 2 : 0;
+      for (int round = 0; round <= rounds; ++round) {
+        if (round > 0) {
+          Matrix A = Matrix::Zero();
+          Vector b = Vector::Zero();
+          const double inverse = 1.0 / (group.scale * group.scale);
+          for (const std::size_t k : members) {
+            const Eigen::Map<const Vector> z(&means[k * terms]);
+            const double x = e[k] - predicted(group.weights, z.data());
+            const double weight = (nu + 1.0) / (nu + x * x * inverse);
+            b += weight * e[k] * z;
+            A += (weight * z) * z.transpose();
+          }
+          A.diagonal().array() += 1e-6 * A.trace() / terms + 1e-300;
+          Vector::Map(group.weights.data()) = A.ldlt().solve(b);
+        }
+        if (round == 0 && rounds > 0) continue;
+        rest.clear();
+        for (const std::size_t k : members) {
+          const double x = e[k] - (whitens ? predicted(group.weights, &means[k * terms]) : 0.0);
+          rest.push_back(x * x);
+        }
+        group.scale = iterated_scale(rest, group.scale, least, round == rounds ? 6 : 3);
+      }
+    }
+  }
+  return noise;
+}
+
+bool hides_what_is_slow(const NoiseModel& noise) {
+  constexpr double much = 0.5;
+  for (std::size_t g = 1; g < noise.groups.size(); g += 2) {
+    const WhiteningWeights& weights = noise.groups[g].weights;
+    if (std::accumulate(weights.begin(), weights.end(), 0.0) >= much) return true;
+  }
+  return false;
+}
+
+std::vector<double> whitened(const InnovationLayout& layout, std::span<const double> innovations,
+                             const NoiseModel& noise) {
+  std::vector<double> w(innovations.begin(), innovations.end());
+  if (!noise.whitens) return w;
+  for (const Channel& channel : layout.channels) {
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    Means z(recording.data.period);
+    const std::size_t begin = channel.begin, end = begin + recording.samples();
+    for (std::size_t k = begin; k < end; ++k) {
+      w[k] -= predicted(noise.groups[layout.group[k]].weights, z.values().data());
+      z.add(innovations[k]);
+    }
+  }
+  return w;
+}
+
+std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<const double> whitened,
+                                      const NoiseModel& noise, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<double>> pools(layout.groups());
+  for (std::size_t k = 0; k < layout.size; ++k)
+    if (layout.part[k] != 0) pools[layout.group[k]].push_back(whitened[k]);
+  std::vector<double> e(layout.size, 0.0);
+  for (const Channel& channel : layout.channels) {
+    const PreparedRecording& recording = layout.recordings[channel.recording];
+    Means z(recording.data.period);
+    const std::size_t begin = channel.begin, end = begin + recording.samples();
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::vector<double>& pool = pools[layout.group[k]];
+      if (pool.empty()) continue;
+      const std::uint64_t draw = random();  // its lowest bit is the sign
+      e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
+      // weights that keep most of what is steady tell of slow structure, and would let noise grow
+      const WhiteningWeights& weights = noise.groups[layout.group[k]].weights;
+      constexpr double most_kept = 0.5;
+      if (noise.whitens && std::accumulate(weights.begin(), weights.end(), 0.0) < most_kept)
+        e[k] += predicted(weights, z.values().data());
+      z.add(e[k]);
+    }
+  }
+  return e;
+}
+
+Misfit misfit(const InnovationLayout& layout, std::span<const double> w, const NoiseModel& noise) {
+  Misfit sum;
+  sum.blocks.assign(layout.blocks, 0.0);
+  std::vector<double> level, inverse;
+  for (const NoiseGroup& g : noise.groups) {
+    level.push_back(std::log(g.scale));
+    inverse.push_back(1.0 / (nu * g.scale * g.scale));
+  }
+  for (std::size_t k = 0; k < layout.size; ++k) {
+    if (layout.part[k] == 0) continue;
+    const std::size_t g = layout.group[k];
+    sum.blocks[layout.block[k]] += level[g] + 0.5 * (nu + 1.0) * std::log1p(w[k] * w[k] * inverse[g]);
+  }
+  std::vector<std::uint8_t> out(layout.blocks, 0);
+  for (std::size_t k = 0; k < layout.size; ++k)
+    if (layout.part[k] == 2) out[layout.block[k]] = 1;
+  for (std::size_t b = 0; b < layout.blocks; ++b) (out[b] ? sum.held_out : sum.fitted) += sum.blocks[b];
+  return sum;
+}
+
+std::vector<double> fit_weights(const InnovationLayout& layout, std::span<const double> w, const NoiseModel& noise) {
+  std::vector<double> weight(layout.size, 0.0);
+  for (std::size_t k = 0; k < layout.size; ++k) {
+    if (layout.part[k] != 1) continue;
+    const double s2 = noise.groups[layout.group[k]].scale * noise.groups[layout.group[k]].scale;
+    weight[k] = (nu + 1.0) / ((nu + w[k] * w[k] / s2) * s2);
+  }
+  return weight;
+}
+
+}  // namespace wormdrive

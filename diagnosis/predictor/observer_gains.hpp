@@ -1,0 +1,30 @@
+#pragma once
+#include "diagnosis/predictor/restitution.hpp"
+
+namespace wormdrive {
+
+/// What no effect states and every fit finds for itself: how strongly a drive is disturbed, against the noise of its
+/// sensor, as standard deviations of what it does to the angle within one sample in units of the sensor's noise; and
+/// how teeth bounce.
+struct ProcessNoise {
+  double white = 0.005;     ///< torque that is new at every sample
+  double coloured = 0.003;  ///< torque that lasts
+  Restitution impact{};
+};
+
+/// What an innovation of the angle adds to the state.
+struct ObserverGains {
+  double angle{};   ///< per innovation
+  double speed{};   ///< per innovation and period
+  double torque{};  ///< as acceleration, per innovation and period squared; only while moving
+  double keep{};    ///< share of the coloured torque that is left after one period
+};
+
+/// Time constant of the coloured torque [s].
+inline constexpr double colouring_time = 0.05;
+
+/// Gains of the steady Kalman filter for a double integrator that is driven by white and coloured noise and whose angle
+/// is measured [Kalman 1960]; the states are scaled to the sensor's noise and to the period [s].
+ObserverGains observer_gains(const ProcessNoise& noise, double period);
+
+}  // namespace wormdrive

@@ -1,0 +1,260 @@
+#include "diagnosis/verdict/adequacy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "description/build.hpp"
+#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/verdict/spectral_line.hpp"
+#include "statistics/parallel.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// What every sample of all recordings may be ordered by.
+struct Abscissae {
+  std::vector<double> angle, speed, time, load, direction, side, moving;
+};
+
+/// They are taken from the state that the predictor had before a sample: what is smoothed from later samples as well
+/// knows their noise, and would find itself in it.
+Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
+  Abscissae a;
+  std::vector<FilteredStates> states;
+  evaluation.innovations(extended(h), h.noise, {}, &states);
+  for (std::size_t q = 0; q < states.size(); ++q) {
+    const PreparedRecording& r = evaluation.layout().recordings[q];
+    const FilteredStates& state = states[q];
+    Scenario loaded = evaluation.scenario();
+    if (r.data.load) loaded.load = *r.data.load;
+    with_drive(loaded, [&](auto& drive) {
+      for (std::size_t k = 0; k < r.samples(); ++k) {
+        const double t = r.data.time(k);
+        auto load = drive.load();
+        load.enter(t);
+        const double tau =
+            sizes.load_torque > 0.0 ? load.torque(drive.moment(t, state.angle[k], 0.0)) / sizes.load_torque : 0.0;
+        const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
+        a.angle.push_back(state.angle[k]);
+        a.speed.push_back(state.speed[k]);
+        a.time.push_back(t);
+        a.load.push_back(tau);
+        a.direction.push_back(direction);
+        a.side.push_back(tau * direction > 0.0 ? 1.0 : -1.0);
+        a.moving.push_back(r.moving[k]);
+      }
+    });
+  }
+  return a;
+}
+
+/// A torque that is a free function of one axis, times one of several factors.
+struct Axis1D {
+  std::string name;
+  const std::vector<double>* over;
+  int nodes;
+  std::vector<std::function<double(std::size_t)>> factors;
+  bool one_place = false;  ///< the torque acts at one place of the axis, the one where it explains most
+};
+
+/// Tents over the quantiles of an axis.
+class HatFunctions {
+ public:
+  HatFunctions(const std::vector<double>& x, int nodes) : x_(x) {
+    std::vector<double> sorted = x;
+    std::sort(sorted.begin(), sorted.end());
+    const auto n = static_cast<double>(x.size());
+    for (int b = 0; b < nodes; ++b)
+      centre_.push_back(sorted[std::min(x.size() - 1, static_cast<std::size_t>(n * (b + 0.5) / nodes))]);
+  }
+  double operator()(std::size_t hat, std::size_t sample) const {
+    const double x = x_[sample], c = centre_[hat];
+    if (x < c && hat > 0) return std::max(0.0, 1.0 - (c - x) / std::max(1e-12, c - centre_[hat - 1]));
+    if (x > c && hat + 1 < centre_.size()) return std::max(0.0, 1.0 - (x - c) / std::max(1e-12, centre_[hat + 1] - c));
+    return 1.0;
+  }
+
+ private:
+  const std::vector<double>& x_;
+  std::vector<double> centre_;
+};
+
+class Scores {
+ public:
+  Scores(const Evaluation& evaluation, const Hypothesis& h, double torque)
+      : evaluation_(evaluation), h_(h), torque_(torque), free_(static_cast<Eigen::Index>(h.free.size())) {
+    const InnovationLayout& layout = evaluation.layout();
+    weight_ = fit_weights(layout, h.residuals, h.noise_model);
+    for (double& w : weight_) w = std::sqrt(w);
+    J_.resize(static_cast<Eigen::Index>(layout.size), free_);
+    parallel_for(h.free.size(), evaluation.threads(), [&](std::size_t k) {
+      J_.col(static_cast<Eigen::Index>(k)) = weighted(sensitivity(evaluation, h, k, derivative_step), 30.0);
+    });
+    residual_ = weighted(h.residuals, 1e9);
+  }
+
+  ScoreTest operator()(const Axis1D& axis, const std::vector<double>& moving) const {
+    const HatFunctions hat(*axis.over, axis.nodes);
+    const auto tents = static_cast<std::size_t>(axis.nodes);
+    const std::size_t m = tents * axis.factors.size();
+    std::vector<std::vector<double>> torques(m);
+    Eigen::MatrixXd V(J_.rows(), free_ + static_cast<Eigen::Index>(m));
+    V.leftCols(free_) = J_;
+    parallel_for(m, evaluation_.threads(), [&](std::size_t q) {
+      std::vector<double>& torque = torques[q];
+      torque.resize(evaluation_.layout().samples);
+      for (std::size_t k = 0; k < torque.size(); ++k)
+        torque[k] = torque_ * hat(q % tents, k) * axis.factors[q / tents](k) * moving[k];
+      const auto e = evaluation_.innovations(extended(h_), h_.noise, torque);
+      V.col(free_ + static_cast<Eigen::Index>(q)) =
+          e ? weighted(difference(evaluation_, h_, *e), 10.0) : Eigen::VectorXd::Zero(J_.rows());
+    });
+    if (axis.one_place) keep_strongest(V, torques);
+    ScoreTest test;
+    test.what.axis = axis.name;
+    const auto degrees = static_cast<double>(torques.size());
+    const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
+    test.what.gain = 0.5 * (all.score - less.score);
+    test.what.evidence = axis.one_place ? test.what.gain - std::log(static_cast<double>(m))
+                                        : (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
+    test.held_out = held_out_gain(V);
+    std::vector<double> sum(evaluation_.layout().samples, 0.0);
+    double squares = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      for (std::size_t q = 0; q < torques.size(); ++q)
+        sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
+      squares += sum[k] * sum[k];
+      count += moving[k];
+    }
+    test.what.torque = std::sqrt(squares / std::max(1.0, count));
+    return test;
+  }
+
+ private:
+  struct Solved {
+    Eigen::VectorXd x;
+    double score;
+  };
+
+  Eigen::VectorXd weighted(const std::vector<double>& column, double most_scales) const {
+    Eigen::VectorXd w(static_cast<Eigen::Index>(column.size()));
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      const double limit = most_scales * h_.noise_model.groups[evaluation_.layout().group[k]].scale;
+      w[static_cast<Eigen::Index>(k)] = weight_[k] * std::clamp(column[k], -limit, limit);
+    }
+    return w;
+  }
+  static bool is_held_out(std::size_t block) { return block % 3 == 2; }
+
+  Solved solve(const Eigen::MatrixXd& V, Eigen::Index columns, bool less_held_out) const {
+    Eigen::MatrixXd A;
+    Eigen::VectorXd b;
+    const auto part = V.leftCols(columns);
+    if (!less_held_out) {
+      A = part.transpose() * part;
+      b = -part.transpose() * residual_;
+    } else {
+      std::vector<Eigen::Index> rows;
+      for (Eigen::Index r = 0; r < V.rows(); ++r)
+        if (!is_held_out(evaluation_.layout().block[static_cast<std::size_t>(r)])) rows.push_back(r);
+      const Eigen::MatrixXd some = part(rows, Eigen::all);
+      A = some.transpose() * some;
+      b = -some.transpose() * residual_(rows);
+    }
+    add_tolerances(h_, A, b);
+    constexpr double shrink = 0.3;  // a tent without data is nothing
+    for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += shrink;
+    const Eigen::VectorXd x = columns > 0 ? solve_normal(A, b, 1e-6) : Eigen::VectorXd(0);
+    return {x, columns > 0 ? x.dot(b) : 0.0};
+  }
+
+  /// Of all torques the one that explains most.
+  void keep_strongest(Eigen::MatrixXd& V, std::vector<std::vector<double>>& torques) const {
+    Eigen::MatrixXd one = V.leftCols(free_ + 1);
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t q = 0; q < torques.size(); ++q) {
+      one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(q));
+      const double score = solve(one, one.cols(), false).score;
+      if (score <= most) continue;
+      most = score;
+      best = q;
+    }
+    one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(best));
+    V = std::move(one);
+    torques = {std::move(torques[best])};
+  }
+
+  /// Gain of every third block by a torque that was fitted to the others.
+  double held_out_gain(const Eigen::MatrixXd& V) const {
+    const Eigen::VectorXd with = residual_ + V * solve(V, V.cols(), true).x;
+    const Eigen::VectorXd without = residual_ + V.leftCols(free_) * solve(V, free_, true).x;
+    double gain = 0.0;
+    for (Eigen::Index r = 0; r < V.rows(); ++r)
+      if (is_held_out(evaluation_.layout().block[static_cast<std::size_t>(r)]))
+        gain += 0.5 * (without[r] * without[r] - with[r] * with[r]);
+    return gain;
+  }
+
+  const Evaluation& evaluation_;
+  const Hypothesis& h_;
+  double torque_;
+  Eigen::Index free_;
+  std::vector<double> weight_;
+  Eigen::MatrixXd J_;
+  Eigen::VectorXd residual_;
+};
+
+}  // namespace
+
+std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                                   const AdequacyRules& rules) {
+  const Abscissae a = abscissae(evaluation, h, sizes);
+  const auto factor = [](const std::vector<double>& values) { return [&values](std::size_t k) { return values[k]; }; };
+  const auto one = [](std::size_t) { return 1.0; };
+  const auto loaded_side = [&a](std::size_t k) { return std::abs(a.load[k]) * a.direction[k]; };
+  std::vector<Axis1D> axes{{"angle and direction", &a.angle, 8, {one, factor(a.direction)}},
+                           {"speed", &a.speed, 10, {one}}};
+  constexpr int spots = 24;  // friction of one place is a matter of a tenth of a turn or less
+  if (sizes.load_torque > 0.0) {
+    axes.push_back({"time", &a.time, 6, {one, factor(a.load), loaded_side}});
+    axes.push_back({"speed and load", &a.speed, 6, {factor(a.load), loaded_side}});
+    axes.push_back({"one angle", &a.angle, spots, {loaded_side}, true});
+  } else {
+    axes.push_back({"time", &a.time, 6, {one, factor(a.direction)}});
+    axes.push_back({"one angle", &a.angle, spots, {factor(a.direction)}, true});
+  }
+  const Scores scores(evaluation, h, 0.005 * sizes.torque);
+  std::vector<ScoreTest> all;
+  const double least_torque =
+      sizes.torque * (sizes.has_worm_encoder ? rules.least_share_of_two_encoders : rules.least_share);
+  for (const Axis1D& axis : axes) {
+    all.push_back(scores(axis, a.moving));
+    ScoreTest& test = all.back();
+    test.found = test.what.evidence > (axis.one_place ? rules.most_place : rules.most_deviations) &&
+                 test.held_out > (axis.one_place ? rules.most_gain_of_a_place : rules.most_gain) &&
+                 test.what.torque > least_torque;
+  }
+  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r)
+    for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {
+      all.push_back(spectral_line(evaluation, h, r, demodulated, demodulated ? "a line by flank" : "a line"));
+      all.back().found = all.back().what.evidence > rules.most_line;
+    }
+  return all;
+}
+
+std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                                  const AdequacyRules& rules) {
+  std::vector<Remainder> found;
+  for (const ScoreTest& test : score_tests(evaluation, h, sizes, rules))
+    if (test.found) found.push_back(test.what);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Remainder& x, const Remainder& y) { return x.evidence > y.evidence; });
+  return found;
+}
+
+}  // namespace wormdrive

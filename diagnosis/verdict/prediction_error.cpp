@@ -1,0 +1,230 @@
+#include "diagnosis/verdict/prediction_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "description/build.hpp"
+#include "description/keys.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// One prediction of one model.
+struct Stretch {
+  std::size_t recording, begin, block;
+  double mean_square;          ///< of its errors [rad^2]
+  std::vector<double> errors;  ///< prediction less measurement [rad]
+};
+
+double mean_square(const std::vector<double>& errors) {
+  constexpr double most = 1.0;  // [rad^2]: a motion that was missed altogether, or not to its end, counts no more
+  double sum = 0.0;
+  for (const double e : errors) sum += e * e;
+  return sum <= most * static_cast<double>(errors.size()) ? sum / static_cast<double>(errors.size()) : most;
+}
+
+/// Samples of a recording from which predictions are judged.
+std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::size_t steps) {
+  std::vector<std::size_t> begins;
+  const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
+  for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
+    if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
+  return begins;
+}
+
+/// A hypothesis that has gone through the recordings, ready to predict from all beginnings.
+class Forecast {
+ public:
+  Forecast(const Evaluation& evaluation, const Hypothesis& h)
+      : evaluation_(evaluation), noise_(h.noise), effects_(extended(h)) {
+    goes_on_ = evaluation.innovations(effects_, noise_, {}, &states_).has_value();
+  }
+
+  /// Against what was measured.
+  std::vector<Stretch> of_data(double horizon) const {
+    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
+      const std::vector<double>& angle = evaluation_.layout().recordings[r].data.gear_angle;
+      std::vector<std::vector<double>> measured;
+      for (const std::size_t begin : begins) {
+        const auto from = angle.begin() + static_cast<std::ptrdiff_t>(begin + 1);
+        measured.emplace_back(from, from + static_cast<std::ptrdiff_t>(steps));
+      }
+      return measured;
+    });
+  }
+  /// Against its own motion with innovations.
+  std::vector<Stretch> of_noise(double horizon, std::span<const double> innovations) const {
+    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
+      return evaluation_.run_on(effects_, noise_, r, states_[r], begins, steps, innovations);
+    });
+  }
+
+ private:
+  /// truth(recording, begins, steps): what comes after each beginning.
+  template <class Truth>
+  std::vector<Stretch> stretches(double horizon, Truth&& truth) const {
+    std::vector<Stretch> all;
+    if (!goes_on_) return all;
+    const InnovationLayout& layout = evaluation_.layout();
+    for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
+      const PreparedRecording& recording = layout.recordings[r];
+      const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
+      const std::vector<std::size_t> begins = beginnings(recording, steps);
+      auto errors = evaluation_.run_on(effects_, noise_, r, states_[r], begins, steps);
+      const auto told = truth(r, begins, steps);
+      for (std::size_t q = 0; q < begins.size(); ++q) {
+        for (std::size_t k = 0; k < errors[q].size(); ++k) errors[q][k] -= told[q][k];
+        all.push_back(
+            {r, begins[q], layout.block[layout.begins[r] + begins[q]], mean_square(errors[q]), std::move(errors[q])});
+      }
+    }
+    return all;
+  }
+
+  const Evaluation& evaluation_;
+  ProcessNoise noise_;
+  Effects<double> effects_;
+  std::vector<FilteredStates> states_;
+  bool goes_on_ = false;
+};
+
+double rms(const std::vector<Stretch>& all) {
+  double sum = 0.0;
+  for (const Stretch& s : all) sum += s.mean_square;
+  return all.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(all.size()));
+}
+
+/// 95 % interval of the rms by drawing blocks with replacement.
+void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionError& e) {
+  std::vector<std::size_t> blocks;
+  for (const Stretch& s : all)
+    if (blocks.empty() || blocks.back() != s.block) blocks.push_back(s.block);
+  if (blocks.empty()) return;
+  std::vector<double> sums(blocks.size(), 0.0), counts(blocks.size(), 0.0);
+  for (const Stretch& s : all) {
+    const auto b = static_cast<std::size_t>(std::find(blocks.begin(), blocks.end(), s.block) - blocks.begin());
+    sums[b] += s.mean_square;
+    counts[b] += 1.0;
+  }
+  std::mt19937_64 random(seed);
+  constexpr int draws = 1000;
+  std::vector<double> drawn;
+  for (int k = 0; k < draws; ++k) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const std::size_t which = random() % blocks.size();
+      sum += sums[which];
+      count += counts[which];
+    }
+    drawn.push_back(std::sqrt(sum / count));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  e.after_low = drawn[draws / 40];
+  e.after_high = drawn[draws - 1 - draws / 40];
+}
+
+}  // namespace
+
+namespace {
+
+/// Noise of one recording, and of how many samples it is known.
+struct RecordedNoise {
+  NoiseSizes sizes{};
+  double samples = 0.0;
+};
+
+RecordedNoise recorded_noise(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording) {
+  const PreparedRecording& r = evaluation.layout().recordings[recording];
+  const std::span<const double> e =
+      evaluation.layout().of(evaluation.layout().leading(recording), std::span(h.innovations));
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < r.samples(); ++k)
+    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(e[k]));
+  if (sizes.empty()) return {};
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  constexpr double normal_median = 0.6745;
+  const double innovation = sizes[sizes.size() / 2] / normal_median;
+  const double K = observer_gains(h.noise, r.data.period).angle;  // = P/(P + 1)
+  RecordedNoise noise{{}, static_cast<double>(sizes.size())};
+  noise.sizes.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
+  noise.sizes.torque = std::hypot(h.noise.white, h.noise.coloured) * noise.sizes.angle *
+                       inertia_on_worm(evaluation, h, recording) / (r.data.period * r.data.period);
+  return noise;
+}
+
+}  // namespace
+
+NoiseSizes noise_sizes(const Evaluation& evaluation, const Hypothesis& h) {
+  double samples = 0.0, angles = 0.0, torques = 0.0;
+  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
+    const RecordedNoise one = recorded_noise(evaluation, h, r);
+    samples += one.samples;
+    angles += one.samples * one.sizes.angle * one.sizes.angle;
+    torques += one.samples * one.sizes.torque * one.sizes.torque;
+  }
+  if (samples == 0.0) return {};
+  return {std::sqrt(angles / samples), std::sqrt(torques / samples)};
+}
+
+double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double horizon) {
+  return rms(Forecast(evaluation, h).of_data(horizon));
+}
+
+std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, const Hypothesis& before,
+                                               const Hypothesis& after, std::uint64_t seed) {
+  std::vector<PredictionError> all;
+  std::vector<std::vector<double>> noises;
+  constexpr std::uint64_t draws = 4;
+  for (std::uint64_t k = 0; k < draws; ++k)
+    noises.push_back(drawn_innovations(evaluation.layout(), after.residuals, after.noise_model, seed + k));
+  const Forecast forecast_before(evaluation, before), forecast_after(evaluation, after);
+  for (const double horizon : horizons) {
+    PredictionError e;
+    e.unit = spellings("angle", e.unit, evaluation.scenario().axis).front().unit;
+    e.horizon = horizon;
+    const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
+    if (now.empty()) continue;
+    e.before = rms(then);
+    e.after = rms(now);
+    bootstrap(now, seed, e);
+    std::vector<Stretch> drawn;
+    for (const std::vector<double>& noise : noises)
+      for (Stretch& s : forecast_after.of_noise(horizon, noise)) drawn.push_back(std::move(s));
+    e.floor = rms(drawn);
+    all.push_back(e);
+  }
+  return all;
+}
+
+std::vector<PredictionExample> prediction_examples(const Evaluation& evaluation, const Hypothesis& before,
+                                                   const Hypothesis& after) {
+  std::vector<PredictionExample> examples;
+  const Forecast forecast_before(evaluation, before), forecast_after(evaluation, after);
+  for (const double horizon : horizons) {
+    const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
+    if (then.empty() || then.size() != now.size()) continue;
+    std::vector<std::size_t> order(then.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return then[a].mean_square > then[b].mean_square; });
+    for (const std::size_t place : {std::size_t{0}, order.size() / 2, order.size() - 1}) {
+      const Stretch &a = then[order[place]], &b = now[order[place]];
+      const Recording& data = evaluation.layout().recordings[a.recording].data;
+      PredictionExample example;
+      example.horizon = horizon;
+      for (std::size_t k = 0; k < std::min(a.errors.size(), b.errors.size()); ++k) {
+        const double measured = data.gear_angle[a.begin + 1 + k];
+        example.time.push_back(data.start + data.time(a.begin + 1 + k));
+        example.measured.push_back(measured);
+        example.before.push_back(measured + a.errors[k]);
+        example.after.push_back(measured + b.errors[k]);
+      }
+      examples.push_back(std::move(example));
+    }
+  }
+  return examples;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/inference/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// How far ahead predictions are judged [s].
+inline constexpr double horizons[] = {0.1, 0.25, 1.0};
+/// The one that the sentence of a diagnosis tells of [s].
+inline constexpr double told_horizon = 0.25;
+
+/// Error of predicting the gear angle that far ahead from samples that were held out, rms [rad].
+double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double horizon);
+
+/// Errors of predicting the gear angle ahead from samples that were held out, by the model before and after, at every
+/// horizon. The seed is that of the bootstrap over blocks.
+std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, const Hypothesis& before,
+                                               const Hypothesis& after, std::uint64_t seed);
+
+/// A few held-out stretches with both predictions, of every horizon the ones with the largest, the median and the
+/// smallest error before.
+std::vector<PredictionExample> prediction_examples(const Evaluation& evaluation, const Hypothesis& before,
+                                                   const Hypothesis& after);
+
+/// Standard deviations that a fit found: of the sensor [rad] and of the torque of the process [N m]; of several
+/// recordings the mean squares over all samples while moving.
+struct NoiseSizes {
+  double angle{}, torque{};
+};
+NoiseSizes noise_sizes(const Evaluation& evaluation, const Hypothesis& h);
+
+}  // namespace wormdrive

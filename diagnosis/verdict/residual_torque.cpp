@@ -1,0 +1,77 @@
+#include "diagnosis/verdict/residual_torque.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "description/build.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// Residual torques of every sample of one recording after the other [N m].
+std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hypothesis& h) {
+  constexpr double most_scales = 6.0;
+  std::vector<FilteredStates> states;
+  const bool goes_on = evaluation.innovations(extended(h), h.noise, {}, &states).has_value();
+  std::vector<std::vector<double>> all;
+  for (std::size_t recording = 0; recording < evaluation.layout().recordings.size(); ++recording) {
+    const PreparedRecording& r = evaluation.layout().recordings[recording];
+    const double Ts = r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
+    const double per_acceleration = inertia_on_worm(evaluation, h, recording);
+    std::vector<double>& torque = all.emplace_back(r.samples(), 0.0);
+    for (std::size_t k = 0; goes_on && k < torque.size(); ++k) {
+      const std::size_t q = evaluation.layout().leading(recording).begin + k;
+      const double limit = most_scales * h.noise_model.groups[evaluation.layout().group[q]].scale;
+      const double e = std::clamp(h.innovations[q], -limit, limit);
+      torque[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
+  constexpr double mean_over = 0.025;  // [s]
+  ResidualTorque map;
+  const std::vector<std::vector<double>> all_then = torques(evaluation, before), all_now = torques(evaluation, after);
+  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
+    const PreparedRecording& recording = evaluation.layout().recordings[r];
+    const std::vector<double>&then = all_then[r], &now = all_now[r];
+    Scenario loaded = evaluation.scenario();
+    if (recording.data.load) loaded.load = *recording.data.load;
+    const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(mean_over / recording.data.period)));
+    with_drive(loaded, [&](auto& drive) {
+      for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
+        double sum_then = 0.0, sum_now = 0.0;
+        bool whole = true;
+        for (std::size_t k = begin; k < begin + bin; ++k) {
+          whole = whole && recording.moving[k] && recording.used[k];
+          sum_then += then[k] / static_cast<double>(bin);
+          sum_now += now[k] / static_cast<double>(bin);
+        }
+        if (!whole) continue;
+        const std::size_t middle = begin + bin / 2;
+        const double t = recording.data.time(middle);
+        const double angle = recording.data.gear_angle[middle];
+        auto load = drive.load();
+        load.enter(t);
+        const Moment<double> at = drive.moment(t, angle, recording.speed[middle]);
+        const double turn = 2.0 * std::numbers::pi;
+        map.time.push_back(recording.data.start + t);
+        map.gear_angle.push_back(angle);
+        map.gear_speed.push_back(recording.speed[middle]);
+        map.load_torque.push_back(load.torque(at));
+        map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
+        map.before.push_back(sum_then);
+        map.after.push_back(sum_now);
+        map.held_out.push_back(recording.held_out[middle]);
+      }
+    });
+  }
+  return map;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,58 @@
+#include "diagnosis/verdict/spectral_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <unsupported/Eigen/FFT>
+
+namespace wormdrive {
+
+ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording,
+                        const std::vector<double>* factor, std::string name) {
+  const InnovationLayout& layout = evaluation.layout();
+  const PreparedRecording& r = layout.recordings[recording];
+  const std::size_t begin = layout.leading(recording).begin;
+  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.005 / r.data.period)));
+  const std::size_t n = r.samples() / bin;
+  std::vector<double> w(n, 0.0);
+  for (std::size_t k = 0; k < n * bin; ++k) {
+    if (!r.used[k] || !r.moving[k]) continue;
+    const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
+    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
+  }
+  Eigen::FFT<double> transform;
+  std::vector<std::complex<double>> spectrum;
+  transform.fwd(spectrum, w);
+  constexpr double lowest = 1.0, highest = 50.0;  // [Hz]; what is slower is a matter of angle and time
+  const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
+  std::vector<double> power(lines);
+  std::transform(spectrum.begin(), spectrum.begin() + static_cast<std::ptrdiff_t>(lines), power.begin(),
+                 [](std::complex<double> x) { return std::norm(x); });
+  ScoreTest test;
+  constexpr std::size_t around = 25;
+  // the median of m exponential variates is known as well as the mean of 0.48 m of them
+  constexpr double variates = 0.48 * (2 * around + 1);
+  double strongest = 0.0, frequency = 0.0;
+  for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(lowest * r.duration())); f < lines; ++f) {
+    std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
+                             power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+    std::nth_element(near.begin(), middle, near.end());
+    const double ratio = power[f] / (*middle / std::numbers::ln2 + 1e-300);
+    if (ratio > strongest) {
+      strongest = ratio;
+      frequency = static_cast<double>(f) / (static_cast<double>(n * bin) * r.data.period);
+    }
+  }
+  test.what.gain = strongest;
+  test.what.axis = fmt::format("{} at {:.5} Hz", name, fmt::format("{:f}", frequency));
+  test.what.evidence =
+      variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
+  return test;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,160 @@
+#include "diagnosis/verdict/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "description/keys.hpp"
+#include "diagnosis/verdict/prediction_error.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+std::string in_words(std::string id) {
+  std::replace(id.begin(), id.end(), '_', ' ');
+  return id;
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view last) {
+  std::string all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) all += k + 1 == parts.size() ? fmt::format(" {} ", last) : ", ";
+    all += parts[k];
+  }
+  return all;
+}
+
+/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque that is left can
+/// take back.
+bool is_kinematic(std::string_view effect) {
+  return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
+}
+
+std::string gain_sentence(const Diagnosis& d) {
+  const PredictionError* e = told(d);
+  if (!e) return "";
+  constexpr double milli = 1e3;
+  return fmt::format(
+      " On data not used for the fit the {} s prediction error {} from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
+      e->horizon, e->after <= e->before ? "falls" : "rises", milli * e->before, milli * e->after, e->unit.symbol,
+      milli * e->floor);
+}
+
+/// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
+/// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
+constexpr double most_noise = 1.0 / 3.0;
+
+bool noise_dominated(const Diagnosis& d, double torque) { return !impacts(d) && d.noise_torque > most_noise * torque; }
+
+std::string remainder_sentence(const Diagnosis& d, double torque) {
+  const bool linear = d.extended.axis == Axis::linear;
+  const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
+  if (noise_dominated(d, torque))
+    return fmt::format(" {:.2g} {} rms, of {:.2g} {} of the motor, pass for noise.", d.noise_torque, unit, torque,
+                       unit);
+  const Remainder& r = d.remainders.front();
+  if (r.torque > 0.0)
+    return fmt::format(" A {} of {:.2g} {} rms over {} remains unexplained.", linear ? "force" : "torque", r.torque,
+                       unit, r.axis);
+  return fmt::format(" {} remains unexplained.", r.axis);
+}
+
+}  // namespace
+
+const PredictionError* told(const Diagnosis& d) {
+  for (const PredictionError& e : d.prediction)
+    if (e.horizon == told_horizon) return &e;
+  return nullptr;
+}
+
+bool impacts(const Diagnosis& d) {
+  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
+}
+
+std::string phrase(const EstimatedEffect& effect, Axis axis) {
+  std::string text = in_words(effect.effect) + ":";
+  for (const Estimate& p : effect.parameters) {
+    if (&p != &effect.parameters.front()) text += ",";
+    text += fmt::format(" {} {:.4g}", in_words_of(axis, in_words(p.field)), p.value / p.unit.si);
+    if (p.standard_error > 0.0) text += fmt::format(" +- {:.2g}", p.standard_error / p.unit.si);
+    if (!p.unit.suffix.empty()) text += fmt::format(" {}", p.unit.symbol);
+  }
+  return text;
+}
+
+void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate>& all, const Magnitudes& sizes) {
+  for (const Found& found : selection.causes) {
+    std::vector<std::string> equals;
+    for (const std::size_t other : found.equals) {
+      equals.emplace_back(all[other].effect);
+      for (const std::string_view twin : all[other].twins) equals.emplace_back(twin);
+    }
+    for (const std::string_view twin : all[found.candidate].twins) equals.emplace_back(twin);
+    if (equals.empty() || !d.equivalents.empty()) continue;
+    d.equivalents.emplace_back(all[found.candidate].effect);
+    d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
+  }
+
+  const std::string lacking = "The simulation lacks something that no effect of the catalogue accounts for.";
+  if (d.causes.empty()) {
+    const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);
+    d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
+    d.sentence =
+        adequate ? "The simulation has all that these data show." : lacking + remainder_sentence(d, sizes.torque);
+    return;
+  }
+
+  // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of the error
+  // ahead, of which little but noise is left, or of all that the data show.
+  // A shock is followed no better than its law, which leaves more behind.
+  constexpr double most_of_the_error = 3.0, little_but_noise = 2.0;
+  const double most_of_the_evidence = impacts(d) ? 10.0 : 30.0;
+  const PredictionError* e = told(d);
+  double left = 0.0;
+  for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
+  const double explained = 0.5 * (selection.base.bic - selection.model.bic);
+  const bool predicts = e && e->before >= most_of_the_error * e->after && e->after <= little_but_noise * e->floor;
+  const bool most_done = predicts || explained >= most_of_the_evidence * left;
+  if (noise_dominated(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
+    const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
+    std::vector<std::string> tried;
+    for (const EstimatedEffect& cause : d.causes)
+      if (withdrawn(cause.effect)) tried.push_back(in_words(cause.effect));
+    if (!tried.empty())
+      d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
+    if (!d.equivalents.empty() && withdrawn(d.equivalents.front())) d.equivalents.clear();
+    std::erase_if(d.causes, [&](const EstimatedEffect& cause) { return withdrawn(cause.effect); });
+    for (RankedCandidate& c : d.ranking)
+      if (c.named && withdrawn(c.effect.effect)) {
+        c.named = false;
+        c.outcome = "leaves structure behind";
+      }
+  }
+  if (d.causes.empty()) {
+    d.verdict = Verdict::unexplained;
+    d.sentence = lacking + remainder_sentence(d, sizes.torque);
+    return;
+  }
+
+  std::vector<std::string> phrases;
+  for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause, d.extended.axis));
+  d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
+  d.sentence = (d.remainders.empty() ? "What the simulation lacks is " : "What the simulation lacks is in part ") +
+               joined(phrases, "and") + ".";
+  if (!d.equivalents.empty()) {
+    std::vector<std::string> others;
+    for (std::size_t k = 1; k < d.equivalents.size(); ++k) others.push_back(in_words(d.equivalents[k]));
+    d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
+  }
+  d.sentence += gain_sentence(d);
+  if (e && e->after > e->before)
+    d.remarks.push_back(
+        fmt::format("the error {} s ahead is no smaller: what is named stands on the likelihood of the single samples, "
+                    "{:.3g} nats{}",
+                    e->horizon, explained, impacts(d) ? "; teeth that bounce cannot be followed far" : ""));
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,22 @@
+#pragma once
+#include "diagnosis/candidates/magnitudes.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/inference/selection.hpp"
+
+namespace wormdrive {
+
+/// Decides what a diagnosis may claim, from its causes, what remains and the gain of prediction; fills verdict,
+/// equivalents and sentence, and withdraws names that the data do not bear out.
+void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Candidate>& all,
+           const Magnitudes& sizes);
+
+/// The error ahead that the sentence tells of, null if there is none.
+const PredictionError* told(const Diagnosis& diagnosis);
+
+/// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
+bool impacts(const Diagnosis& diagnosis);
+
+/// "mesh friction: change 0.0150 +- 0.0010"
+std::string phrase(const EstimatedEffect& effect, Axis axis);
+
+}  // namespace wormdrive

@@ -1,0 +1,44 @@
+#pragma once
+#include <vector>
+
+#include "events/simulate.hpp"
+
+namespace wormdrive {
+
+/// The course of a run: every stop of the loop with both its sides. What is derived along a run is carried from stop to
+/// stop, and no event is searched for twice.
+template <class System>
+class EventSequence {
+ public:
+  using Instant = typename System::Instant;
+  struct Stop {
+    Cause cause;
+    Instant before, after;  ///< left and right limit, at one time
+    double disturbance{};   ///< of the worm's shaft from here on [N m]
+
+    /// Only looked at: nothing changes at a report and at the end.
+    bool passed() const { return cause.reason == Reason::report || cause.reason == Reason::end; }
+    bool changes_mode() const { return !(before.mode == after.mode); }
+  };
+
+  /// begin: what the run is started with.
+  explicit EventSequence(const Instant& begin) : left_(begin) {}
+
+  void operator()(const System& system, const Instant& now, const Cause& cause) {
+    Stop stop{cause, now, now};
+    if constexpr (requires { system.disturbance(); }) stop.disturbance = system.disturbance();
+    if (open_) stop.before = left_;
+    if (open_ || stop.passed()) stops_.push_back(stop);
+    open_ = !open_ && !stop.passed();
+    left_ = now;
+  }
+
+  const std::vector<Stop>& stops() const { return stops_; }
+
+ private:
+  Instant left_;
+  bool open_ = true;  ///< the left side of a stop is known, the right one is to come; of the first it is the start
+  std::vector<Stop> stops_;
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,42 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/numbers/sine_cosine.hpp"
+#include "core/piece.hpp"
+#include "events/taylor/polynomial.hpp"
+
+namespace wormdrive {
+
+/// Sets c to the coefficients of an input, up to the last that is asked for.
+inline void expand_input(const Piece& piece, double t, int last, Coefficients& c) {
+  std::fill_n(c.begin(), last + 1, 0.0);
+  c[0] = piece.constant + piece.slope * (t - piece.start);
+  c[1] = piece.slope;
+  for (const Cosine& wave : piece.cosines) {
+    const SineAndCosine now = sine_and_cosine(wave.omega * t + wave.phase);
+    const std::array<double, 4> derivatives{wave.amplitude * now.cosine, -wave.amplitude * now.sine,
+                                            -wave.amplitude * now.cosine, wave.amplitude * now.sine};
+    double weight = 1.0;  // omega^k / k!
+    for (int k = 0; k <= last; ++k) {
+      c[k] += weight * derivatives[k % 4];
+      weight *= wave.omega * reciprocal[k + 1];
+    }
+  }
+}
+
+/// The most that the terms of coefficient k may add up to, whatever the phases.
+inline double most_of_input(const Piece& piece, double t, int k) {
+  double most = k == 0   ? std::abs(piece.constant) + std::abs(piece.slope * (t - piece.start))
+                : k == 1 ? std::abs(piece.slope)
+                         : 0.0;
+  for (const Cosine& wave : piece.cosines) {
+    double term = std::abs(wave.amplitude);
+    for (int j = 1; j <= k; ++j) term *= std::abs(wave.omega) * reciprocal[j];
+    most += term;
+  }
+  return most;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,275 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "core/load.hpp"
+#include "core/numbers/sine_cosine.hpp"
+#include "core/worm_drive.hpp"
+#include "events/taylor/accuracy.hpp"
+#include "events/taylor/arm.hpp"
+#include "events/taylor/equation.hpp"
+#include "events/taylor/input.hpp"
+#include "events/taylor/leap.hpp"
+#include "events/taylor/series_step.hpp"
+#include "events/taylor/stribeck.hpp"
+
+namespace wormdrive {
+
+/// Drives whose motion has formulas of its own; here none.
+template <class System>
+class NominalFlow {
+ public:
+  static constexpr bool known = false;
+  explicit NominalFlow(const System&) {}
+};
+
+template <class Load>
+concept NominalLoad = std::is_same_v<Load, GravityLoad> || std::is_same_v<Load, TimedLoad>;
+
+/// The motion of a drive with nothing but an arm under gravity, or a load over time, and dry and viscous bearings, by
+/// formulas of its own: what SeriesFlow finds for any drive, many times faster.
+template <NominalLoad Load>
+class NominalFlow<WormDrive<double, Load>> {
+ public:
+  static constexpr bool known = true;
+  using System = WormDrive<double, Load>;
+  using Instant = typename System::Instant;
+  using Motion = Expansion<System::guard_count>;
+
+  /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
+  explicit NominalFlow(const System& system)
+      : motor_(system.motor_piece()),
+        disturbance_(system.disturbance()),
+        load_(system.load()),
+        surface_(system.surface()) {
+    if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
+    Bearings bearings;
+    system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
+      if (!effect) return;
+      if constexpr (std::is_same_v<E, WormCoulomb<double>>)
+        bearings.worm_coulomb = effect->torque;
+      else if constexpr (std::is_same_v<E, GearCoulomb<double>>)
+        bearings.gear_coulomb = effect->torque;
+      else if constexpr (std::is_same_v<E, WormViscous<double>>)
+        bearings.worm_viscous = effect->coefficient * system.mesh().i;
+      else if constexpr (std::is_same_v<E, GearViscous<double>>)
+        bearings.gear_viscous = effect->coefficient;
+      else if constexpr (std::is_same_v<E, Stribeck<double>>)
+        curve_ = {*effect, system.mesh()};
+      else if constexpr (!contained<E>)
+        covers_ = false;
+    });
+    const GearMesh<double>& mesh = system.mesh();
+    const double mu = curve_.falls() ? curve_.least_friction() : mesh.mu;
+    for (int motion : {-1, 1})
+      for (int flank : {-1, 0, 1}) {
+        const int at = index(motion, flank);
+        equations_[at] = {mesh, mu, system.Jg(), bearings, amplitude(), surface_, motion, flank};
+        equations_[at].fall = curve_.branch(mesh, system.Jg(), motion * flank);
+      }
+  }
+
+  /// False with an effect that this flow does not know.
+  bool covers() const { return covers_; }
+
+  /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
+  /// the switching surface. Otherwise the equations of core/ have to decide.
+  bool goes_on(const Instant& now) {
+    return inputs_are_constant() && mode_->driven.held.goes_on(now.x[1], held_torques(*mode_), arm_at(now.x[0]));
+  }
+  /// A moving mode under a held torque and how its arm is turned against the gear, where a leap is in closed form.
+  std::optional<DrivenMotion> driven(Mode mode) const {
+    const NominalEquation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
+    return swings && covers_ && !curve_.falls() && !m.rubs ? std::optional(m.driven) : std::nullopt;
+  }
+  const SineAndCosine& arm_offset() const { return offset_; }
+
+  /// The latest mode.
+  Mode mode() const { return mode_->mode; }
+
+  /// Takes up the mode.
+  void begin(const Instant& now) {
+    // Modes outlast samples: a branch is foretold, an index would have to wait for the torque.
+    if (now.mode != mode()) mode_ = &equations_[index(sign(now.mode.motion), sign(now.mode.flank))];
+  }
+
+  /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
+  bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
+    if (!inputs_are_constant()) return false;
+    const HeldTorques held = held_torques(*mode_);
+    const SineAndCosine& arm = arm_at(now.x[0]);
+    const double h = next - now.t;
+    double &theta = now.x[0], &omega = now.x[1];
+    if (curve_.falls()) {
+      if (!curve_.template leap<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
+        return false;
+    } else if (mode_->rubs) {
+      if (!mode_->driven.held.template leap<swings, true>(theta, omega, h, held, arm, accuracy)) return false;
+    } else if (!mode_->driven.held.template leap<swings, false>(theta, omega, h, held, arm, accuracy)) {
+      return false;
+    }
+    now.t = next;
+    return true;
+  }
+
+  /// Those of coefficient k <= 2 of a guard where the latest step begins. Nothing where friction falls over the speed.
+  std::optional<Terms> guard_terms(const Motion& e, double t, int guard, int k) const {
+    if (!covers_ || curve_.falls()) return std::nullopt;
+    const NominalEquation& m = *mode_;
+    if (guard == System::flank_guard) return m.distance_terms(worm_terms(t, k), gear_terms(e, t, k), e.omega[k], k);
+    if (k == 0) return Terms{std::abs(e.omega[0]), std::abs(e.omega[0])};
+    const Terms rate = m.acceleration_terms(worm_terms(t, k - 1), gear_terms(e, t, k - 1), e.omega[k - 1], k - 1);
+    return reciprocal[k] * rate;
+  }
+
+  /// The motion from now on, accurate over a step of at most h.
+  void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    return curve_.falls() ? expand<true>(now, h, accuracy, e) : expand<false>(now, h, accuracy, e);
+  }
+
+ private:
+  template <bool falls>
+  void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    const NominalEquation& m = *mode_;
+    if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
+    const int last = accuracy.order();
+    expand_input(motor_, now.t, last, worm_torque_);
+    worm_torque_[0] += disturbance_;
+    if constexpr (swings) {
+      arm_.begin(arm_at(now.x[0]));
+    } else {
+      expand_input(load_.piece, now.t, last, gear_torque_);
+    }
+
+    e.theta[0] = now.x[0];
+    e.omega[0] = now.x[1];
+    double allowed = accuracy.allowed(e.omega[0], h);
+    double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
+    bool suffices = false;
+    int completed = 0;  // coefficients of angle and guards
+    const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {
+      if constexpr (swings && k > 0) arm_.turn(e.omega, k);
+      if (k == last) return false;
+      if constexpr (k >= TaylorAccuracy::least_order)
+        if (std::abs(e.omega[k]) * power <= allowed) {
+          complete(m, completed, k, e);
+          completed = k + 1;
+          suffices = accuracy.suffices(e, h) && (!falls || curve_.holds(k, h));
+          if (suffices) return false;
+          // a guard is near its root, and has to be exact to rounding; the speed has to be before it can be
+          allowed = std::min(allowed, TaylorAccuracy::rounding_of(e.speed(), h) / h);
+        }
+      power *= h;
+      // What is known first comes first: the series waits for the load.
+      alpha += worm_torque_[k] * m.driven.per_worm_torque - m.driven.held.drag * e.omega[k];
+      if constexpr (swings)
+        alpha += m.driven.held.gravity * arm_.cosine(k);
+      else
+        alpha += gear_torque_[k] * m.per_gear_torque;
+      if constexpr (falls) alpha += curve_.term(k, e.omega, beyond(m, k, e));
+      e.omega[k + 1] = alpha * reciprocal[k + 1];
+      alpha = 0.0;
+      return true;
+    };
+    // One after the other without a loop: how many terms a sum has is known, and no branch is there to be mispredicted.
+    [&]<int... k>(std::integer_sequence<int, k...>) { (next(std::integral_constant<int, k>()) && ...); }
+    (std::make_integer_sequence<int, highest_order + 1>());
+    e.step = h;
+    if (suffices) return;
+    complete(m, completed, last, e);
+    e.step = accuracy.step(e, h);
+    if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
+  }
+
+  /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch the motion.
+  template <class E>
+  static constexpr bool contained =
+      std::is_same_v<E, TorqueSaturation<double>> || std::is_same_v<E, WormInertia<double>> ||
+      std::is_same_v<E, GearInertia<double>> || E::place == Place::sensor;
+  static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
+
+  static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
+  static bool is_constant(const Piece& piece) { return piece.cosines.empty() && piece.slope == 0.0; }
+  bool inputs_are_constant() const {
+    if constexpr (swings)
+      return is_constant(motor_);
+    else
+      return is_constant(motor_) && is_constant(load_.piece);
+  }
+  HeldTorques held_torques(const NominalEquation& m) const {
+    HeldTorques held = m.driven.under(motor_.constant + disturbance_);
+    if constexpr (!swings) {
+      held.push += load_.piece.constant * m.per_gear_torque;
+      held.beyond -= load_.piece.constant * surface_;
+    }
+    return held;
+  }
+
+  /// Terms of coefficient k <= 2 of the torques on both sides where the latest step begins.
+  Terms worm_terms(double t, int k) const {
+    return {std::abs(worm_torque_[k]), most_of_input(motor_, t, k) + (k == 0 ? std::abs(disturbance_) : 0.0)};
+  }
+  Terms gear_terms(const Motion& e, double t, int k) const {
+    if constexpr (swings) {
+      const double v = std::abs(e.omega[0]), turned = k == 0 ? 1.0 : k == 1 ? v : 0.5 * (v * v + std::abs(e.omega[1]));
+      return std::abs(load_.amplitude) * Terms{std::abs(arm_.cosine(k)), turned};
+    } else {
+      return {std::abs(gear_torque_[k]), most_of_input(load_.piece, t, k)};
+    }
+  }
+  double amplitude() const {
+    if constexpr (swings)
+      return load_.amplitude;
+    else
+      return 0.0;
+  }
+  /// Works out sine and cosine of the arm's angle. At the end of a leap they would be known as well, but stand in the
+  /// way of the controller, which waits for the angle and nothing else: that costs a tenth of the time of a sample.
+  [[gnu::always_inline]] void look(double theta_g) {
+    if constexpr (swings) {
+      arm_now_ = of_sum(sine_and_cosine(theta_g), offset_);
+      arm_now_at_ = theta_g;
+    }
+  }
+  const SineAndCosine& arm_at(double theta_g) {
+    if (theta_g != arm_now_at_) look(theta_g);
+    return arm_now_;
+  }
+
+  /// Angle and guards to the order to which the speed is known, from coefficient first on.
+  void complete(const NominalEquation& m, int first, int order, Motion& e) const {
+    e.order = order;
+    Coefficients &speed = e.guards[System::speed_guard], &flank = e.guards[System::flank_guard];
+    const double side = -m.driven.held.flank, motion = m.driven.held.motion;
+    for (int k = first; k <= order; ++k) e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
+    for (int k = first; k <= order; ++k) speed[k] = motion * e.omega[k];
+    for (int k = first; k <= order; ++k) flank[k] = side * beyond(m, k, e);
+    if (side == 0.0) flank[0] = 1.0;
+  }
+  /// Coefficient k of the distance from the switching surface.
+  double beyond(const NominalEquation& m, int k, const Motion& e) const {
+    const double load = swings ? m.driven.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
+    const double distance = worm_torque_[k] - load - m.driven.held.skew * e.omega[k];
+    return k == 0 ? distance + m.driven.friction.beyond : distance;
+  }
+
+  const Piece& motor_;
+  const double& disturbance_;  ///< of the worm's shaft, beside the motor [N m]
+  const Load& load_;
+  double surface_;
+  bool covers_ = true;
+  std::array<NominalEquation, 6> equations_{};
+  const NominalEquation* mode_ = &equations_[0];  ///< that of the latest mode
+  StribeckCurve curve_;
+  Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
+  ArmSeries arm_;                                                 ///< the arm's angle in the latest step
+  SineAndCosine offset_{0.0, 1.0};                                ///< of the arm against the gear
+  SineAndCosine arm_now_{};                                       ///< of the arm at the latest gear angle ...
+  double arm_now_at_ = std::numeric_limits<double>::quiet_NaN();  ///< ... [rad]
+};
+
+}  // namespace wormdrive

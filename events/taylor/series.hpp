@@ -1,0 +1,97 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/numbers/rounded.hpp"
+#include "events/segment_start.hpp"
+#include "events/taylor/accuracy.hpp"
+#include "events/taylor/series_step.hpp"
+
+namespace wormdrive {
+
+/// The motion of any drive as power series: the equations of core/ themselves, with a series for a scalar.
+///
+/// A branch that an equation takes behind the start, as a table does at its points, is not in the series. So every
+/// step is tried: where acceleration and guards on the way are not those of the series, it ends at the branch.
+template <class System>
+class SeriesFlow {
+ public:
+  using Instant = typename System::Instant;
+  using Motion = Expansion<System::guard_count>;
+
+  /// The motion from now on, accurate over a step of at most h.
+  static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    to_order<8>(system, now, h, accuracy, e);
+    const auto step = [&](const Roundings& inputs) {
+      return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, inputs); });
+    };
+    const double within = step({});
+    if (within < e.step) e.step = step(roundings(system, now));
+  }
+
+ private:
+  /// What acceleration [rad/s^2] and guards [their units] may differ by because inputs and torques are rounded.
+  struct Roundings {
+    double acceleration = 0.0;
+    std::array<double, System::guard_count> guards{};
+  };
+  /// Where torques all but cancel, or a sinusoid passes zero, this is more than the tolerance of what is left.
+  static Roundings roundings(const System& system, const Instant& now) {
+    const auto ahead = system.template ahead<1, Rounded>(now);
+    const auto guards = system.guards(ahead, now.mode);
+    Roundings of{roundings_of_series * ahead.omega_g[1].rounding, {}};
+    for (int g = 0; g < System::guard_count; ++g) of.guards[g] = roundings_of_series * guards[g][0].rounding;
+    return of;
+  }
+
+  template <int order>
+  static void to_order(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+    const auto at = system.template ahead<order + 1>(now);
+    const auto guards = system.guards(at, now.mode);
+    e.order = order;
+    std::copy(at.theta_g.c.begin(), at.theta_g.c.end(), e.theta.begin());
+    std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
+    for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
+    if (accuracy.suffices(e, h)) {
+      e.step = h;
+      return;
+    }
+    constexpr int next = order + 6;
+    if constexpr (next <= highest_order)
+      if (next < accuracy.order() + 6) return to_order<next>(system, now, h, accuracy, e);
+    e.step = accuracy.step(e, h);
+  }
+
+  /// Whether the equations at s are those that the series was made from.
+  static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy, const Motion& e,
+                    const Roundings& inputs) {
+    const double t = now.t + s;
+    const auto near = [&](double found, Polynomial c, double allowed) {
+      double size = 0.0, rate = 0.0, power = 1.0;
+      for (std::size_t k = 0; k < c.size(); ++k, power *= s) {
+        size += std::abs(c[k]) * power;
+        if (k + 1 < c.size()) rate += static_cast<double>(k + 1) * std::abs(c[k + 1]) * power;
+      }
+      // the inputs know the time to its own rounding only
+      return std::abs(found - value(c, s)) <=
+             allowed + (accuracy.relative() + rounding) * size + 4.0 * epsilon * std::abs(t) * rate;
+    };
+    const auto there = system.moment(t, value(e.angle(), s), value(e.speed(), s));
+    Coefficients rate;
+    for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * e.omega[k];
+    const double a = system.acceleration(there, now.mode);
+    const double allowed = e.order * accuracy.allowed(there.omega_g) + inputs.acceleration;
+    if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, allowed)) return false;
+    const auto guards = system.guards(there, now.mode);
+    const auto terms = system.guard_terms(there, now.mode);
+    for (int g = 0; g < System::guard_count; ++g)
+      if (!near(guards[g], e.guard(g), rounding * terms[g] + inputs.guards[g])) return false;
+    return true;
+  }
+
+  static constexpr double epsilon = std::numeric_limits<double>::epsilon(), rounding = 64.0 * epsilon;
+};
+
+}  // namespace wormdrive

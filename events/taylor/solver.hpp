@@ -1,0 +1,250 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "events/segment_start.hpp"
+#include "events/simulation_failure.hpp"
+#include "events/solver_settings.hpp"
+#include "events/taylor/nominal.hpp"
+#include "events/taylor/polynomial_root.hpp"
+#include "events/taylor/series.hpp"
+#include "events/timetable.hpp"
+
+namespace wormdrive {
+
+/// Power series of the motion and of the guards, to an order and over a step that the tolerances decide: within a step
+/// everything is a polynomial, so an event is the first root of one and cannot hide between two steps. Reports are
+/// values of these polynomials and do not cut the steps.
+template <class System>
+class TaylorSolver {
+ public:
+  using Instant = typename System::Instant;
+
+  /// The system must outlive the solver; its inputs may change between restarts, its parameters must not.
+  TaylorSolver(const System& system, const SolverSettings& settings)
+      : system_(system), accuracy_(settings), max_step_(settings.max_step), nominal_(system) {}
+
+  /// The mode in which the system goes on after its inputs were set from outside.
+  Mode settle(const Instant& now) {
+    if constexpr (NominalFlow<System>::known)
+      if (nominal_.covers() && nominal_.goes_on(now)) return nominal_.mode();
+    return system_.settle(now);
+  }
+
+  /// The state after a guard has fired.
+  Instant jump(const Instant& now, int guard) {
+    if constexpr (NominalFlow<System>::known)
+      if (!System::at_rest(now.mode) && guard == System::flank_guard &&
+          falls_through(series_.guard(guard), length_,
+                        roundings_of_series * guard_series<0>(system_, now)[guard][0].rounding, time_resolution(now.t)))
+        return {now.t, now.x, System::across_surface(now.mode), now.since};
+    return system_.jump(now, guard);
+  }
+
+  /// Takes up a new state.
+  void restart(const Instant& now) {
+    ++count_.restarts;
+    armed_.fill(false);
+    end_ = now.t;
+    waited_ = 0.0;
+    fired_ = no_guard;
+    if constexpr (NominalFlow<System>::known) nominal_.begin(now);
+  }
+
+  /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
+  /// no_guard.
+  int advance(Instant& now, double next, double limit) {
+    if (next == limit && now.t < next && now.t >= end_ && leap(now, limit)) return no_guard;
+    return advance_step_by_step(now, next, limit);
+  }
+
+  /// The formulas by which it leaps.
+  const NominalFlow<System>& nominal() const { return nominal_; }
+  /// Counts leaps that were made elsewhere by the same formulas, each after a restart.
+  void count_leaps(long leaps) {
+    count_.restarts += leaps;
+    count_.steps += leaps;
+    count_.evaluations += leaps;
+  }
+
+  /// What the solver did since it was made; an evaluation is one power series of the motion.
+  SolverStatistics statistics() const {
+    SolverStatistics sum = count_;
+    sum.guard_evaluations = search_.evaluations();
+    return sum;
+  }
+
+ private:
+  [[gnu::noinline]] int advance_step_by_step(Instant& now, double next, double limit) {
+    for (int steps = 0; !already_there(now.t, next);) {
+      if (now.t >= end_) {
+        if (++steps > most_steps)
+          throw SolverFault(
+              "more than 100000 steps to the next sample or report; the controller does not hold the "
+              "drive, or reports are too far apart");
+        begin_ = now;
+        if (next < limit && leap(now, limit))
+          there_ = now;
+        else
+          step(now, limit);
+      }
+      now = at(std::min(next, end_));
+      if (fired_ != no_guard && now.t == end_) return fired_;
+    }
+    now.t = next;
+    return no_guard;
+  }
+
+  /// Goes on to the limit without a search for events, where the nominal flow can vouch for it.
+  bool leap(Instant& now, double limit) {
+    leapt_ = false;
+    if constexpr (NominalFlow<System>::known) {
+      if (limit - now.t > max_step_ || !nominal_.covers()) return false;
+      if (!nominal_.leap(now, limit, accuracy_)) return false;
+      ++count_.steps;
+      ++count_.evaluations;
+      end_ = limit;
+      leapt_ = true;
+    }
+    return leapt_;
+  }
+
+  /// The motion at a time of the present step.
+  Instant at(double t) {
+    if constexpr (NominalFlow<System>::known) {
+      if (leapt_ && t == end_) return there_;
+      if (leapt_) {
+        Instant then = begin_;
+        nominal_.leap(then, t, accuracy_);  // what it vouched for up to the end it vouches for on the way
+        return then;
+      }
+    }
+    const double s = t == end_ ? length_ : t - begin_.t;
+    return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
+  }
+
+  /// The polynomials from now on to the first event, or to as far as they are accurate->
+  void step(const Instant& now, double limit) {
+    const double h = std::min(limit - now.t, max_step_);
+    expand(now, h);
+    ++count_.steps;
+    ++count_.evaluations;
+    if (!std::isfinite(series_.omega[1]) || !std::isfinite(series_.omega[series_.order]))
+      throw SolverFault("the acceleration is not a finite number");
+    std::array<std::size_t, System::guard_count> vanishing{};
+    for (int g = 0; g < System::guard_count; ++g)
+      if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(now, g);
+
+    // The end of the step is a double, and the step ends there exactly.
+    end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
+    stalled_ = end_ == now.t ? stalled_ + 1 : 0;
+    if (stalled_ > most_stalled) throw SolverFault("the step size fell below the resolution of time");
+    // Shorter than time is resolved: the state goes on, and the clock follows. At a branch of the equations, which no
+    // such step gets across, both go on by what time resolves.
+    const double ulp = end_ == now.t ? std::nextafter(now.t, limit) - now.t : 0.0;
+    const bool brief = end_ == now.t && value(series_.speed(), series_.step) != now.x[1];
+    if (end_ == now.t && !brief) end_ = now.t + ulp;
+    length_ = brief ? series_.step : end_ - now.t;
+    fired_ = no_guard;
+    for (int g = 0; g < System::guard_count; ++g) {
+      if (series_.positive[g]) {
+        armed_[g] = true;
+        continue;
+      }
+      const RootSearch::Fall fall = armed_[g] ? search_.first_fall(series_.guard(g), length_, true)
+                                              : search_.fall_from_start(series_.guard(g), length_, vanishing[g]);
+      armed_[g] = armed_[g] || fall.armed;
+      if (!fall.at || (fired_ != no_guard && *fall.at >= length_)) continue;
+      end_ = std::min(now.t + *fall.at, end_);
+      length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
+      fired_ = g;
+    }
+    if (!brief || (waited_ += length_) < ulp) return;
+    end_ = now.t + ulp;
+    waited_ = 0.0;
+  }
+
+  void expand(const Instant& now, double h) {
+    if constexpr (NominalFlow<System>::known)
+      if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
+    SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
+  }
+
+  /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
+  std::size_t vanishing_at_start(const Instant& now, int guard) {
+    if (const auto few = vanishing_by_far(now, guard)) return *few;
+    const Polynomial c = series_.guard(guard);
+    const double resolution = time_resolution(now.t);
+    if (const auto few = undecided_at_once(guard_series<1>(system_, now)[guard], c[2], c[3], resolution)) return *few;
+    constexpr int last = 4;
+    const auto ahead = guard_series<last>(system_, now)[guard];
+    const int vanishing = undecided(ahead, resolution);
+    if (guard == System::speed_guard && now.x[1] == 0.0) leave_rest(ahead, vanishing, resolution);
+    return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
+  }
+  /// The same for what most starts come to, told by the sizes of the terms alone: what decides is far above all that
+  /// rounding may be, and what does not is below the least that it is.
+  std::optional<std::size_t> vanishing_by_far(const Instant& now, int guard) {
+    if constexpr (NominalFlow<System>::known) {
+      const auto terms = [&](int k) { return nominal_.guard_terms(series_, now.t, guard, k); };
+      const auto value = terms(0), rate = terms(1);
+      if (!value) return std::nullopt;
+      const Polynomial c = series_.guard(guard);
+      const double resolution = time_resolution(now.t), far = 4.0;
+      const double phase = system_.fastest_input(now.t) * std::abs(now.t) + system_.ripple() * std::abs(now.x[0]);
+      // phases of inputs and angles are known to their own rounding only
+      const double share = 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * phase;
+      const double least = 16.0 * Rounded::unit;  // of what is not known: eight times two roundings, see blur()
+      if (c[0] > share * value->most && c[0] > far * std::abs(c[1]) * resolution) return 0;
+      if (std::abs(c[0]) > least * value->present + std::abs(c[1]) * resolution) return std::nullopt;
+      double hidden = share * value->most / std::abs(c[1]) + resolution;  // how long [s] rounding hides the rise
+      if (hidden < series_.step && std::abs(c[1]) > far * (share * rate->most + std::abs(c[2]) * (hidden + resolution) +
+                                                           std::abs(c[3]) * hidden * hidden))
+        return 1;
+      // from rest the rate is the value that starts
+      if (guard != System::speed_guard || c[0] != 0.0 || std::abs(c[1]) > least * rate->present) return std::nullopt;
+      const double bend = std::abs(c[2]);
+      hidden = 2.0 * share * rate->most / bend + 4.0 * resolution;
+      if (hidden >= series_.step ||
+          !(bend > far * (share * terms(2)->most + std::abs(c[3]) * (hidden + 3.0 * resolution) +
+                          2.0 * std::abs(c[4]) * hidden * hidden)))
+        return std::nullopt;
+      stay(1);
+      return 2;
+    }
+    return std::nullopt;
+  }
+  /// Motion from rest: what the start holds of speed and acceleration may be rounding, and would point anywhere. A
+  /// coefficient that is more than rounding counts, though another may outweigh it.
+  template <int last>
+  void leave_rest(const Series<Rounded, last>& speed, int vanishing, double resolution) {
+    for (int k = 0; k <= last && k < vanishing; ++k)
+      if (std::abs(speed[k].value) <= blur(speed, k, resolution)) stay(k);
+  }
+  /// Takes a coefficient of the speed for rounding.
+  void stay(int k) { series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0; }
+
+  static constexpr int most_stalled = 1000, most_steps = 100'000;
+
+  const System& system_;
+  TaylorAccuracy accuracy_;
+  double max_step_;
+  NominalFlow<System> nominal_;
+  Expansion<System::guard_count> series_;
+  Instant begin_{};      ///< of the present step
+  double end_ = 0.0;     ///< of the present step [s] ...
+  double length_ = 0.0;  ///< ... and how far it goes, which may be less than time resolves [s]
+  double waited_ = 0.0;  ///< how long the clock has stood [s]
+  bool leapt_ = false;   ///< the step is a leap to there_; else series_ describes it
+  Instant there_{};
+  int fired_ = no_guard;  ///< the guard that falls through zero at the end
+  RootSearch search_;
+  std::array<bool, System::guard_count> armed_{};
+  int stalled_ = 0;
+  SolverStatistics count_{};
+};
+
+}  // namespace wormdrive

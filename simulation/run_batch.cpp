@@ -1,0 +1,165 @@
+#include "simulation/run_batch.hpp"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "control/lanes/batch.hpp"
+#include "simulation/lane_run.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// Why an action cannot be done; nothing if it is done.
+template <class Action>
+std::optional<std::string> fault_of(Action&& action) {
+  try {
+    action();
+  } catch (const SimulationFailure& halt) {
+    return halt.what();
+  } catch (const SolverFault& fault) {  // before the run began
+    return fault.what();
+  }
+  return std::nullopt;
+}
+
+/// Runs that take their samples together.
+class LaneGroup {
+ public:
+  LaneGroup(LaneKind kind, std::vector<std::unique_ptr<LaneRun>> runs)
+      : kind_(kind), width_(lanes_of(kind)), runs_(std::move(runs)), results_(runs_.size()) {}
+
+  /// first: any of their scenarios.
+  std::vector<BatchResult> run(const Scenario& first) {
+    bool aligned = true;
+    for (int lane = 0; lane < lanes(); ++lane) {
+      alive_[lane / width_] |= 1U << lane % width_;
+      aligned = aligned && runs_[lane]->estimate_is_aligned();
+      attempt(lane, [&] { runs_[lane]->start(place(lane)); });
+    }
+    const LaneBatch batch{.trials = memory_.data(),
+                          .registers = (lanes() + width_ - 1) / width_,
+                          .alive = alive_.data(),
+                          .accuracy = TaylorAccuracy(first.run.solver_settings()),
+                          .estimate_is_aligned = aligned,
+                          .owner = this,
+                          .go_on = go_on,
+                          .note = note,
+                          .sine_and_cosine = [](double angle) { return wormdrive::sine_and_cosine(angle); }};
+    const long counted = take_all_samples(first, batch);
+    for (int lane = 0; lane < lanes(); ++lane)
+      attempt(lane, [&] { results_[lane] = runs_[lane]->finish(place(lane), counted); });
+    return std::move(results_);
+  }
+
+ private:
+  static constexpr long portion = 512;  ///< of samples
+
+  /// Returns how many of them metrics are taken of.
+  long take_all_samples(const Scenario& first, const LaneBatch& batch) {
+    const ControlScenario& control = *first.control;
+    const Timetable timetable(0.0, first.run.duration, std::numeric_limits<double>::infinity(),
+                              {control.sampling.period, control.sampling.offset});
+    const double end = first.run.duration;
+    long counted = 0;
+    std::vector<LaneSample> samples;
+    double next = timetable.sample_time(0);
+    for (long k = 0; next < end;) {
+      samples.clear();
+      for (; next < end && samples.size() < portion; ++k) {
+        const double t = next;
+        next = timetable.sample_time(k + 1);
+        // what lies behind the last sample every run finds alone
+        const bool alone = next >= end || next - t > first.run.max_step;
+        const bool counts = control.window.contains(t);
+        counted += counts;
+        samples.push_back({k, t, k == 0 ? 0.0 : control.sampling.period,
+                           alone ? std::numeric_limits<double>::quiet_NaN() : next - t, counts,
+                           control.reference.at(t)});
+      }
+      take_samples(kind_, batch, samples);
+    }
+    return counted;
+  }
+
+  int lanes() const { return static_cast<int>(runs_.size()); }
+  Lane place(int lane) { return {memory_.data() + lane / width_ * width_ * lane_fields, width_, lane % width_}; }
+  /// What stops one run stops no other.
+  template <class Action>
+  void attempt(int lane, Action&& action) {
+    unsigned& alive = alive_[lane / width_];
+    const unsigned bit = 1U << lane % width_;
+    if ((alive & bit) == 0U) return;
+    if (auto fault = fault_of(action)) {
+      results_[lane] = *fault;
+      alive &= ~bit;
+    }
+  }
+  static void go_on(void* owner, int lane, const LaneSample& sample, double torque) {
+    auto& group = *static_cast<LaneGroup*>(owner);
+    group.attempt(lane, [&] { group.runs_[lane]->go_on(group.place(lane), sample.number, sample.t, torque); });
+  }
+  static void note(void* owner, int lane, const ControlRecord& record) {
+    auto& group = *static_cast<LaneGroup*>(owner);
+    group.runs_[lane]->note(group.place(lane), record);
+  }
+
+  LaneKind kind_;
+  int width_;
+  std::vector<std::unique_ptr<LaneRun>> runs_;
+  std::vector<BatchResult> results_;
+  std::array<unsigned, LaneBatch::most> alive_{};
+  alignas(64) std::array<double, LaneBatch::most * lane_fields> memory_{};
+};
+
+BatchResult run_alone(const Scenario& scenario) {
+  BatchResult result;
+  if (const auto fault = fault_of([&] { result = run_scenario(scenario); })) result = *fault;
+  return result;
+}
+
+/// A scenario's run in a lane, if it fits into one.
+std::unique_ptr<LaneRun> lane_run(const Scenario& scenario) {
+  if (!fits_lane(scenario)) return nullptr;
+  auto run = std::make_unique<LaneRun>(scenario);
+  return run->has_closed_form() ? std::move(run) : nullptr;
+}
+
+}  // namespace
+
+int runs_together(const Scenario& scenario) { return fits_lane(scenario) ? LaneBatch::most : 1; }
+
+std::vector<BatchResult> run_batch(std::span<const Scenario> scenarios, LaneKind kind) {
+  std::vector<BatchResult> results(scenarios.size());
+  run_batch(
+      scenarios, [&](std::size_t place, BatchResult result) { results[place] = std::move(result); }, kind);
+  return results;
+}
+
+void run_batch(std::span<const Scenario> scenarios, const std::function<void(std::size_t, BatchResult)>& take,
+               LaneKind kind) {
+  std::vector<bool> taken(scenarios.size());
+  for (std::size_t first = 0; first < scenarios.size(); ++first) {
+    if (taken[first]) continue;
+    std::vector<std::unique_ptr<LaneRun>> runs;
+    std::vector<std::size_t> places;
+    for (std::size_t k = first; k < scenarios.size() && runs.size() < LaneBatch::most; ++k) {
+      if (taken[k] || (k > first && !share_samples(scenarios[first], scenarios[k]))) continue;
+      auto run = lane_run(scenarios[k]);
+      if (!run && k == first) break;
+      if (!run) continue;
+      runs.push_back(std::move(run));
+      places.push_back(k);
+      taken[k] = true;
+    }
+    if (runs.empty()) {
+      take(first, run_alone(scenarios[first]));
+      continue;
+    }
+    std::vector<BatchResult> found = LaneGroup(kind, std::move(runs)).run(scenarios[first]);
+    for (std::size_t k = 0; k < places.size(); ++k) take(places[k], std::move(found[k]));
+  }
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,113 @@
+#include "sweep/file/merge.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/diagnostics.hpp"
+#include "sweep/file/resume.hpp"
+
+namespace wormdrive {
+namespace {
+
+using Shards = std::vector<std::unique_ptr<SweepReader>>;
+
+/// Trials that one shard has.
+struct Stretch {
+  const SweepReader* shard;
+  TrialRange range;
+};
+
+std::string trials(TrialRange range) {
+  return range.size() == 1 ? fmt::format("trial {}", range.first)
+                           : fmt::format("trials {} to {}", range.first, range.end - 1);
+}
+
+void refuse_what_does_not_belong_together(const Shards& shards) {
+  Diagnostics faults;
+  const SweepReader& first = *shards.front();
+  for (const auto& shard : shards)
+    if (const std::string why = shard->why_not_of(first); !why.empty())
+      faults.add({shard->path()}, fmt::format("is not a shard of the same sweep as {}: {}", first.path(), why));
+  faults.raise();
+}
+
+/// Tells of trials that nobody has: if one shard alone has room for them, it is not finished.
+void tell_missing(const Shards& shards, const SweepReader& beside, std::string_view side, TrialRange range,
+                  Diagnostics& faults) {
+  const auto has_room = [&](const auto& shard) {
+    return shard->range().first <= range.first && range.first < shard->range().end;
+  };
+  const auto owner = std::find_if(shards.begin(), shards.end(), has_room);
+  if (std::count_if(shards.begin(), shards.end(), has_room) == 1)
+    faults.add({(*owner)->path()}, fmt::format("holds {} of {} trials; finish it with --resume", (*owner)->trials(),
+                                               (*owner)->range().size()));
+  else
+    faults.add({beside.path()}, fmt::format("{} {} it stand in no shard", trials(range), side));
+}
+
+/// Whether an older merge of the same sweep is there: nothing that it holds would be lost.
+bool holds_same_sweep(const std::string& output, const SweepReader& shard) {
+  try {
+    return std::filesystem::exists(output) && !std::filesystem::exists(output + ".part") &&
+           SweepReader(output).why_not_of(shard).empty();
+  } catch (const InputFault&) {
+    return false;
+  }
+}
+
+/// What the shards have, in the order of the trials, every one of the study once; every fault is told.
+std::vector<Stretch> in_order(const Shards& shards) {
+  std::vector<Stretch> stretches;
+  for (const auto& shard : shards)
+    for (const TrialRange& range : shard->present()) stretches.push_back({shard.get(), range});
+  std::sort(stretches.begin(), stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.range.first < b.range.first; });
+  Diagnostics faults;
+  std::uint64_t next = 0;
+  for (const auto& [shard, range] : stretches) {
+    if (range.first < next)
+      faults.add({shard->path()},
+                 fmt::format("{} stand in another shard too", trials({range.first, std::min(next, range.end)})));
+    if (range.first > next) tell_missing(shards, *shard, "before", {next, range.first}, faults);
+    next = std::max(next, range.end);
+  }
+  const SweepReader& last = stretches.empty() ? *shards.front() : *stretches.back().shard;
+  if (const std::uint64_t all = last.study().trials(); next < all)
+    tell_missing(shards, last, "after", {next, all}, faults);
+  faults.raise();
+  return stretches;
+}
+
+}  // namespace
+
+std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
+                           const std::string& command_line, Replace replace) {
+  Shards shards;
+  for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
+  refuse_what_does_not_belong_together(shards);
+  const std::vector<Stretch> stretches = in_order(shards);
+  const Study& study = shards.front()->study();
+  if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;
+  const OpenSweep merged =
+      open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false, replace);
+  try {
+    for (const auto& [shard, range] : stretches)
+      for_each_trial(*shard, range, [&](const Trial& trial) { merged.file->append(trial); });
+    std::vector<RefereeVerdict> verdicts;
+    for (const auto& shard : shards)
+      for (const RefereeVerdict& verdict : shard->verdicts()) verdicts.push_back(verdict);
+    merged.file->write(verdicts);
+    merged.file->finish();
+  } catch (const OutputFault&) {
+    std::error_code ignored;  // the shards have all of it
+    std::filesystem::remove(merged.file->part_path(), ignored);
+    throw;
+  }
+  return study.trials();
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "output/hdf5/output_lock.hpp"
+#include "output/replacing.hpp"
+
+namespace wormdrive {
+
+/// Writes the sweep of which the files are the shards, given in any order, and returns its number of trials. Throws
+/// InputFault if one belongs to another sweep, lacks trials, is given twice or is missing, OutputFault if what is there
+/// may not be replaced. lock: of the output.
+std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
+                           const std::string& command_line, Replace replace = Replace::same_kind);
+
+}  // namespace wormdrive

@@ -1,0 +1,132 @@
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output/hdf5/fixed_table.hpp"
+#include "output/hdf5/part_file.hpp"
+#include "sweep/file/reason_table.hpp"
+#include "sweep/study/study.hpp"
+#include "sweep/trial.hpp"
+#include "sweep/trial_range.hpp"
+#include "sweep/verdict.hpp"
+
+namespace wormdrive {
+
+/// The columns of the table /trials.
+std::vector<ColumnDescription> trial_columns(const Study& study);
+/// The columns of the table /referee: verdicts one after the other; a row of zeros is none.
+std::vector<ColumnDescription> verdict_columns(Axis axis);
+
+/// The HDF5 file of a sweep, written while it goes on; see output/schema.md. It stays as NAME.part whatever happens, so
+/// that the sweep can be resumed. Who makes NAME holds its OutputLock meanwhile.
+class SweepFile {
+ public:
+  /// Leaves an empty NAME.part that has room for the trials of a range, all of the study or those of a shard.
+  static void create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
+                     Replace replace = Replace::same_kind);
+  /// Opens NAME.part, to write the trials that it lacks. reasons: those of the trials that it has.
+  SweepFile(const std::string& path, const Study& study, TrialRange range, ReasonTable reasons = {},
+            Replace replace = Replace::same_kind);
+
+  /// Takes a trial of the range, in any order.
+  void append(Trial trial);
+  /// Writes what has waited for half a second: called often enough, it leaves nothing older than a second that would be
+  /// lost if the program dies.
+  void keep_safe();
+  /// Makes all trials safe.
+  void flush();
+  /// Drops every trial from this one on.
+  void drop_from(std::uint64_t trial);
+  /// Writes what a referee found.
+  void write(const std::vector<RefereeVerdict>& verdicts);
+  /// Sums up the trials in /summary and gives the file its final name. Where trials came in another order than that of
+  /// their indices, and kinds of reasons with them, the file is written once more, in order.
+  void finish();
+
+  const std::string& part_path() const { return file_.part_path(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Writes some trials one after the other, all but how they ended, or that alone.
+  enum class Part { all_but_status, status };
+  void write(std::span<const Trial> trials, Part part);
+  void write_reasons();
+  void finish_in_order();
+
+  Axis axis_;
+  TrialRange range_;
+  PartFile file_;
+  std::optional<FixedTable> table_;
+  std::optional<FixedTexts> reason_texts_;
+  std::size_t columns_;
+  std::vector<Trial> waiting_;  ///< trials that are not in the table yet
+  ReasonTable reasons_;
+  std::vector<std::string> reasons_written_;
+  Clock::time_point flushed_;
+};
+
+/// A sweep file, complete or NAME.part, read back.
+class SweepReader {
+ public:
+  /// Throws InputFault if it cannot be read or is no sweep. while_written: another program may be writing trials in it;
+  /// those that it has by now can be read.
+  explicit SweepReader(const std::string& path, bool while_written = false);
+
+  const std::string& path() const { return path_; }
+  const Study& study() const { return study_; }
+  /// As it was typed to begin the sweep.
+  std::string command_line() const { return read_text_attribute(file_, "command_line"); }
+  /// The trials for which it has room.
+  TrialRange range() const { return range_; }
+  /// The trials that it has, in rising order.
+  const std::vector<TrialRange>& present() const { return present_; }
+  std::uint64_t trials() const { return trials_in(present_); }
+  bool has(std::uint64_t trial) const;
+  bool complete() const { return trials() == range_.size(); }
+
+  /// Why rows of the two cannot stand in one sweep: the study, its scenario or the program differ. Empty if they can.
+  std::string why_not_of(const Study& study) const;
+  std::string why_not_of(const SweepReader& other) const;
+
+  /// Trials one after the other: which is the first, how they ended (0: it is missing), and some of their columns.
+  struct Block {
+    std::uint64_t first;
+    std::vector<double> status;
+    std::vector<std::vector<double>> columns;
+  };
+  /// Calls visit for blocks of the whole range, so large that memory does not grow with it.
+  void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const;
+  /// Trials that are all present.
+  std::vector<Trial> read(TrialRange range) const;
+  const std::vector<std::string>& reasons() const { return reasons_; }
+  std::vector<RefereeVerdict> verdicts() const;
+  /// The reasons of the trials that it has, counted.
+  ReasonTable counted_reasons() const;
+
+ private:
+  std::string why_not(const std::string& study, const std::string& scenario, const std::string& build) const;
+
+  std::string path_;
+  Hdf5Handle file_;
+  Study study_;
+  std::string scenario_, build_;
+  TrialRange range_;
+  std::vector<TrialRange> present_;
+  std::vector<std::string> reasons_;
+};
+
+/// Calls visit(trial) for trials of a sweep that are all present, without holding them all.
+template <class Visit>
+void for_each_trial(const SweepReader& sweep, TrialRange range, Visit&& visit) {
+  constexpr std::uint64_t at_once = 4096;
+  for (std::uint64_t first = range.first; first < range.end; first += at_once)
+    for (const Trial& trial : sweep.read({first, std::min(first + at_once, range.end)})) visit(trial);
+}
+
+}  // namespace wormdrive

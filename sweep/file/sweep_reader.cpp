@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "description/diagnostics.hpp"
+#include "description/toml/write_scenario.hpp"
+#include "output/hdf5/read_ahead.hpp"
+#include "output/hdf5/stored_column.hpp"
+#include "output/program.hpp"
+#include "sweep/file/check_sweep.hpp"
+#include "sweep/file/sweep_file.hpp"
+#include "sweep/study/load_study.hpp"
+
+namespace wormdrive {
+
+SweepReader::SweepReader(const std::string& path, bool while_written) : path_(path) {
+  try {
+    read_ahead(path, while_written);
+    file_ = while_written ? open_hdf5_while_written(path) : open_hdf5(path);
+    if (read_text_attribute(file_, "kind") != "sweep") throw OutputFault("it is not the result of a sweep");
+    scenario_ = read_text_attribute(file_, "scenario");
+    build_ = read_text_attribute(file_, "build");
+    study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
+    range_ = check_sweep(file_, study_);
+    for_each_block({}, [&](const Block& block) {
+      std::uint64_t trial = block.first;
+      for (const double status : block.status) {
+        if (status != 0.0) extend(present_, {trial, trial + 1});
+        ++trial;
+      }
+    });
+    reasons_ = read_fixed_texts(file_, "reasons");  // after the trials, for they were written before these
+  } catch (const OutputFault& fault) {
+    reject({path}, fault.what());
+  }
+}
+
+bool SweepReader::has(std::uint64_t trial) const {
+  return std::any_of(present_.begin(), present_.end(),
+                     [&](const TrialRange& range) { return range.first <= trial && trial < range.end; });
+}
+
+std::string SweepReader::why_not(const std::string& study, const std::string& scenario,
+                                 const std::string& build) const {
+  if (const auto other = difference(study_.text, study)) return "the study differs in " + *other;
+  if (const auto other = difference(scenario_, scenario)) return "the scenario differs in " + *other;
+  return build_ == build ? "" : fmt::format("it was made by {}, and this is {}", build_, build);
+}
+std::string SweepReader::why_not_of(const Study& study) const {
+  return why_not(study.text, to_toml(study.scenario), program_identity());
+}
+std::string SweepReader::why_not_of(const SweepReader& other) const {
+  return why_not(other.study_.text, other.scenario_, other.build_);
+}
+
+void SweepReader::for_each_block(const std::vector<std::string>& columns,
+                                 const std::function<void(const Block&)>& visit) const {
+  constexpr std::uint64_t at_once = 1 << 16;
+  for (std::uint64_t first = range_.first; first < range_.end; first += at_once) {
+    const auto read = [&](const std::string& name) {
+      return read_column(file_, "trials/" + name, first - range_.first, std::min(at_once, range_.end - first));
+    };
+    Block block{first, read("status"), {}};
+    for (const std::string& name : columns) block.columns.push_back(read(name));
+    visit(block);
+  }
+}
+
+std::vector<Trial> SweepReader::read(TrialRange range) const {
+  std::vector<Trial> trials(range.size());
+  const auto each = [&](const std::string& name, auto&& put) {
+    const std::vector<double> values = read_column(file_, "trials/" + name, range.first - range_.first, range.size());
+    for (std::size_t k = 0; k < trials.size(); ++k) put(trials[k], values[k]);
+  };
+  each("index", [](Trial& t, double value) { t.index = static_cast<std::uint64_t>(value); });
+  for (const UncertainParameter& p : study_.parameters)
+    each(p.name, [](Trial& t, double value) { t.parameters.push_back(value); });
+  for (const Metric& m : study_.metrics) each(m.name, [](Trial& t, double value) { t.metrics.push_back(value); });
+  each("status", [](Trial& t, double value) { t.status = static_cast<TrialStatus>(value); });
+  each("reason", [&](Trial& t, double value) {
+    const auto code = static_cast<std::size_t>(value);
+    if (code > 0) t.reason = reasons_.at(code - 1);
+  });
+  return trials;
+}
+
+std::vector<RefereeVerdict> SweepReader::verdicts() const {
+  const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
+  const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
+                            speed = read("speed_difference"), t = read("time"),
+                            closed_angle = read("closed_angle_difference"),
+                            closed_speed = read("closed_speed_difference"), closed_t = read("closed_time"),
+                            parted = read("parted");
+  std::vector<RefereeVerdict> list;
+  for (std::size_t k = 0; k < judged.size() && judged[k] != 0.0; ++k) {
+    RefereeVerdict verdict{static_cast<std::uint64_t>(trial[k]), {angle[k], speed[k], t[k]}, {}, judged[k] == 2.0};
+    if (!std::isnan(closed_angle[k])) verdict.in_loop.closed = {closed_angle[k], closed_speed[k], closed_t[k]};
+    if (!std::isnan(parted[k])) verdict.in_loop.parted = parted[k];
+    list.push_back(verdict);
+  }
+  return list;
+}
+
+ReasonTable SweepReader::counted_reasons() const {
+  std::vector<ReasonTable::Entry> entries;
+  for (const std::string& reason : reasons_) entries.push_back({reason, 0, ReasonTable::no_trial});
+  for_each_block({"reason"}, [&](const Block& block) {
+    for (std::size_t row = 0; row < block.status.size(); ++row) {
+      const auto code = static_cast<std::size_t>(block.columns.front()[row]);
+      if (block.status[row] == 0.0 || code == 0) continue;
+      ReasonTable::Entry& entry = entries.at(code - 1);
+      ++entry.count;
+      entry.first = std::min(entry.first, block.first + row);
+    }
+  });
+  return ReasonTable(std::move(entries));
+}
+
+}  // namespace wormdrive

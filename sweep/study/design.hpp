@@ -1,0 +1,99 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <boost/random/sobol.hpp>
+
+#include "sweep/study/correlated_strata.hpp"
+
+namespace wormdrive {
+
+// How the trials of a sweep are spread over the unit cube, a coordinate for each parameter: the probability below its
+// value. A new design is a struct here, an entry in the variant and a `point` in design.cpp.
+
+/// Every trial on its own.
+struct MonteCarlo {
+  static constexpr std::string_view kind = "monte_carlo";
+  std::uint64_t trials{};
+};
+/// Of n equally likely strata of each parameter every one is used once.
+struct LatinHypercube {
+  static constexpr std::string_view kind = "latin_hypercube";
+  std::uint64_t trials{};
+};
+/// A Sobol sequence with a random digital shift.
+struct SobolSequence {
+  static constexpr std::string_view kind = "sobol";
+  std::uint64_t trials{};
+};
+/// For Sobol indices [Saltelli2010]: of two independent samples A and B the rows A, B, and for each parameter A with
+/// that parameter from B; samples (parameters + 2) trials. The samples are dealt out to Sobol sequences whose digital
+/// shifts are independent: a single sequence does not tell how far it is off, these do by how much they differ.
+struct Saltelli {
+  static constexpr std::string_view kind = "saltelli";
+  static constexpr std::uint64_t replicates = 16;
+  std::uint64_t samples{};
+};
+/// Every combination of levels.
+struct Grid {
+  static constexpr std::string_view kind = "grid";
+  std::vector<std::uint64_t> levels;  ///< of each parameter
+};
+/// All at their medians, then each parameter in turn over its levels.
+struct OneAtATime {
+  static constexpr std::string_view kind = "one_at_a_time";
+  std::vector<std::uint64_t> levels;
+  std::vector<double> medians;  ///< the coordinates at which they are
+};
+
+using DesignSettings = std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime>;
+
+/// The coordinate at which a level stands: in the middle of the stratum that is its own.
+double middle_of(std::uint64_t level, std::uint64_t levels);
+
+/// Whether the points are a sample of the parameters' distribution, so that shares of them are probabilities.
+bool is_sample(const DesignSettings& settings);
+/// Whether coordinates may be made dependent afterwards.
+bool allows_correlation(const DesignSettings& settings);
+
+/// How many trials a design has with so many parameters.
+std::uint64_t size(const DesignSettings& settings, std::size_t parameters);
+
+/// The trial whose noise a trial has: itself, but where a row of a Saltelli design is A with one parameter from B that
+/// of A, so that nothing but the parameter is another one.
+std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial);
+
+/// Gives the points of a design, any of them in any order; a thread has its own.
+class Design {
+ public:
+  /// strata: those of a Latin hypercube of correlated parameters, else none.
+  Design(DesignSettings settings, std::size_t parameters, std::uint64_t seed,
+         std::shared_ptr<const CorrelatedStrata> strata = nullptr);
+
+  /// The coordinates of a trial, each in (0, 1).
+  std::vector<double> point(std::uint64_t trial);
+
+ private:
+  std::vector<double> at(const MonteCarlo&, std::uint64_t trial) const;
+  std::vector<double> at(const LatinHypercube& design, std::uint64_t trial) const;
+  std::vector<double> at(const SobolSequence&, std::uint64_t trial);
+  std::vector<double> at(const Saltelli&, std::uint64_t trial);
+  std::vector<double> at(const Grid& design, std::uint64_t trial) const;
+  std::vector<double> at(const OneAtATime& design, std::uint64_t trial) const;
+  double draw(std::uint64_t trial, std::size_t parameter) const;
+  /// A row of the sequence under one of its shifts.
+  std::vector<double> sobol(std::uint64_t row, std::uint64_t replicate);
+
+  DesignSettings settings_;
+  std::size_t parameters_;
+  std::uint64_t seed_;
+  std::shared_ptr<const CorrelatedStrata> strata_;
+  boost::random::sobol sequence_;
+  std::vector<std::vector<std::uint64_t>> shifts_;  ///< of each replicate and dimension of the sequence
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,106 @@
+#include "sweep/study/distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "statistics/normal.hpp"
+
+namespace wormdrive {
+
+std::string Uniform::refusal() const {
+  return low < high ? "" : fmt::format("low = {} must be less than high = {}", low, high);
+}
+
+double Normal::quantile(double u) const { return mean + deviation * normal_quantile(u); }
+
+std::string TruncatedNormal::refusal() const {
+  if (!(low < high)) return fmt::format("low = {} must be less than high = {}", low, high);
+  const double a = (low - mean) / deviation, b = (high - mean) / deviation;
+  const double nearest = a > 0.0 ? a : b < 0.0 ? -b : 0.0;
+  if (nearest <= 30.0) return "";
+  return fmt::format("low to high lies {:.3g} deviations away from the mean; at most 30 are followed", nearest);
+}
+
+double TruncatedNormal::quantile(double u) const {
+  // In the upper tail probabilities crowd near 1: there the mirror image is taken.
+  const bool mirrored = low > mean;
+  const double a = (mirrored ? mean - high : low - mean) / deviation;
+  const double b = (mirrored ? mean - low : high - mean) / deviation;
+  const double below = std::isinf(a) ? 0.0 : normal_probability(a), to = std::isinf(b) ? 1.0 : normal_probability(b);
+  const double p = below + (mirrored ? 1.0 - u : u) * (to - below);
+  const double z = std::clamp(p > 0.0 && p < 1.0 ? normal_quantile(p) : (p > 0.0 ? b : a), a, b);
+  return std::clamp(mean + deviation * (mirrored ? -z : z), low, high);
+}
+
+double Lognormal::quantile(double u) const { return median * portable::exp(log_deviation * normal_quantile(u)); }
+
+std::string Triangular::refusal() const {
+  if (low < high && low <= mode && mode <= high) return "";
+  return fmt::format("low = {}, mode = {}, high = {} must not fall, and low must be less than high", low, mode, high);
+}
+
+double Triangular::quantile(double u) const {
+  const double width = high - low, rise = mode - low, fall = high - mode;
+  return u * width < rise ? low + std::sqrt(u * width * rise) : high - std::sqrt((1.0 - u) * width * fall);
+}
+
+std::string Discrete::refusal() const {
+  if (values.empty()) return "values must hold at least one number";
+  if (weights.empty()) return "";
+  if (weights.size() != values.size())
+    return fmt::format("weights has {} numbers and values {}; state as many", weights.size(), values.size());
+  for (const double weight : weights)
+    if (!(weight >= 0.0)) return fmt::format("weights must not be negative, and {} is", weight);
+  return std::accumulate(weights.begin(), weights.end(), 0.0) > 0.0 ? "" : "one of the weights must be greater than 0";
+}
+
+double Discrete::quantile(double u) const {
+  if (weights.empty()) {
+    const auto k = static_cast<std::size_t>(u * static_cast<double>(values.size()));
+    return values[std::min(k, values.size() - 1)];
+  }
+  double left = u * std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::size_t last = 0;  // with a weight: rounding must not choose one without
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (weights[k] <= 0.0) continue;
+    last = k;
+    if (left < weights[k]) break;
+    left -= weights[k];
+  }
+  return values[last];
+}
+
+Discrete Discrete::each_once() const {
+  Discrete once;
+  for (const double value : values)
+    if (std::find(once.values.begin(), once.values.end(), value) == once.values.end()) once.values.push_back(value);
+  return once;
+}
+
+std::string QuantileTable::refusal() const {
+  if (values.size() < 2 || values.size() != probabilities.size())
+    return fmt::format("values has {} numbers and probabilities {}; state as many, at least 2", values.size(),
+                       probabilities.size());
+  if (probabilities.front() != 0.0 || probabilities.back() != 1.0)
+    return fmt::format("probabilities run from {} to {}; they must run from 0 to 1", probabilities.front(),
+                       probabilities.back());
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (!(probabilities[k] > probabilities[k - 1]))
+      return fmt::format("probabilities must rise, and {} follows {}", probabilities[k], probabilities[k - 1]);
+    if (values[k] < values[k - 1])
+      return fmt::format("values must not fall, and {} follows {}", values[k], values[k - 1]);
+  }
+  return "";
+}
+
+double QuantileTable::quantile(double u) const {
+  const auto next = std::upper_bound(probabilities.begin(), probabilities.end() - 1, u);
+  const auto k = static_cast<std::size_t>(next - probabilities.begin());
+  const double share = (u - probabilities[k - 1]) / (probabilities[k] - probabilities[k - 1]);
+  return values[k - 1] + share * (values[k] - values[k - 1]);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,256 @@
+#include "sweep/study/load_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <locale>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "description/one_line.hpp"
+#include "description/toml/document.hpp"
+#include "simulation/load_scenario.hpp"
+#include "sweep/study/read_design.hpp"
+#include "sweep/study/read_parameters.hpp"
+#include "sweep/study/variable.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// An override of the scenario and where the study states it.
+struct Setting {
+  std::string assignment;  ///< "path=value"
+  Location where;
+};
+using ScenarioSource = std::function<Scenario(const std::vector<Setting>&)>;
+
+class StudyReader {
+ public:
+  StudyReader(const toml::table& root, const std::string& name, Diagnostics& faults)
+      : name_(name), root_(&root, "", Axis::rotary, faults, {name}), faults_(faults) {
+    root_.set_whole("the study");
+  }
+
+  /// source: gives the scenario with what the study makes of it.
+  Study read(const ScenarioSource& source) {
+    study_.title = root_.line("title").value_or(one_line(std::filesystem::path(name_).stem().string()));
+    root_.text("scenario");
+    if (!root_.has("scenario")) root_.lacks("'scenario' (the file of the scenario, beside the study)");
+    for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});
+    stated_ = read_parameters(root_);
+    std::vector<std::optional<double>> levels;
+    for (const StatedParameter& stated : stated_) {
+      study_.parameters.push_back(stated.parameter);
+      levels.push_back(stated.levels);
+    }
+    study_.copula = read_correlations(root_, stated_);
+    root_.section("sweep", [&](TableReader& table) { read_design(table, study_, levels); });
+    if (!root_.has("sweep")) root_.lacks("a [sweep] table with design and trials");
+    if (faults_.empty()) {  // only then can the scenario be judged
+      read_scenario(source);
+      read_metrics();
+      check_kept();
+      read_thresholds();
+    } else {
+      root_.texts("metrics");
+      root_.tables("threshold");
+    }
+    root_.finish();
+    return std::move(study_);
+  }
+
+ private:
+  static Setting setting(const StatedParameter& stated, double value) {
+    return {fmt::format("{}={}", stated.parameter.path, value), stated.where};
+  }
+
+  void read_scenario(const ScenarioSource& source) {
+    for (const StatedParameter& stated : stated_)
+      settings_.push_back(setting(stated, quantile(stated.parameter.distribution, 0.5)));
+    study_.scenario = source(settings_);
+    const std::vector<Variable> all = variables(study_.scenario);
+    std::vector<std::pair<decltype(Variable::place), std::string>> taken;
+    for (std::size_t k = 0; k < stated_.size(); ++k) {
+      UncertainParameter& parameter = study_.parameters[k];
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](const Variable& v) { return v.spelling.key == parameter.path; });
+      if (found == all.end()) {
+        faults_.add(stated_[k].where,
+                    fmt::format("'{}' is not a number of the scenario that a sweep can vary", parameter.path));
+        continue;
+      }
+      parameter.name = found->name;
+      parameter.si_unit = found->si_unit();
+      for (const auto& [place, path] : taken)
+        if (place == found->place)
+          faults_.add(stated_[k].where,
+                      fmt::format("'{}' is the same number as '{}'; keep one of them", parameter.path, path));
+      taken.emplace_back(found->place, parameter.path);
+      refuse_broken_numbers(source, stated_[k]);
+    }
+    faults_.raise();
+  }
+
+  /// Some numbers have to be whole: they are refused when they are moved by a hair, and nothing else is.
+  void refuse_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
+    if (const auto* const discrete = std::get_if<Discrete>(&stated.parameter.distribution))
+      if (std::all_of(discrete->values.begin(), discrete->values.end(), [](double v) { return v == std::round(v); }))
+        return;
+    std::vector<Setting> settings = settings_;
+    settings.push_back(setting(stated, quantile(stated.parameter.distribution, 0.5) * (1.0 + 0x1p-30) + 0x1p-40));
+    try {
+      source(settings);
+    } catch (const InputFault& fault) {
+      for (const Fault& f : fault.faults) faults_.add(f.where, f.what + "; let it be \"discrete\" with whole values");
+    }
+  }
+
+  void read_metrics() {
+    std::vector<Metric> all = metrics_of(study_.scenario);
+    std::vector<std::string> names;
+    for (const Metric& metric : all) names.push_back(metric.name);
+    const std::vector<std::string> wanted = root_.texts("metrics");
+    for (const std::string& name : wanted)
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        root_.fault("metrics", fmt::format("there is no metric '{}'; {}", name, suggestion(name, names)));
+    if (root_.has("metrics") && faults_.empty())
+      std::erase_if(all,
+                    [&](const Metric& m) { return std::find(wanted.begin(), wanted.end(), m.name) == wanted.end(); });
+    if (all.empty() && faults_.empty()) root_.fault("metrics", "metrics must name at least one metric");
+    study_.metrics = std::move(all);
+  }
+
+  void check_kept() {
+    const std::string& by = study_.kept.worst_by;
+    std::vector<std::string> names;
+    for (const Metric& metric : study_.metrics) names.push_back(metric.name);
+    if (by.empty() || std::find(names.begin(), names.end(), by) != names.end()) return;
+    faults_.add({name_}, fmt::format("sweep.keep_worst_by = \"{}\": this study has no such metric; {}", by,
+                                     suggestion(by, names)));
+  }
+
+  void read_thresholds() {
+    const std::vector<const toml::table*> tables = root_.tables("threshold");
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      TableReader table(tables[k], fmt::format("threshold[{}]", k), Axis::rotary, faults_, root_.where());
+      std::vector<std::string> names;
+      for (const Metric& metric : study_.metrics) names.push_back(metric.name);
+      if (const auto name = table.text("metric")) {
+        const auto found = std::find(names.begin(), names.end(), *name);
+        if (found == names.end()) {
+          table.fault("metric", fmt::format("this study has no metric '{}'; {}", *name, suggestion(*name, names)));
+          table.ignore_unknown();
+        } else {
+          read_limit(table, study_.metrics[static_cast<std::size_t>(found - names.begin())]);
+        }
+      } else if (!table.has("metric")) {
+        table.lacks("'metric'");
+        table.ignore_unknown();
+      }
+      table.finish();
+    }
+  }
+
+  void read_limit(TableReader& table, const Metric& metric) {
+    const auto limit = [&](const char* name) {
+      return table.number(name, metric.unit, bounds::any, Presence::optional, "limit");
+    };
+    const auto above = limit("above"), below = limit("below");
+    const std::string key = spellings("above", metric.unit, Axis::rotary).front().key;
+    if (above.has_value() == below.has_value() && faults_.empty())
+      table.fault("metric", fmt::format("a threshold states either {} or {}", key,
+                                        spellings("below", metric.unit, Axis::rotary).front().key));
+    study_.thresholds.push_back({metric.name, above ? *above : below.value_or(0.0), above.has_value()});
+  }
+
+  std::string name_;
+  TableReader root_;
+  Diagnostics& faults_;
+  Study study_;
+  std::vector<Setting> settings_;
+  std::vector<StatedParameter> stated_;
+};
+
+Study read(const std::string& text, const std::string& name,
+           const std::function<Scenario(const std::string& scenario, const std::vector<Setting>&)>& source) {
+  const toml::table root = parse_document(text, name, {});
+  if (root.contains("mesh") && !root.contains("sweep"))
+    reject({name},
+           "this is a scenario, which wormdrive run takes; a sweep takes a study, which names the scenario: "
+           "scenario = \"FILE.toml\", [sweep], [[parameter]]");
+  Diagnostics faults;
+  const std::string scenario = root["scenario"].value_or(std::string());
+  Study study = StudyReader(root, name, faults).read([&](const auto& settings) { return source(scenario, settings); });
+  faults.raise();
+  study.text = text;
+  return study;
+}
+
+/// A fault of an override is told where the study states it.
+std::vector<Fault> relocated(std::vector<Fault> faults, const std::vector<Setting>& settings) {
+  for (Fault& fault : faults)
+    for (const Setting& setting : settings)
+      if (fault.where.file == "--set " + setting.assignment) {
+        fault.where = setting.where;
+        break;
+      }
+  return faults;
+}
+
+void flatten(const toml::node& node, const std::string& path, std::map<std::string, std::string>& into) {
+  if (const toml::table* const table = node.as_table()) {
+    for (const auto& [key, value] : *table)
+      flatten(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), into);
+  } else if (const toml::array* const array = node.as_array()) {
+    for (std::size_t k = 0; k < array->size(); ++k) flatten(*array->get(k), fmt::format("{}[{}]", path, k), into);
+  } else {
+    std::ostringstream value;
+    value.imbue(std::locale::classic());
+    node.visit([&](const auto& leaf) { value << leaf; });
+    into[path] = value.str();
+  }
+}
+
+}  // namespace
+
+Study load_study(const std::string& path) { return read_study(read_text(path), path); }
+
+Study read_study(const std::string& text, const std::string& path) {
+  return read(text, path, [&](const std::string& scenario, const std::vector<Setting>& settings) {
+    std::vector<std::string> overrides;
+    for (const Setting& setting : settings) overrides.push_back(setting.assignment);
+    const std::filesystem::path file = std::filesystem::path(path).parent_path() / scenario;
+    try {
+      return load_scenario(file.string(), overrides, Purpose::run);
+    } catch (const InputFault& fault) {
+      throw InputFault(relocated(fault.faults, settings));
+    }
+  });
+}
+
+Study parse_study(const std::string& text, const std::string& scenario, const std::string& name) {
+  return read(text, name, [&](const std::string&, const std::vector<Setting>&) {
+    return parse_scenario(scenario, name, {}, Purpose::run);
+  });
+}
+
+std::optional<std::string> difference(const std::string& before, const std::string& after) {
+  std::map<std::string, std::string> old, now;
+  flatten(parse_document(before, "before", {}), "", old);
+  flatten(parse_document(after, "after", {}), "", now);
+  const auto value = [](const auto& map, const std::string& key) {
+    const auto found = map.find(key);
+    return found == map.end() ? std::string("not stated") : found->second;
+  };
+  std::map<std::string, std::string> all = old;
+  all.insert(now.begin(), now.end());
+  for (const auto& entry : all)
+    if (const std::string& key = entry.first; value(old, key) != value(now, key))
+      return fmt::format("{}: {}, then {}", key, value(old, key), value(now, key));
+  return std::nullopt;
+}
+
+}  // namespace wormdrive

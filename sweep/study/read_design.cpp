@@ -1,0 +1,138 @@
+#include "sweep/study/read_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "description/toml/read_reference.hpp"
+#include "description/variant_kinds.hpp"
+#include "statistics/random.hpp"
+#include "sweep/study/read_parameters.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr double most_trials = 1e12;  ///< whoever asks for more has slipped
+
+std::uint64_t whole(TableReader& table, const std::string& key, const Bounds& bounds, std::string_view meaning) {
+  const double value = table.number(key, unit::none, bounds, Presence::required, meaning).value_or(1.0);
+  require_whole(table, key, value);
+  return static_cast<std::uint64_t>(value);
+}
+
+class DesignReader {
+ public:
+  DesignReader(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels)
+      : table_(table), study_(study), levels_(levels) {}
+
+  void read(MonteCarlo& design) { read_trials(design); }
+  void read(LatinHypercube& design) { read_trials(design); }
+  void read(SobolSequence& design) { read_trials(design); }
+  void read(Saltelli& design) {
+    design.samples = whole(table_, "samples", bounds::between(2, most_trials / 1e4),
+                           "rows of each of the two samples; there are samples (parameters + 2) trials");
+  }
+  void read(Grid& design) { read_levels(design); }
+  void read(OneAtATime& design) { read_levels(design); }
+
+ private:
+  template <class Sampled>
+  void read_trials(Sampled& design) {
+    design.trials = whole(table_, "trials", bounds::between(1, most_trials), "number of trials");
+  }
+
+  template <class Levelled>
+  void read_levels(Levelled& design) {
+    const Bounds range = bounds::between(1, 1e6);
+    const auto common = table_.number("levels", unit::none, range, Presence::optional, "levels of each parameter");
+    require_whole(table_, "levels", common.value_or(1.0));
+    double combinations = 1.0;
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+      UncertainParameter& parameter = study_.parameters[k];
+      double levels = levels_[k].value_or(common.value_or(5.0)), median = 0.5;
+      if (auto* const discrete = std::get_if<Discrete>(&parameter.distribution)) {
+        const double at_median = discrete->quantile(0.5);
+        *discrete = discrete->each_once();
+        const std::vector<double>& values = discrete->values;
+        if (levels_[k].value_or(static_cast<double>(values.size())) != static_cast<double>(values.size()))
+          table_.fault("design",
+                       fmt::format("sweep.design = \"{}\" takes every value of a discrete parameter once, and "
+                                   "'{}' has {} values and states levels = {}; leave them out",
+                                   Levelled::kind, parameter.path, values.size(), levels));
+        levels = static_cast<double>(values.size());
+        const auto place = std::find(values.begin(), values.end(), at_median) - values.begin();
+        median = middle_of(static_cast<std::uint64_t>(place), values.size());
+      }
+      design.levels.push_back(static_cast<std::uint64_t>(levels));
+      if constexpr (std::is_same_v<Levelled, OneAtATime>) design.medians.push_back(median);
+      combinations *= levels;
+    }
+    if (std::is_same_v<Levelled, Grid> && combinations > most_trials)
+      table_.fault("design",
+                   fmt::format("sweep.design = \"grid\" would have {:.3g} trials; at most {:g} are made. Take "
+                               "fewer levels or \"latin_hypercube\"",
+                               combinations, most_trials));
+  }
+
+  TableReader& table_;
+  Study& study_;
+  const std::vector<std::optional<double>>& levels_;
+};
+
+void read_kept(TableReader& table, Study& study) {
+  const std::vector<double> trials = read_list(table, "keep", Presence::optional);
+  for (const double trial : trials) {
+    if (trial == std::floor(trial) && trial >= 0.0 && trial < static_cast<double>(study.trials())) {
+      study.kept.trials.push_back(static_cast<std::uint64_t>(trial));
+      continue;
+    }
+    table.fault("keep",
+                fmt::format("sweep.keep names {}, which is no trial; there are 0 to {}", trial, study.trials() - 1));
+  }
+  const double worst =
+      table.number("keep_worst", unit::none, bounds::between(0, 1e4), Presence::optional, "worst trials to be kept")
+          .value_or(0.0);
+  require_whole(table, "keep_worst", worst);
+  study.kept.worst = static_cast<std::uint64_t>(worst);
+  study.kept.worst_by = table.text("keep_worst_by").value_or("");
+}
+
+}  // namespace
+
+void read_design(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels) {
+  study.seed = static_cast<std::uint64_t>(
+      table.number("seed", unit::none, seeds, Presence::optional, "seed of all draws").value_or(0.0));
+  require_whole(table, "seed", static_cast<double>(study.seed));
+  study.common_random_numbers = table.truth("common_random_numbers").value_or(false);
+  const auto kind = table.choice("design", kinds_of<DesignSettings>(), Presence::required);
+  if (!kind) return table.ignore_unknown();  // which keys it may have hangs on its kind
+  study.design = make_kind<DesignSettings>(*kind);
+  std::visit([&](auto& design) { DesignReader(table, study, levels).read(design); }, study.design);
+  if (table.faults().empty()) read_kept(table, study);
+  study.referee_tolerance = table
+                                .number("referee_tolerance", unit::radian, bounds::positive, Presence::optional,
+                                        "difference of the gear angle beyond which the referee disagrees")
+                                .value_or(study.referee_tolerance);
+  const bool by_levels = !is_sample(study.design);
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (levels[k] && !by_levels)
+      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels, and parameter '{}' states some", *kind,
+                                        study.parameters[k].path));
+  if (!study.copula.independent() && !allows_correlation(study.design))
+    table.fault(
+        "design",
+        fmt::format("sweep.design = \"{}\" needs independent parameters, and there is a [[correlation]]; {}", *kind,
+                    by_levels ? "leave it out or take \"monte_carlo\", \"latin_hypercube\" or \"sobol\""
+                              : "Sobol indices of dependent parameters do not add up to the variance"));
+  const auto* const latin = std::get_if<LatinHypercube>(&study.design);
+  if (!latin || study.copula.independent() || !table.faults().empty()) return;
+  if (latin->trials > CorrelatedStrata::most_trials)
+    table.fault("trials",
+                fmt::format("sweep.trials = {} is too many for a Latin hypercube with a [[correlation]], which "
+                            "is laid out in memory; at most {}, or take \"sobol\" or \"monte_carlo\"",
+                            latin->trials, CorrelatedStrata::most_trials));
+  study.strata = std::make_shared<CorrelatedStrata>(latin->trials, study.copula, study.seed);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,66 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "description/scenario.hpp"
+#include "sweep/study/correlation.hpp"
+#include "sweep/study/design.hpp"
+#include "sweep/study/distribution.hpp"
+#include "sweep/study/metric.hpp"
+
+namespace wormdrive {
+
+/// A number of the scenario that is uncertain.
+struct UncertainParameter {
+  std::string path;  ///< as --set takes it, "effect.mesh_friction.change"
+  std::string name;  ///< without the unit
+  Unit si_unit;
+  Distribution
+      distribution;  ///< in the unit of the path; where the design goes by levels, of discrete values each once
+};
+
+/// A limit that a metric should keep.
+struct Threshold {
+  std::string metric;
+  double limit{};     ///< SI
+  bool above = true;  ///< it is missed above the limit, else below
+
+  /// A value that is not a number keeps no limit.
+  bool missed_by(double value) const { return !(above ? value <= limit : value >= limit); }
+};
+
+/// Of which trials the trajectories are kept.
+struct Kept {
+  std::vector<std::uint64_t> trials;
+  std::uint64_t worst = 0;  ///< so many
+  std::string worst_by;     ///< by this metric; empty: the one by which trials are ranked
+};
+
+/// A sweep as it is stated: one scenario, what is uncertain in it, and what is asked of it; plain data.
+struct Study {
+  std::string title;
+  Scenario scenario;  ///< every uncertain number at its median
+  std::vector<UncertainParameter> parameters;
+  Copula copula;
+  DesignSettings design;
+  std::shared_ptr<const CorrelatedStrata> strata;  ///< of a Latin hypercube with correlations, which the copula spoils
+  std::uint64_t seed = 0;
+  bool common_random_numbers = false;  ///< all trials have the noise of the scenario, instead of each its own
+  std::vector<Metric> metrics;
+  std::vector<Threshold> thresholds;
+  Kept kept;
+  double referee_tolerance = 1e-6;  ///< of the gear angle [rad], beyond which the referee disagrees
+
+  std::string text;  ///< of the study file
+  bool varies(std::string_view path) const {
+    return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.path == path; });
+  }
+  std::uint64_t trials() const { return size(design, parameters.size()); }
+};
+
+}  // namespace wormdrive

@@ -1,0 +1,66 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "statistics/column.hpp"
+
+namespace wormdrive {
+
+/// An estimate and where the truth lies with 95 % confidence, which are not numbers where there is no telling: of
+/// values that are no sample.
+struct SampleEstimate {
+  double value, low, high;
+
+  bool has_interval() const { return !std::isnan(low); }
+  SampleEstimate without_interval() const { return {value, std::nan(""), std::nan("")}; }
+};
+
+/// Which values of a sample, by their ranks counted from 0, tell its p-quantile and where the true one lies; nothing at
+/// an end for which the sample is too small.
+struct QuantileRanks {
+  std::uint64_t below;  ///< of the neighbour below
+  double share;         ///< of the way from there to the next one
+  std::optional<std::uint64_t> low, high;
+};
+
+/// For a sample of n independent draws, n > 0; the interval is exact and needs no assumption about their distribution
+/// [Hahn1991].
+QuantileRanks quantile_ranks(std::uint64_t n, double p);
+
+/// The p-quantile from at(rank), the values, infinite ones among them; an end of its interval is infinite where the
+/// sample is too small for it.
+template <class At>
+SampleEstimate sample_quantile(const QuantileRanks& ranks, At&& at) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  // between the two neighbours, as numpy does
+  double value = at(ranks.below);
+  if (ranks.share > 0.0)
+    if (const double next = at(ranks.below + 1); std::isfinite(value) && next != value)
+      value += ranks.share * (next - value);
+  return {value, ranks.low ? at(*ranks.low) : -infinite, ranks.high ? at(*ranks.high) : infinite};
+}
+
+/// Probability of what happened k times in n independent trials, with the exact binomial interval [ClopperPearson1934].
+SampleEstimate probability(std::uint64_t k, std::uint64_t n);
+
+/// What share of a metric's variance a parameter makes.
+struct SobolIndex {
+  SampleEstimate first, total;              ///< alone; with all it takes part in
+  double first_deviation, total_deviation;  ///< standard errors
+};
+
+/// Sobol indices of every parameter, in their order.
+struct SobolIndices {
+  std::vector<SobolIndex> of;        ///< none if fewer than two samples are left or the metric is constant
+  std::uint64_t used{}, left_out{};  ///< samples; those are left out of which a value is not finite
+};
+
+/// Sobol indices from a Saltelli design: values of one metric in the order of its trials, from the first one on.
+/// Estimators of Saltelli 2010 for the first and Jansen 1999 for the total index. Intervals are those of Student's t
+/// from the jackknife over the design's replicates [Owen1997]: draws within one are not independent, replicates are.
+SobolIndices sobol_indices(const Column& values, std::size_t parameters);
+
+}  // namespace wormdrive
