@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "description/build_control.hpp"
-#include "simulation/load_scenario.hpp"
 #include "events/simulation_failure.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;

@@ -12,15 +12,15 @@
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/build.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
-#include "diagnosis/inference/fit.hpp"
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
 #include "diagnosis/verdict/adequacy.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/experiment.hpp"
-#include "diagnosis/verdict/prediction_error.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
@@ -80,7 +80,7 @@ Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all
   CauseSearch* better = &found;
   if (hides_what_is_slow(found.model().noise_model)) {
     second.select(*start_plainly(), nullptr);
-    const auto error = [&](const CauseSearch& s) { return error_ahead(evaluation, s.model(), told_horizon); };
+    const auto error = [&](const CauseSearch& s) { return error_ahead(evaluation, s.model(), reported_horizon); };
     constexpr double clearly = 0.9;
     if (error(second) < clearly * error(found)) better = &second;
   }
@@ -152,7 +152,7 @@ void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& befo
 /// What no test of the residuals saw, for it took it for outliers, may show in the error ahead.
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
   constexpr double most = 3.0, most_of_bounces = 10.0;
-  const PredictionError* e = told(d);
+  const PredictionError* e = reported_error(d);
   if (!e || e->after <= most * e->floor) return std::nullopt;
   const double ratio = e->after / e->floor;
   // what bounces leave does not speak against a gap

@@ -9,7 +9,7 @@
 namespace wormdrive {
 namespace {
 
-constexpr int digit = 11;                ///< bits by which values are told apart in one pass
+constexpr int digit = 11;                        ///< bits by which values are told apart in one pass
 constexpr std::uint64_t held_at_once = 1 << 16;  ///< values
 constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
 

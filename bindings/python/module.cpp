@@ -11,11 +11,11 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "description/quantities.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "description/warnings.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/program.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/steady_scenario.hpp"
 
 namespace py = pybind11;

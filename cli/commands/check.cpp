@@ -7,9 +7,9 @@
 #include "cli/describe/teeth.hpp"
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/quantities.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "description/warnings.hpp"
+#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {

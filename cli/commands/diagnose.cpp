@@ -13,11 +13,11 @@
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
-#include "simulation/load_scenario.hpp"
 #include "diagnosis/diagnose_files.hpp"
 #include "diagnosis/report/diagnosis_folder.hpp"
 #include "diagnosis/report/diagnosis_json.hpp"
 #include "diagnosis/verdict/certificate.hpp"
+#include "simulation/load_scenario.hpp"
 #include "statistics/threads.hpp"
 
 namespace wormdrive {

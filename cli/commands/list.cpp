@@ -7,8 +7,8 @@
 
 #include "cli/commands.hpp"
 #include "description/keys.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/table_reader.hpp"
+#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {

@@ -6,9 +6,9 @@
 #include "cli/help_commands.hpp"
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
-#include "simulation/load_scenario.hpp"
 #include "output/replacing.hpp"
 #include "output/text_file.hpp"
+#include "simulation/load_scenario.hpp"
 #include "sweep/file/so_far.hpp"
 
 namespace wormdrive {

@@ -11,9 +11,9 @@
 #include "cli/run_and_write.hpp"
 #include "cli/shell_words.hpp"
 #include "core/elastic/elastic_teeth.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "events/simulation_failure.hpp"
+#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {

@@ -10,9 +10,9 @@
 #include "cli/shell_words.hpp"
 #include "description/build.hpp"
 #include "description/diagnostics.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "output/hdf5/table.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/steady_scenario.hpp"
 
 namespace wormdrive {

@@ -9,11 +9,11 @@
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/data/speed_torque_records.hpp"
 #include "output/hdf5/table.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/steady_scenario.hpp"
 
 namespace wormdrive {

@@ -5,8 +5,8 @@
 #include "cli/describe/drive.hpp"
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
-#include "simulation/load_scenario.hpp"
 #include "output/trajectory.hpp"
+#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {

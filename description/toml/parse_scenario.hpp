@@ -10,9 +10,9 @@ namespace wormdrive {
 /// diagnoses also take gears that no equation of motion covers, and need no [run].
 enum class Purpose { show, look, run };
 
-/// Reads a scenario from TOML text with overrides "table.key=value"; name stands for the text in messages, and the files
-/// that it names are looked for beside it. Throws InputFault with every fault at once, one line each with file, line and
-/// column.
+/// Reads a scenario from TOML text with overrides "table.key=value"; name stands for the text in messages, and the
+/// files that it names are looked for beside it. Throws InputFault with every fault at once, one line each with file,
+/// line and column.
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                         Purpose purpose);
 

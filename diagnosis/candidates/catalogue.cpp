@@ -11,6 +11,9 @@ namespace {
 
 using enum CoordinateForm;
 
+/// What a fall over the speed gets wrong by the shape of its law, as a share of it.
+constexpr double shape_error = 0.1;
+
 /// One coordinate that is a field.
 Coordinate plain_coordinate(std::string_view effect, std::string_view field, double scale, double low, double high) {
   return {.effect = effect, .field = field, .scale = scale, .low = low, .high = high};
@@ -50,7 +53,10 @@ Candidate stribeck(const Magnitudes& m) {
   // a fall within a smaller speed is passed within a few samples: that is friction of rest
   s.coordinates.push_back(
       plain_coordinate("stribeck", "speed", 0.06 * m.sliding_speed, 0.02 * m.sliding_speed, 3.0 * m.sliding_speed));
-  s.finite = s.either_sign = true;
+  s.finite = s.either_sign = s.falls = true;
+  s.limiting_case = "static_friction";
+  // the true law has another shape
+  for (Coordinate& c : s.coordinates) c.model_error = {.of_value = shape_error, .of_scale = 0.0};
   s.starts.clear();
   // exponential [Tustin], bell [Bo & Pavelescu], Lorentzian [Hess & Soom]
   constexpr std::array<std::array<double, 2>, 3> shapes{{{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}};
@@ -69,6 +75,33 @@ Candidate cogging(const Magnitudes& m) {
   s.starts.clear();
   for (const double order : orders) s.starts.push_back({{0.0, 0.0}, {{"cogging", "periods", order}}});
   s.choices = 2.0 * std::log(static_cast<double>(orders.size()));
+  for (Coordinate& c : s.coordinates) c.tried = "periods";
+  return s;
+}
+
+/// What holds back a torque that is held over a sample.
+Candidate late(std::string_view effect, std::string_view field, double period, double least) {
+  Candidate s = finite(effect, field, period, least, 30.0 * period, {0.5 * period, 3.0 * period});
+  s.coordinates[0].model_error = {.of_scale = 0.0, .size = 1.5e-5};
+  return s;
+}
+
+Candidate torque_saturation(const Magnitudes& m) {
+  // a limit far above the true one cuts little, and what it leaves is taken for outliers
+  Candidate s =
+      finite("torque_saturation", "limit", 0.02 * m.largest_torque, 0.1 * m.largest_torque, 1.2 * m.largest_torque,
+             {0.97 * m.largest_torque, m.rare_torques[0], m.rare_torques[1], m.rare_torques[2]});
+  s.resizable = false;
+  s.is_limit = true;
+  s.coordinates[0].model_error = {.of_value = 7e-4, .of_scale = 0.0};  // it is met in the fastest motions
+  return s;
+}
+
+Candidate static_friction(const Magnitudes& m) {
+  Candidate s = finite("static_friction", "rise", 0.04 * m.friction, 0.0, 2.0 * m.friction,
+                       {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.36 * m.friction, 0.5 * m.friction,
+                        0.7 * m.friction, m.friction, 1.4 * m.friction});
+  s.coordinates[0].stepwise = true;
   return s;
 }
 
@@ -76,6 +109,8 @@ Candidate cogging(const Magnitudes& m) {
 Candidate backlash() {
   Candidate s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 5.5e-4, 1e-3, 1.8e-3, 3.3e-3, 6e-3});
   s.impacts = true;
+  // how an impact goes on; loaded teeth yield by 2e-5 rad, which makes a gap seem wider
+  s.coordinates[0].model_error = {.of_value = 0.05, .of_scale = 0.0, .size = 2e-5};
   return s;
 }
 
@@ -90,7 +125,7 @@ Candidate tooth_compliance(const Magnitudes& m) {
 /// An effect that the scenario has already is sought as a change of what it states.
 void start_from_stated(Candidate& s, const Effects<double>& stated) {
   if (!field_of(stated, s.effect, s.coordinates[0].field).on) return;
-  SuspectStart start{std::vector<double>(s.coordinates.size()), {}};
+  CandidateStart start{std::vector<double>(s.coordinates.size()), {}};
   for (std::size_t k = 0; k < s.coordinates.size(); ++k) {
     Coordinate& c = s.coordinates[k];
     start.values[k] = coordinate_value(stated, c);
@@ -112,15 +147,10 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
   all.push_back(linear("bearing_asymmetry", "coefficient", 0.02 * friction_per_speed, -3.0 * friction_per_speed,
                        3.0 * friction_per_speed));
   all.push_back(cogging(m));
-  all.push_back(finite("actuator_lag", "time_constant", m.period, 0.02 * m.period, 30.0 * m.period,
-                       {0.5 * m.period, 3.0 * m.period}));
-  all.push_back(finite("actuator_delay", "delay", m.period, 0.0, 30.0 * m.period, {0.5 * m.period, 3.0 * m.period}));
-  all.back().twins = {"encoder_delay"};
-  // a limit far above the true one cuts little, and what it leaves passes for outliers
-  all.push_back(finite("torque_saturation", "limit", 0.02 * m.largest_torque, 0.1 * m.largest_torque,
-                       1.2 * m.largest_torque,
-                       {0.97 * m.largest_torque, m.rare_torques[0], m.rare_torques[1], m.rare_torques[2]}));
-  all.back().resizable = false;
+  all.push_back(late("actuator_lag", "time_constant", m.period, 0.02 * m.period));
+  all.push_back(late("actuator_delay", "delay", m.period, 0.0));
+  all.back().twins = {{"encoder_delay", "delay"}};
+  all.push_back(torque_saturation(m));
   all.push_back(linear("encoder_scale", "share", 0.01, -0.3, 0.3));
   if (m.has_teeth) {
     const double gear_torque = m.torque * m.worm_speed / m.gear_speed;
@@ -129,9 +159,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     all.push_back(periodic("position_friction", 0.05, 0.7));
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
-    all.push_back(finite("static_friction", "rise", 0.04 * m.friction, 0.0, 2.0 * m.friction,
-                         {0.05 * m.friction, 0.12 * m.friction, 0.25 * m.friction, 0.36 * m.friction, 0.5 * m.friction,
-                          0.7 * m.friction, m.friction, 1.4 * m.friction}));
+    all.push_back(static_friction(m));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
     all.push_back(backlash());
     if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
@@ -150,7 +178,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     s.coordinates[0] = c;
     s.starts[0].values = {c.centre};
     s.toleranced = c.tolerance > 0.0;
-    if (c.effect == "load_angle") s.twins = {"encoder_offset"};
+    if (c.effect == LoadAngle<double>::id) s.twins = {{"encoder_offset", "angle"}};
     all.push_back(s);
   }
   for (Candidate& s : all) start_from_stated(s, stated);
@@ -159,7 +187,8 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
 
 std::vector<NotExamined> not_examined(const Magnitudes& m) {
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"}};
-  if (m.has_teeth && !m.has_worm_encoder) list.push_back({"tooth_compliance", "only an encoder on the worm shows it"});
+  if (m.has_teeth && !m.has_worm_encoder)
+    list.push_back({"tooth_compliance", "only an encoder on the worm shows it", true});
   if (!m.load_turns)
     list.push_back({"encoder_offset", "nothing in the drive depends on where the zero of the angle is"});
   if (!m.has_teeth)
@@ -176,5 +205,11 @@ std::vector<NotExamined> not_examined(const Magnitudes& m) {
     list.push_back({"load_angle", "the load does not depend on the angle"});
   return list;
 }
+
+bool is_kinematic(std::string_view effect) {
+  return has_impacts(effect) || effect == ToothCompliance<double>::id || effect == TransmissionError<double>::id;
+}
+
+bool has_impacts(std::string_view effect) { return effect == Backlash<double>::id; }
 
 }  // namespace wormdrive

@@ -8,24 +8,32 @@
 namespace wormdrive {
 
 /// Where a fit of a candidate starts.
-struct SuspectStart {
+struct CandidateStart {
   std::vector<double> values;      ///< of its coordinates
   std::vector<FieldValue> chosen;  ///< fields that are not fitted but tried out
+};
+
+/// An effect that leaves the very same data, and its field that shows the size.
+struct Twin {
+  std::string_view effect, field;
 };
 
 /// An effect of the catalogue as a possible cause: what a fit of it moves, and from where.
 struct Candidate {
   std::string_view effect;
   std::vector<Coordinate> coordinates;
-  std::vector<SuspectStart> starts;
+  std::vector<CandidateStart> starts;
   /// Where the effect has no derivative at no effect, its signature is what a start of its own does.
   bool finite = false;
-  bool resizable = true;                  ///< the first coordinate of a finite start may be scaled down to no effect
-  bool either_sign = false;               ///< ... and beyond
-  bool impacts = false;                   ///< its likelihood is rough, and a restitution belongs to it
-  double choices = 0.0;                   ///< what trying out costs, as BIC
-  std::string_view frees{};               ///< an effect whose tolerance does not hold beside this one
-  std::vector<std::string_view> twins{};  ///< effects that no recording of this kind tells from it
+  bool resizable = true;             ///< the first coordinate of a finite start may be scaled down to no effect
+  bool either_sign = false;          ///< ... and beyond
+  bool impacts = false;              ///< its likelihood is rough, and a restitution belongs to it
+  double choices = 0.0;              ///< what trying out costs, as BIC
+  std::string_view frees{};          ///< an effect whose tolerance does not hold beside this one
+  std::vector<Twin> twins{};         ///< effects that no recording of this kind tells from it
+  bool is_limit = false;             ///< it acts only beyond its first coordinate
+  bool falls = false;                ///< friction falls with the speed, by a law whose shape is uncertain
+  std::string_view limiting_case{};  ///< the effect that it becomes where its second coordinate is small
 
   /// Whether all its coordinates have a tolerance.
   bool toleranced = false;
@@ -39,7 +47,13 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
 struct NotExamined {
   std::string_view effect;
   std::string_view reason;
+  bool needs_worm_encoder = false;  ///< another recording could show it
 };
 std::vector<NotExamined> not_examined(const Magnitudes& sizes);
+
+/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque can explain.
+bool is_kinematic(std::string_view effect);
+/// Whether an effect lets teeth meet across a gap.
+bool has_impacts(std::string_view effect);
 
 }  // namespace wormdrive

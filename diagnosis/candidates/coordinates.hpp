@@ -16,6 +16,12 @@ enum class CoordinateForm {
   in_quadrature  ///< amplitude sin(phase); at amplitude zero a phase would have no gradient, these two have
 };
 
+/// What the predictor's own laws leave wrong in an estimate, as a standard deviation: a share of its value and of its
+/// scale, and a size in SI. By default less than a thousandth of all that acts, for a size that shows.
+struct ModelError {
+  double of_value = 0.0, of_scale = 0.0035, size = 0.0;
+};
+
 /// A number that a fit moves.
 struct Coordinate {
   std::string_view effect;  ///< id in the catalogue
@@ -25,6 +31,11 @@ struct Coordinate {
   CoordinateForm form = CoordinateForm::plain;
   double centre = 0.0;     ///< what the scenario states
   double tolerance = 0.0;  ///< standard deviation of the truth about it; 0: nothing is known
+  /// Whether the likelihood has steps over it instead of a slope: a model breaks away at one sample or at another.
+  bool stepwise = false;
+  ModelError model_error{};
+  std::string_view blurred_by{}, blurred_by_field{};  ///< a law whose error this number shares where it is at work
+  std::string_view tried{};  ///< another field of the effect, of which values are tried out and reported
 
   bool is(const Coordinate& other) const {
     return effect == other.effect && field == other.field && form == other.form;

@@ -25,8 +25,11 @@ std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const M
                    .centre = centre,
                    .tolerance = tolerance});
   };
-  if (m.has_teeth)
+  if (m.has_teeth) {
     add("mesh_friction", "change", by_scenario.friction * m.friction, 0.04 * m.friction, -0.7 * m.friction, 0.6);
+    all.back().blurred_by = "stribeck";
+    all.back().blurred_by_field = "drop";
+  }
   if (m.load_torque > 0.0) {
     add("load_magnitude", "share", by_scenario.load, 0.03, -0.8, 2.0);
     if (m.load_turns) add("load_angle", "angle", by_scenario.load_angle, 0.03, -0.7, 0.7);
@@ -39,6 +42,9 @@ std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const M
         -0.8 * m.gear_inertia, 3.0 * m.gear_inertia);
   add("worm_inertia", "inertia", by_scenario.worm_inertia * m.worm_inertia, 0.02 * m.worm_inertia,
       -0.5 * m.worm_inertia, 1.0 * m.worm_inertia);
+  // an inertia seems the smaller the faster the motion
+  for (Coordinate& c : all)
+    if (c.effect == GearInertia<double>::id || c.effect == WormInertia<double>::id) c.model_error = {.of_scale = 0.02};
   for (const Tolerance& t : stated) (void)field_of(scenario.effects, t.effect, t.field);
   return all;
 }

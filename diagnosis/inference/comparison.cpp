@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/inference/gap_search.hpp"
-#include "diagnosis/inference/stepwise.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 
 namespace wormdrive {
 
@@ -38,7 +38,7 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
     const double most = AcceptanceRules{}.clip * *middle;
     for (const double g : gains) e.clipped += std::clamp(g, -most, most);
   }
-  e.beside_gap = candidate.effect != "backlash" && gap_of(with);
+  e.beside_gap = !candidate.impacts && gap_of(with);
   for (const Coordinate& c : candidate.coordinates) {
     const int k = index_of(with, c);
     if (k < 0) continue;
@@ -85,9 +85,9 @@ bool accepted(const Evidence& evidence, const Candidate& candidate, const Accept
 }
 
 bool indistinguishable_from(const Hypothesis& h, const Candidate& candidate, const Candidate& other) {
-  if (candidate.effect != "stribeck" || other.effect != "static_friction") return false;
+  if (candidate.limiting_case.empty() || candidate.limiting_case != other.effect) return false;
   constexpr double little_more = 2.0;
-  const int k = index_of(h, "stribeck", "speed");
+  const int k = index_of(h, candidate.coordinates[1]);
   if (k < 0) return false;
   const auto speed = static_cast<std::size_t>(k);
   return h.values[speed] < little_more * h.free[speed].low;

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

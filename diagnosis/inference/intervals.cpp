@@ -6,9 +6,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "diagnosis/inference/fit.hpp"
-#include "diagnosis/inference/gap_search.hpp"
-#include "diagnosis/inference/stepwise.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -122,25 +122,17 @@ namespace {
 /// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
 /// free coordinate in SI.
 double structural_error(const Hypothesis& h, std::size_t k) {
-  constexpr double rigid_share = 0.0035;  // of a size that shows: less than a thousandth of all that acts
-  constexpr double moving_share = 0.02;   // of an inertia, which seems the smaller the faster the motion
-  constexpr double held_torque = 1.5e-5;  // [s], of a lag or delay that acts on a torque held over a sample
-  constexpr double impact_share = 0.05;   // of a gap, by how an impact goes on
-  constexpr double yielding = 2e-5;       // [rad], of a gap, by which loaded teeth make it seem wider
-  constexpr double limit_share = 7e-4;    // of a limit that is met in the fastest motions
-  constexpr double shape_share = 0.1;     // of a fall over the speed, by laws of other shapes
   const Coordinate& c = h.free[k];
-  const double value = h.values[k];
-  if (c.effect == "backlash") return std::hypot(impact_share * value, yielding);
-  // teeth that bounce make the likelihood rough, and what is stated look known better than it is
+  // teeth that meet across a gap make the likelihood rough, and what is stated look known better than it is
   if (c.tolerance > 0.0 && gap_of(h)) return c.tolerance;
-  if (c.effect == "stribeck") return shape_share * value;
-  if (c.effect == "mesh_friction")  // at rest, from where it falls
-    if (const int q = index_of(h, "stribeck", "drop"); q >= 0)
-      return shape_share * h.values[static_cast<std::size_t>(q)];
-  if (c.effect == "torque_saturation") return limit_share * value;
-  if (c.effect == "worm_inertia" || c.effect == "gear_inertia") return moving_share * c.scale;
-  return c.effect == "actuator_lag" || c.effect == "actuator_delay" ? held_torque : rigid_share * c.scale;
+  ModelError error = c.model_error;
+  double value = h.values[k];
+  if (!c.blurred_by.empty())  // a level at rest, from where a law falls
+    if (const int q = index_of(h, c.blurred_by, c.blurred_by_field); q >= 0) {
+      value = h.values[static_cast<std::size_t>(q)];
+      error = h.free[static_cast<std::size_t>(q)].model_error;
+    }
+  return std::hypot(std::hypot(error.of_value * value, error.of_scale * c.scale), error.size);
 }
 
 }  // namespace
@@ -171,11 +163,10 @@ EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance
   };
   for (const Coordinate& c : coordinates)
     for (const std::string_view field : fields_of(c)) add(field);
-  if (effect == "cogging")
-    e.parameters.push_back([&] {
-      const FieldOfEffect periods = field_of(now, effect, "periods");
-      return Estimate{"periods", periods.unit, periods.value, 0.0, periods.value, periods.value};
-    }());
+  if (const std::string_view tried = coordinates.front().tried; !tried.empty()) {
+    const FieldOfEffect at = field_of(now, effect, tried);
+    e.parameters.push_back({std::string(tried), at.unit, at.value, 0.0, at.value, at.value});
+  }
   return e;
 }
 

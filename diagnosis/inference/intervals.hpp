@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

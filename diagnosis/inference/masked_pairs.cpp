@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/comparison.hpp"
-#include "diagnosis/inference/fit.hpp"
 
 namespace wormdrive {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "diagnosis/inference/linear_system.hpp"
+#include "diagnosis/fitting/linear_system.hpp"
 
 namespace wormdrive {
 

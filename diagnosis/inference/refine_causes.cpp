@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "diagnosis/inference/fit.hpp"
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/masked_pairs.hpp"
 #include "diagnosis/inference/selection.hpp"
@@ -15,7 +15,7 @@ namespace wormdrive {
 
 namespace {
 
-std::vector<std::size_t> suspects_of(const std::vector<Found>& causes) {
+std::vector<std::size_t> candidates_of(const std::vector<Found>& causes) {
   std::vector<std::size_t> all;
   for (const Found& f : causes) all.push_back(f.candidate);
   return all;
@@ -23,7 +23,7 @@ std::vector<std::size_t> suspects_of(const std::vector<Found>& causes) {
 
 /// The same with another candidate in the place of one; none where that one is among them already.
 std::vector<std::size_t> exchanged(const std::vector<Found>& causes, std::size_t one, std::size_t other) {
-  std::vector<std::size_t> all = suspects_of(causes);
+  std::vector<std::size_t> all = candidates_of(causes);
   std::replace(all.begin(), all.end(), one, other);
   return std::count(all.begin(), all.end(), other) > 1 ? std::vector<std::size_t>{} : all;
 }
@@ -33,7 +33,7 @@ std::vector<std::size_t> exchanged(const std::vector<Found>& causes, std::size_t
 /// The base with some causes, from the values of a warm hypothesis where it has them.
 Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const {
   Hypothesis h = s_.base;
-  for (const std::size_t c : causes) add_suspect(h, all_, c, all_[c].starts.size() > 1 ? 1 : 0);
+  for (const std::size_t c : causes) add_candidate(h, all_, c, all_[c].starts.size() > 1 ? 1 : 0);
   if (warm) {
     for (std::size_t k = 0; k < h.free.size(); ++k) {
       const int there = index_of(*warm, h.free[k]);
@@ -96,13 +96,13 @@ void CauseSearch::try_pairs() {
   const double have = s_.base.bic - s_.model.bic;
   constexpr std::size_t most = 6;
   const double margin = clear_margin(have);
-  const std::vector<MaskedPair> pairs = masked_pairs(s_.linear, s_.base, all_, suspects_of(s_.causes), most);
+  const std::vector<MaskedPair> pairs = masked_pairs(s_.linear, s_.base, all_, candidates_of(s_.causes), most);
   std::vector<Hypothesis> fitted(pairs.size());
   parallel_for(pairs.size(), evaluation_.threads(), [&](std::size_t k) {
     Hypothesis& h = fitted[k];
     h = s_.base;
-    add_suspect(h, all_, pairs[k].first, pairs[k].first_start);
-    add_suspect(h, all_, pairs[k].second, pairs[k].second_start);
+    add_candidate(h, all_, pairs[k].first, pairs[k].first_start);
+    add_candidate(h, all_, pairs[k].second, pairs[k].second_start);
     fit(evaluation_, h, 10);
     adjust_noise(evaluation_, h, 3);
     fit(evaluation_, h, 3);
@@ -112,7 +112,7 @@ void CauseSearch::try_pairs() {
     const bool fewer = s_.causes.size() > 2;  // that do as well are the better explanation
     if (h.bic >= s_.model.bic - (fewer ? 0.0 : margin)) continue;
     const Candidate &a = all_[pairs[k].first], &b = all_[pairs[k].second];
-    std::vector<std::size_t> now = suspects_of(s_.causes);
+    std::vector<std::size_t> now = candidates_of(s_.causes);
     std::sort(now.begin(), now.end());
     if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
       continue;

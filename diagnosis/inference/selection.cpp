@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/inference/fit.hpp"
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/laws.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/inference/intervals.hpp"
-#include "diagnosis/inference/laws.hpp"
-#include "diagnosis/verdict/prediction_error.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -48,7 +48,7 @@ void CauseSearch::select(const Start& start, const Start* other) {
     tell(fmt::format("trying candidates, round {}", round + 1));
     const bool first = round == 0;
     std::vector<Tried> tried =
-        first ? try_suspects(start, other) : try_suspects({s_.model, screen(evaluation_, s_.model, all_)}, nullptr);
+        first ? try_candidates(start, other) : try_candidates({s_.model, screen(evaluation_, s_.model, all_)}, nullptr);
     if (first) s_.tried = tried;
     const double before = s_.model.bic;
     if (tried.empty() || !take_best(tried, first)) break;
@@ -66,7 +66,7 @@ Selection CauseSearch::confirmed() {
 
 /// The best starts of the candidates that promise most.
 std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& found) const {
-  constexpr std::size_t most_suspects = 6, most = 12;
+  constexpr std::size_t most_candidates = 6, most = 12;
   std::vector<Screened> worth;
   std::vector<std::size_t> seen;
   const double best = found.empty() ? 0.0 : found.front().gain;
@@ -79,7 +79,7 @@ std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& fo
       const auto known =
           std::find_if(worth.begin(), worth.end(), [&](const auto& w) { return w.candidate == s.candidate; });
       if (s.gain < 0.5 * known->gain || s.gain < 0.3 * best) continue;
-    } else if (static_cast<std::size_t>(candidates) >= most_suspects && s.gain < 0.4 * best) {
+    } else if (static_cast<std::size_t>(candidates) >= most_candidates && s.gain < 0.4 * best) {
       continue;
     }
     seen.push_back(s.candidate);
@@ -88,7 +88,7 @@ std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& fo
   return worth;
 }
 
-std::vector<Tried> CauseSearch::try_suspects(const Start& start, const Start* other) {
+std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* other) {
   const Hypothesis& current = start.base;
   const std::vector<Screened> worth = worth_fitting(start.screening.found);
   std::vector<Hypothesis> fitted(worth.size());
@@ -179,15 +179,17 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
 bool CauseSearch::improves_prediction(const Tried& with) const {
   constexpr double least_share = 0.01;
   return s_.causes.empty() || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
-         error_ahead(evaluation_, with.model, told_horizon) <
-             (1.0 - least_share) * error_ahead(evaluation_, s_.model, told_horizon);
+         error_ahead(evaluation_, with.model, reported_horizon) <
+             (1.0 - least_share) * error_ahead(evaluation_, s_.model, reported_horizon);
 }
 
 /// Whether the data bear a cause out beside others. What the law of an impact, or of a fall over the speed, gets wrong
 /// grows with what a gap or a fall explains, and passes for small causes, beside a gap of some size by chance.
 bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, const Candidate& candidate) const {
   if (!accepted(evidence, candidate)) return false;
-  const bool beside_fall = candidate.effect != "stribeck" && index_of(with, "stribeck", "drop") >= 0;
+  const bool beside_fall = !candidate.falls && std::any_of(all_.begin(), all_.end(), [&](const Candidate& other) {
+    return other.falls && index_of(with, other.coordinates.front()) >= 0;
+  });
   if (!evidence.beside_gap && !beside_fall) return true;
   if (evidence.delta_bic <= equivalence_share * (s_.base.bic - with.bic)) return false;
   if (!evidence.beside_gap) return true;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/fitting/linear_system.hpp"
 #include "diagnosis/inference/comparison.hpp"
-#include "diagnosis/inference/linear_system.hpp"
 
 namespace wormdrive {
 
@@ -57,7 +57,7 @@ class CauseSearch {
   const Hypothesis& model() const { return s_.model; }
 
  private:
-  std::vector<Tried> try_suspects(const Start& start, const Start* other);
+  std::vector<Tried> try_candidates(const Start& start, const Start* other);
   std::vector<Screened> worth_fitting(const std::vector<Screened>& found) const;
   std::vector<Tried> try_from(const Start& other, const Hypothesis& current) const;
   bool improves_prediction(const Tried& with) const;

@@ -58,8 +58,10 @@ class Maker {
       for (const double share : {-0.3, 0.3})
         starts.push_back({(1.0 - std::abs(share)) * coordinates.front().centre +
                           share * (share > 0.0 ? coordinates.front().high : -coordinates.front().low)});
-    list_.push_back({coordinates.front().effect, std::move(coordinates), std::move(starts), tolerated});
+    list_.push_back({coordinates.front().effect, std::move(coordinates), std::move(starts), tolerated, {}});
   }
+  /// Of the candidate that was added last.
+  void exclude(std::string_view effect) { list_.back().excludes = effect; }
   std::vector<PointCandidate> take() { return std::move(list_); }
 
  private:
@@ -95,7 +97,9 @@ std::vector<PointCandidate> point_candidates(const Scenario& scenario, const Tor
     std::vector<std::vector<double>> starts;
     for (const double share : {0.005, 0.02, 0.1, 0.5}) starts.push_back({0.1 * mu, std::max(2.0 * at.low, share * v)});
     maker.add({maker.coordinate("stribeck", "drop", mu, 0.5), at}, starts);
+    maker.exclude("agma");  // both say how friction falls with the sliding speed
     maker.add({maker.coordinate("agma", "scale", 1.0, 10.0)}, {{mu / 0.15}});
+    maker.exclude("stribeck");
     one("gear_viscous", "coefficient", gear * mesh.i / speed, 2.0 * gear * mesh.i / speed);
   } else {
     one("static_friction", "rise", mu, 0.5);

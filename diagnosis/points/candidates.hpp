@@ -11,6 +11,7 @@ struct PointCandidate {
   std::vector<Coordinate> coordinates;
   std::vector<std::vector<double>> starts;  ///< values of the coordinates
   bool tolerated = false;                   ///< a stated parameter: its tolerance lets every model move it a little
+  std::string_view excludes{};              ///< an effect that says the same in another way
 };
 
 /// Every effect of the catalogue that changes torques at constant speed or at break-in.

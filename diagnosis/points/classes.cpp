@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "diagnosis/inference/signature.hpp"
+#include "diagnosis/fitting/signature.hpp"
 
 namespace wormdrive {
 namespace {

@@ -96,10 +96,7 @@ std::optional<FittedModel> PointComparison::again(const FittedModel& model, cons
 }
 
 bool PointComparison::fits_beside(const PointCandidate& candidate, const PointModel& model) const {
-  if (model.holds(candidate.effect)) return false;
-  // both say how friction falls with the sliding speed
-  return !(candidate.effect == "agma" && model.holds("stribeck")) &&
-         !(candidate.effect == "stribeck" && model.holds("agma"));
+  return !model.holds(candidate.effect) && (candidate.excludes.empty() || !model.holds(candidate.excludes));
 }
 
 std::string PointComparison::doubt(const FittedModel& model) const {

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "diagnosis/inference/signature.hpp"
+#include "description/keys.hpp"
+#include "diagnosis/fitting/signature.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 #include "statistics/student_t.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "description/build.hpp"
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
 #include "statistics/parallel.hpp"
 

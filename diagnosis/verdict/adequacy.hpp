@@ -3,7 +3,7 @@
 
 #include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

@@ -7,8 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/comparison.hpp"
-#include "diagnosis/inference/fit.hpp"
 
 namespace wormdrive {
 
@@ -161,7 +161,7 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
   const Signatures signatures(linear, base, all);
   std::vector<Visibility> list;
   for (std::size_t c = 0; c < all.size(); ++c) {
-    if (all[c].finite && !all[c].resizable && all[c].effect == "torque_saturation") {
+    if (all[c].is_limit && !all[c].resizable) {
       list.push_back(of_limit(signatures, c, all));
       continue;
     }
@@ -177,20 +177,20 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Visibility& a, const Visibility& b) { return a.detectable < b.detectable; });
     list.push_back(starts[(starts.size() - 1) / 2]);
-    for (const std::string_view twin : all[c].twins) {
+    for (const Twin& twin : all[c].twins) {
       Visibility v = list.back();
-      v.effect = twin;
+      v.effect = twin.effect;
       v.nearest = all[c].effect;
       v.likeness = 1.0;
-      v.field = twin == "encoder_delay" ? "delay" : "angle";
-      v.unit = field_of({}, twin, v.field).unit;
-      list.back().nearest = twin;
+      v.field = twin.field;
+      v.unit = field_of({}, twin.effect, twin.field).unit;
+      list.back().nearest = twin.effect;
       list.back().likeness = 1.0;
       list.push_back(v);
     }
   }
   for (const NotExamined& n : not_examined(sizes)) {
-    if (n.effect != "tooth_compliance") continue;
+    if (!n.needs_worm_encoder) continue;
     Visibility v;
     v.effect = n.effect;
     v.detectable = v.nameable = never;

@@ -4,7 +4,7 @@
 
 #include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/inference/linear_system.hpp"
+#include "diagnosis/fitting/linear_system.hpp"
 
 namespace wormdrive {
 

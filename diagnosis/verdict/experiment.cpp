@@ -10,7 +10,7 @@
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/build_control.hpp"
 #include "description/rejection.hpp"
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "events/simulation_failure.hpp"
 #include "simulation/run_scenario.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "description/keys.hpp"
-#include "diagnosis/verdict/prediction_error.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 
 namespace wormdrive {
 
@@ -26,14 +26,8 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return all;
 }
 
-/// Whether an effect moves worm and gear against each other. What two encoders show of that no torque that is left can
-/// take back.
-bool is_kinematic(std::string_view effect) {
-  return effect == "backlash" || effect == "tooth_compliance" || effect == "transmission_error";
-}
-
 std::string gain_sentence(const Diagnosis& d) {
-  const PredictionError* e = told(d);
+  const PredictionError* e = reported_error(d);
   if (!e) return "";
   constexpr double milli = 1e3;
   return fmt::format(
@@ -63,14 +57,14 @@ std::string remainder_sentence(const Diagnosis& d, double torque) {
 
 }  // namespace
 
-const PredictionError* told(const Diagnosis& d) {
+const PredictionError* reported_error(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)
-    if (e.horizon == told_horizon) return &e;
+    if (e.horizon == reported_horizon) return &e;
   return nullptr;
 }
 
 bool impacts(const Diagnosis& d) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "backlash"; });
+  return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return has_impacts(c.effect); });
 }
 
 std::string phrase(const EstimatedEffect& effect, Axis axis) {
@@ -89,9 +83,9 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
     std::vector<std::string> equals;
     for (const std::size_t other : found.equals) {
       equals.emplace_back(all[other].effect);
-      for (const std::string_view twin : all[other].twins) equals.emplace_back(twin);
+      for (const Twin& twin : all[other].twins) equals.emplace_back(twin.effect);
     }
-    for (const std::string_view twin : all[found.candidate].twins) equals.emplace_back(twin);
+    for (const Twin& twin : all[found.candidate].twins) equals.emplace_back(twin.effect);
     if (equals.empty() || !d.equivalents.empty()) continue;
     d.equivalents.emplace_back(all[found.candidate].effect);
     d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
@@ -111,7 +105,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   // A shock is followed no better than its law, which leaves more behind.
   constexpr double most_of_the_error = 3.0, little_but_noise = 2.0;
   const double most_of_the_evidence = impacts(d) ? 10.0 : 30.0;
-  const PredictionError* e = told(d);
+  const PredictionError* e = reported_error(d);
   double left = 0.0;
   for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
   const double explained = 0.5 * (selection.base.bic - selection.model.bic);

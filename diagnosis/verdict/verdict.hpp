@@ -11,7 +11,7 @@ void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<C
            const Magnitudes& sizes);
 
 /// The error ahead that the sentence tells of, null if there is none.
-const PredictionError* told(const Diagnosis& diagnosis);
+const PredictionError* reported_error(const Diagnosis& diagnosis);
 
 /// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
 bool impacts(const Diagnosis& diagnosis);

@@ -51,8 +51,8 @@ std::string random_effects(Axis axis, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE(
-    "what check accepts of random effects on a linear axis, run and fmu accept, and what it refuses, they refuse") {
+TEST_CASE("what check accepts of random effects on a linear axis, run and fmu accept, and what it refuses, they refuse",
+          "[slow]") {
   std::mt19937 random(7);
   const Folder folder;
   int accepted = 0, refused = 0;

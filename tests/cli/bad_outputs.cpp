@@ -93,7 +93,7 @@ TEST_CASE("an older result stays until a new one is complete") {
 
 // A file may not grow beyond a limit, which HDF5 meets like the end of the disk: while it creates the file and its
 // tables, while it appends rows, and when it closes the file.
-TEST_CASE("a full disk at any moment is told in one line, and nothing is left behind") {
+TEST_CASE("a full disk at any moment is told in one line, and nothing is left behind", "[slow]") {
   const Folder folder;
   folder.write("s.toml", edited(good_scenario, "duration_s = 0.01", "duration_s = 1\nreport_interval_s = 5e-5"));
   for (const auto& writer : writers) {

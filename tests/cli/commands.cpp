@@ -273,7 +273,8 @@ TEST_CASE("a part that runs again is named after the run") {
   CHECK(std::filesystem::exists(folder / "cut_again.h5"));
 }
 
-TEST_CASE("several results share one picture: break-aways in the map of statics, runs over the motor torque") {
+TEST_CASE("several results share one picture: break-aways in the map of statics, runs over the motor torque",
+          "[slow]") {
   const Folder folder;
   const std::string forward = shipped("fig08_ramp_07cm_forward.toml"),
                     backward = shipped("fig08_ramp_07cm_backward.toml");

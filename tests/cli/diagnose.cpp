@@ -30,7 +30,7 @@ void check_members(const json& object, const std::vector<std::pair<std::string, 
 
 }  // namespace
 
-TEST_CASE("a diagnosis writes its folder, names the friction, and its extended scenario runs") {
+TEST_CASE("a diagnosis writes its folder, names the friction, and its extended scenario runs", "[slow]") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   const Outcome outcome = folder.run({"diagnose", scenario, "b.csv", "--set", "mesh.friction=0.2", "-o", "out"});
@@ -113,7 +113,7 @@ TEST_CASE("the report holds every key with its type, and null for what is no num
   CHECK(d["identified"].size() == 3);
 }
 
-TEST_CASE("the same data give the same report, whatever the threads") {
+TEST_CASE("the same data give the same report, whatever the threads", "[slow]") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 4));
   std::vector<json> reports;
@@ -213,7 +213,7 @@ TEST_CASE("tolerances and column names that cannot be are told") {
       });
 }
 
-TEST_CASE("a recording with another payload is diagnosed with the load that it states") {
+TEST_CASE("a recording with another payload is diagnosed with the load that it states", "[slow]") {
   const Folder folder;
   const std::string bench = shipped("example_bench.toml");
   const auto keep = [&](const std::string& file, const std::string& mass) {

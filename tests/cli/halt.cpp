@@ -64,7 +64,7 @@ TEST_CASE("a run that cannot go on says when, in which mode, after what and why,
   CHECK(folder.run({"check", "s.h5.part", "-q"}).exit == 0);
 }
 
-TEST_CASE("a run killed at any moment leaves no result, and its part is readable from the first flush on") {
+TEST_CASE("a run killed at any moment leaves no result, and its part is readable from the first flush on", "[slow]") {
   constexpr int kills = 20, at_once = 5;
   constexpr double longest = 1.5;  // [s]: the part is flushed once a second
   const Folder folder;

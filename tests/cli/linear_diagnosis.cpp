@@ -82,7 +82,8 @@ std::string units_of(const std::string& path, const std::string& column) {
 
 }  // namespace
 
-TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], speaks of forces and positions throughout") {
+TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], speaks of forces and positions throughout",
+          "[slow]") {
   const Folder folder;
   folder.write("s.toml", sledge);
   folder.write("r.csv", recorded("time_s,motor_force_N,position_m"));
@@ -114,7 +115,7 @@ TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], speaks of 
   CHECK(folder.run({"run", "out/extended.toml", "-q", "--set", "run.duration_s=0.1"}).exit == 0);
 }
 
-TEST_CASE("torque at constant speed is a force on a linear axis, in the result and its picture") {
+TEST_CASE("torque at constant speed is a force on a linear axis, in the result and its picture", "[slow]") {
   const Folder folder;
   folder.write("s.toml", sledge + "[effect.worm_viscous]\ncoefficient_Ns_per_m = 3\n");
   const Outcome steady = folder.run({"steady", "s.toml", "-o", "s.h5"});
@@ -181,7 +182,7 @@ TEST_CASE("what is refused of a recording on a linear axis is refused in its uni
                true}});
 }
 
-TEST_CASE("[data] tells the names of records at constant speed and of break-in tables too") {
+TEST_CASE("[data] tells the names of records at constant speed and of break-in tables too", "[slow]") {
   const Folder folder;
   std::string usual = "record,worm_speed_rad_per_s,motor_torque_Nm\n", own = "run,w,u\n";
   for (int k = 1; k <= 6; ++k)

@@ -162,7 +162,7 @@ TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
         std::string::npos);
 }
 
-TEST_CASE("a report of a diagnosis has the verdict and its evidence") {
+TEST_CASE("a report of a diagnosis has the verdict and its evidence", "[slow]") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   REQUIRE(folder

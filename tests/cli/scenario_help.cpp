@@ -35,7 +35,7 @@ std::string nonsense(const std::string& scenario) { return scenario + "zzzzzzzzz
 
 }  // namespace
 
-TEST_CASE("the schema has the keys that the reader knows, in every table") {
+TEST_CASE("the schema has the keys that the reader knows, in every table", "[slow]") {
   const nlohmann::json all = schema(), rotary = all.at("else").at("properties"),
                        linear = all.at("then").at("properties");
   const Folder folder;
@@ -151,7 +151,7 @@ TEST_CASE("what new and diff cannot do is told") {
                        true}});
 }
 
-TEST_CASE("diff tells by its exit code whether two runs agree, and by its words where they do not") {
+TEST_CASE("diff tells by its exit code whether two runs agree, and by its words where they do not", "[slow]") {
   const Folder folder;
   const std::string scenario = shipped("fig09_switching.toml");
   REQUIRE(folder.run({"run", scenario, "-o", "a.h5"}).exit == 0);

@@ -11,8 +11,8 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "description/toml/document.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
+#include "simulation/load_scenario.hpp"
 
 // The schema against which editors check a scenario takes every scenario that the program takes.
 

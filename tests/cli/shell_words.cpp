@@ -30,7 +30,7 @@ std::string behind(const std::string& words, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the way to see a result can be pasted, whatever the result is called") {
+TEST_CASE("the way to see a result can be pasted, whatever the result is called", "[slow]") {
   for (const std::string& name : odd_names) {
     const Folder folder;
     folder.write("s.toml", good_scenario);
@@ -44,7 +44,7 @@ TEST_CASE("the way to see a result can be pasted, whatever the result is called"
   }
 }
 
-TEST_CASE("a file that is called like an option is drawn when it stands behind --, and its picture too") {
+TEST_CASE("a file that is called like an option is drawn when it stands behind --, and its picture too", "[slow]") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q", "--output=-x.h5"}).exit == 0);

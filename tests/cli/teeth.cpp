@@ -101,7 +101,7 @@ TEST_CASE("the result of elastic teeth has columns of its own, and names what ha
             "gear_break_away 7 gear_stop 8 gear_reversal, what happened\n"});
 }
 
-TEST_CASE("a result with elastic teeth runs again and is drawn") {
+TEST_CASE("a result with elastic teeth runs again and is drawn", "[slow]") {
   const Folder folder;
   printed(folder, {"run", jam, "-q", "-o", "r.h5"});
   printed(folder, {"run", "r.h5", "-q"});

@@ -115,7 +115,7 @@ TEST_CASE("a result tells the motor's torque from what disturbs its shaft, an au
   }
 }
 
-TEST_CASE("without a reference there is no tracking error to tell") {
+TEST_CASE("without a reference there is no tracking error to tell", "[slow]") {
   const Folder folder;
   const std::string motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
   const std::string law =

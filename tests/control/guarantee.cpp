@@ -107,7 +107,7 @@ Scenario random_case(std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("no drive within the stated variations breaks a promise of Lemma 1") {
+TEST_CASE("no drive within the stated variations breaks a promise of Lemma 1", "[slow]") {
   std::mt19937_64 random(2009);
   int outside = 0, reached = 0;
   for (int k = 0; k < 1000; ++k) {

@@ -71,7 +71,7 @@ TEST_CASE("in the gap each shaft follows its own torque") {
   REQUIRE(close(end.x[2], -0.5 * t + 0.5 * tau_l / p.Jg * t * t, 1e-11));
 }
 
-TEST_CASE("momentum and energy survive a thousand undamped impacts") {
+TEST_CASE("momentum and energy survive a thousand undamped impacts", "[slow]") {
   const GearMesh<double> mesh(frictionless());
   const auto r = run(thrown(frictionless(), HuntCrossley<double>{k, 0.0}, 1e-3), Timetable(0, 4.2, 10.0),
                      {0.0, {0.0, 1.0, 0.0, 0.5}, {}}, tight(bdf, 1e-15));

@@ -74,7 +74,8 @@ void add_works(Works& sum, Drive d, const typename Drive::Instant& now, double e
 
 }  // namespace
 
-TEST_CASE("through a thousand impacts the work of motor and load is stored, rubbed away and damped, within 1e-9") {
+TEST_CASE("through a thousand impacts the work of motor and load is stored, rubbed away and damped, within 1e-9",
+          "[slow]") {
   const double k = 1e6, backlash = 1e-3;
   Signal motor = fig9_motor();
   motor.terms.push_back(Sinusoid{.amplitude = 0.3, .frequency = 60.0, .phase = 0.0});

@@ -6,7 +6,7 @@
 #include "core/elastic/elastic_teeth.hpp"
 #include "core/elastic/impact.hpp"
 #include "description/build.hpp"
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/predictor/drive_with_backlash.hpp"
 #include "diagnosis/recordings.hpp"
 

@@ -3,10 +3,10 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "simulation/load_scenario.hpp"
 #include "diagnosis/break_in_data.hpp"
 #include "diagnosis/points/break_in_points.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
+#include "simulation/load_scenario.hpp"
 
 // Break-in tables as in fig. 7 of the paper: friction at rest, C1 and C2 from points with 3 % noise.
 
@@ -50,7 +50,7 @@ TEST_CASE("C1, C2 and the friction at rest are identified from break-in points w
   CHECK(inside >= 33);  // of 40 intervals of 95 %: fewer in one of 1000 suites
 }
 
-TEST_CASE("break-in points of the scenario's own friction are adequate") {
+TEST_CASE("break-in points of the scenario's own friction are adequate", "[slow]") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Diagnosis d = diagnosed(table(break_in_csv(0.25, 0.03, seed), {}));
     INFO("seed " << seed << ": " << d.sentence);
@@ -59,7 +59,7 @@ TEST_CASE("break-in points of the scenario's own friction are adequate") {
   }
 }
 
-TEST_CASE("friction at rest that is not the scenario's is named, with the true value in its interval") {
+TEST_CASE("friction at rest that is not the scenario's is named, with the true value in its interval", "[slow]") {
   for (const unsigned seed : {1U, 2U}) {
     const Diagnosis d = diagnosed(table(break_in_csv(0.25, 0.03, seed), {"mesh.friction=0.2"}));
     INFO("seed " << seed << ": " << d.sentence);

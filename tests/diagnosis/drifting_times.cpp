@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "description/diagnostics.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 #include "diagnosis/sheet.hpp"
 
 // Sample times whose steps are even among neighbours but drift: a clock is no worse for being slow.

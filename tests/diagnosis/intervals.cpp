@@ -26,7 +26,7 @@ Hypothesis extended_by(std::string_view effect) {
     h.values.push_back(c.centre);
   }
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (all[k].effect == effect) add_suspect(h, all, k, all[k].starts.size() - 1);
+    if (all[k].effect == effect) add_candidate(h, all, k, all[k].starts.size() - 1);
   return h;
 }
 

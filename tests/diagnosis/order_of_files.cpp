@@ -3,10 +3,10 @@
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/recordings.hpp"
 #include "diagnosis/report/diagnosis_json.hpp"
-#include "diagnosis/verdict/prediction_error.hpp"
 #include "support.hpp"
 
 // Several files are one body of data: in which order they are given makes no difference.
@@ -58,7 +58,7 @@ TEST_CASE("noise is that of all recordings, in whatever order they stand") {
   CHECK(std::abs(both.torque - turned.torque) <= 1e-12 * both.torque);
 }
 
-TEST_CASE("two recordings are diagnosed alike in either order, to the last digit") {
+TEST_CASE("two recordings are diagnosed alike in either order, to the last digit", "[slow]") {
   Scenario truth = nominal_arm();
   set_field(truth.effects, {"worm_coulomb", "torque", 2e-3});
   const Recording a = record(truth, {.duration = 4.0, .seed = 1}), b = record(truth, {.duration = 3.5, .seed = 2});
@@ -66,7 +66,8 @@ TEST_CASE("two recordings are diagnosed alike in either order, to the last digit
   CHECK(told(diagnose(nominal_arm(), {a, b})) == told(diagnose(nominal_arm(), {b, a})));
 }
 
-TEST_CASE("break-in tables and records at constant speed are diagnosed alike in either order of their files") {
+TEST_CASE("break-in tables and records at constant speed are diagnosed alike in either order of their files",
+          "[slow]") {
   const Folder folder;
   folder.write("a.csv", break_in_csv(0.25, 0.03, 3));
   folder.write("b.csv", break_in_csv(0.25, 0.03, 4));

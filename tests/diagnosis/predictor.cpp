@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "diagnosis/inference/evaluation.hpp"
+#include "diagnosis/fitting/evaluation.hpp"
 #include "diagnosis/recordings.hpp"
 #include "events/short_step_solver.hpp"
 #include "support.hpp"

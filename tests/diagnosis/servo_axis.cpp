@@ -3,11 +3,11 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "simulation/load_scenario.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
 // A measured axis without a gear, 25 s at 1 kHz: Janot, Gautier, Brunot, EMPS, 2019. A diagnosis that knows its mass
@@ -115,7 +115,7 @@ TEST_CASE("the measured axis: Coulomb, viscous friction and offset alone come wi
   Hypothesis h = without_noise_model({});
   for (const std::string_view effect : {"worm_coulomb", "worm_viscous", "torque_offset"})
     for (std::size_t k = 0; k < all.size(); ++k)
-      if (all[k].effect == effect) add_suspect(h, all, k, 0);
+      if (all[k].effect == effect) add_candidate(h, all, k, 0);
   fit(evaluation, h, 12);
   adjust_noise(evaluation, h, 10);
   fit(evaluation, h, 12, 0.01);
@@ -127,7 +127,7 @@ TEST_CASE("the measured axis: Coulomb, viscous friction and offset alone come wi
 }
 
 TEST_CASE("the measured axis: from its mass, friction is named and then that it depends on the direction",
-          "[reference]") {
+          "[reference][slow]") {
   const auto axis = measured_axis();
   if (!axis) return;
   const Diagnosis d = diagnose(axis->scenario, {axis->recording}, {.threads = 2});

@@ -52,7 +52,7 @@ bool holds(const std::vector<std::string>& list, const std::string& id) {
 
 }  // namespace
 
-TEST_CASE("a second payload splits the class that one leaves") {
+TEST_CASE("a second payload splits the class that one leaves", "[slow]") {
   const FieldValue planted{"worm_coulomb", "torque", 5e-4};
   const Recording light = slow_sweep(with(exact_arm(), planted), 0.1, 1);
   const Recording heavy = slow_sweep(with(exact_arm(2.0), planted), 0.1, 2);
@@ -69,7 +69,7 @@ TEST_CASE("a second payload splits the class that one leaves") {
   CHECK(ids(both) == std::vector<std::string>{"worm_coulomb"});
 }
 
-TEST_CASE("the proposed experiment, made and diagnosed with the first recording, splits the class") {
+TEST_CASE("the proposed experiment, made and diagnosed with the first recording, splits the class", "[slow]") {
   const FieldValue planted{"worm_coulomb", "torque", 5e-4};
   const Recording first = slow_sweep(with(exact_arm(), planted), 0.1, 1);
   const Diagnosis before = diagnose(exact_arm(), {first});

@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 #include "description/diagnostics.hpp"
-#include "simulation/load_scenario.hpp"
 #include "diagnosis/sheet.hpp"
+#include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
 // What is taken for a recording, and what is left out of it.

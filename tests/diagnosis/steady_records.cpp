@@ -12,9 +12,9 @@
 #include "cli/program.hpp"
 #include "core/steady.hpp"
 #include "description/build.hpp"
-#include "simulation/load_scenario.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
+#include "simulation/load_scenario.hpp"
 
 // Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
 
@@ -59,7 +59,7 @@ Diagnosis diagnosed(const std::vector<SpeedTorqueRecord>& records, const Scenari
 }  // namespace
 
 TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, the levels are one class",
-          "[reference]") {
+          "[reference][slow]") {
   const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
   if (!std::filesystem::exists(path)) {
     std::cout << "skipped: reference data not found\n";
@@ -93,7 +93,7 @@ TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, t
   CHECK(d.prediction[0].after < d.prediction[0].after_high);
 }
 
-TEST_CASE("records of the scenario's own drive are adequate, whatever the noise") {
+TEST_CASE("records of the scenario's own drive are adequate, whatever the noise", "[slow]") {
   const Scenario scenario = mesh_friction_only();
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     const Diagnosis d = diagnosed(hidden(scenario, 2e-5, seed), scenario);
@@ -104,7 +104,7 @@ TEST_CASE("records of the scenario's own drive are adequate, whatever the noise"
   }
 }
 
-TEST_CASE("hidden friction over the speed is named, with its size in the interval") {
+TEST_CASE("hidden friction over the speed is named, with its size in the interval", "[slow]") {
   const Scenario scenario = mesh_friction_only();
   int covered = 0;
   for (const auto& [effect, field, size] : {std::tuple{"worm_viscous", "coefficient", 1.2e-5},
@@ -126,7 +126,7 @@ TEST_CASE("hidden friction over the speed is named, with its size in the interva
   CHECK(covered >= 4);  // of 6 intervals of 95 %: fewer in one of 400 suites
 }
 
-TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more") {
+TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more", "[slow]") {
   const Scenario scenario = mesh_friction_only();
   for (const auto& [effect, field, size] : {std::tuple{"worm_coulomb", "torque", 4e-4},
                                             {"mesh_friction", "change", 0.05},
@@ -142,7 +142,7 @@ TEST_CASE("an effect on the level of friction is told as one of its class, for o
   }
 }
 
-TEST_CASE("what records at constant speed cannot show is told") {
+TEST_CASE("what records at constant speed cannot show is told", "[slow]") {
   const Scenario scenario = mesh_friction_only();
   const Diagnosis d = diagnosed(hidden(scenario, 2e-5, 7), scenario);
   std::set<std::string> unseen;

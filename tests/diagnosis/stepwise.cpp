@@ -1,10 +1,10 @@
-#include "diagnosis/inference/stepwise.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 
 #include <cmath>
 
 #include "catch.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/recordings.hpp"
 #include "support.hpp"
@@ -26,7 +26,7 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
   REQUIRE_FALSE(has_slope(all[index].coordinates[0]));
   for (const std::size_t start : {1U, 3U}) {
     Hypothesis h;
-    add_suspect(h, all, index, start);
+    add_candidate(h, all, index, start);
     CAPTURE(h.values[0]);
     fit(evaluation, h, 3);
     adjust_noise(evaluation, h, 6);

@@ -1,7 +1,7 @@
 #include "diagnosis/verdict/verdict.hpp"
 
 #include "catch.hpp"
-#include "diagnosis/verdict/prediction_error.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 
 namespace wormdrive::test::diagnosis_verdict {
 
@@ -12,7 +12,7 @@ Diagnosis named(const char* effect, double before, double after) {
   Diagnosis d;
   d.causes = {{effect, {}}};
   PredictionError e;
-  e.horizon = told_horizon;
+  e.horizon = reported_horizon;
   e.before = before;
   e.after = after;
   e.floor = 1e-3;

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 #include "diagnosis/candidates/magnitudes.hpp"
-#include "diagnosis/inference/fit.hpp"
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 #include "numbers.hpp"
 #include "recovery/campaign.hpp"
@@ -43,7 +43,7 @@ Hypothesis fitted(const Bench& b, std::string_view effect, std::size_t start = 0
   Hypothesis h;
   h.noise = {0.3, 0.01};
   for (std::size_t k = 0; k < b.all.size(); ++k)
-    if (b.all[k].effect == effect) add_suspect(h, b.all, k, start);
+    if (b.all[k].effect == effect) add_candidate(h, b.all, k, start);
   REQUIRE(h.free.size() > 0);
   fit(b.evaluation, h, 10);
   adjust_noise(b.evaluation, h, 6);
@@ -84,7 +84,7 @@ TEST_CASE("where the zero of the worm's encoder is does not matter") {
   CHECK(worst <= 1e-9);
 }
 
-TEST_CASE("teeth that yield, an uneven pitch and backlash are found by both encoders together") {
+TEST_CASE("teeth that yield, an uneven pitch and backlash are found by both encoders together", "[slow]") {
   const Bench yields = bench("tooth_compliance", 1.5e-3);
   const double stiffness = yields.recorded.drive.teeth.stiffness;
   CHECK(std::abs(field(fitted(yields, "tooth_compliance"), "tooth_compliance", "stiffness") / stiffness - 1.0) < 0.05);

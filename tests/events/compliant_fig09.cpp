@@ -158,7 +158,8 @@ Distance distance(const Elastic& elastic, const Rigid& rigid) {
 
 }  // namespace
 
-TEST_CASE("fig. 9 becomes the rigid drive's as the teeth become stiff and the gap closes, with order 1 in 1/k") {
+TEST_CASE("fig. 9 becomes the rigid drive's as the teeth become stiff and the gap closes, with order 1 in 1/k",
+          "[slow]") {
   const auto rigid = run(drive(table1(), fig9_load(), fig9_motor()), Timetable(0, 2, 0.001), {});
   const GearMesh<double> mesh(table1());
   for (const double first_gap : {0.0, 1e-5}) {

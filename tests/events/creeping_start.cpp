@@ -10,7 +10,7 @@
 
 namespace wormdrive::test::events_creeping_start {
 
-TEST_CASE("a gear that leaves rest by next to nothing is carried off by friction that falls") {
+TEST_CASE("a gear that leaves rest by next to nothing is carried off by friction that falls", "[slow]") {
   std::mt19937_64 random(2026);
   const auto decades = [&](double low, double high) {
     return std::pow(10.0, std::uniform_real_distribution(low, high)(random));

@@ -75,7 +75,8 @@ constexpr bool left_out = std::is_same_v<Effect, ToothCompliance<double>> || std
 
 }  // namespace
 
-TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives by every effect's parameters") {
+TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives by every effect's parameters",
+          "[slow]") {
   one_of_each().for_each([]<class Effect>(const std::optional<Effect>& effect) {
     if constexpr (!left_out<Effect>) {
       INFO(Effect::id << " of the catalogue is missing here");
@@ -85,7 +86,7 @@ TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives b
   });
 }
 
-TEST_CASE("they agree where the parameters are zero, as they are where a fit starts") {
+TEST_CASE("they agree where the parameters are zero, as they are where a fit starts", "[slow]") {
   const auto drive = lively(effects(
       TorqueGain<double>{}, TorqueOffset<double>{}, Cogging<double>{0.0, 24.0, 0.3}, BearingAsymmetry<double>{},
       WormInertia<double>{}, MeshFriction<double>{}, Stribeck<double>{0.0, 0.1, 2.0}, FrictionAsymmetry<double>{},

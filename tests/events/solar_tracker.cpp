@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "simulation/load_scenario.hpp"
 #include "judge/judge.hpp"
 #include "numbers.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/run_scenario.hpp"
 
 // A day of scenarios/solar_tracker.toml, with its gusts of 20 ms, against the judge's arithmetic in 128 bits.
@@ -60,7 +60,7 @@ int flank(const Observation& at) { return sign(at.mode.flank); }
 
 }  // namespace
 
-TEST_CASE("a day of the solar tracker: every solver has each event within 1e-9 s of 128-bit arithmetic") {
+TEST_CASE("a day of the solar tracker: every solver has each event within 1e-9 s of 128-bit arithmetic", "[slow]") {
   Scenario scenario = load_scenario(WORMDRIVE_SCENARIOS "/solar_tracker.toml", {}, Purpose::run);
   judge::Judge<judge::Quad> judge(judged(scenario), 200'000, 2000);
   const auto& events = judge.run();

@@ -227,19 +227,21 @@ Tally require_same(int runs, std::uint64_t first_seed, double limit, const std::
 
 }  // namespace
 
-TEST_CASE("in 200 random runs power series and CVODE find the same events and states within 1e-9") {
+TEST_CASE("in 200 random runs power series and CVODE find the same events and states within 1e-9", "[slow]") {
   const Tally tally = require_same(200, 0, 1e-9, "", compare_random);
   REQUIRE(tally.set_aside <= 200 / 5);
   REQUIRE(tally.events >= 800);
 }
 
-TEST_CASE("in 100 random runs with a third of all effects on, power series and CVODE tell the same within 1e-8") {
+TEST_CASE("in 100 random runs with a third of all effects on, power series and CVODE tell the same within 1e-8",
+          "[slow]") {
   const Tally tally = require_same(100, 1000, 1e-8, " with effects", compare_random_effects);
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);
 }
 
-TEST_CASE("in 100 random runs with a Stribeck curve and bearings, power series and CVODE tell the same within 1e-9") {
+TEST_CASE("in 100 random runs with a Stribeck curve and bearings, power series and CVODE tell the same within 1e-9",
+          "[slow]") {
   const Tally tally = require_same(100, 2000, 1e-9, " with a Stribeck curve", compare_random_stribeck);
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);

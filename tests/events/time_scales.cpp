@@ -107,7 +107,7 @@ TEST_CASE("friction that grows over hours holds no torque of ten times break-in"
     }
 }
 
-TEST_CASE("a loose tolerance costs accuracy and no events") {
+TEST_CASE("a loose tolerance costs accuracy and no events", "[slow]") {
   Signal dithered = fig9_motor();
   dithered.terms.push_back(Sinusoid{.amplitude = 0.02, .frequency = 100.0});
   const auto exact = run(drive(table1(), fig9_load(), dithered), Timetable(0, 2, never), {}, tight(taylor));
@@ -150,7 +150,7 @@ TEST_CASE("a motion that asks for no short step does not blur the events of a lo
       }
 }
 
-TEST_CASE("power series cost no more where less is asked of them") {
+TEST_CASE("power series cost no more where less is asked of them", "[slow]") {
   Signal dithered = fig9_motor();
   dithered.terms.push_back(Sinusoid{.amplitude = 0.02, .frequency = 100.0});
   const auto evaluations = [](const Signal& motor, const Effects<double>& on, double tolerance) {

@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
-#include "simulation/load_scenario.hpp"
 #include "fmi/event_loop.hpp"
+#include "simulation/load_scenario.hpp"
 #include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;

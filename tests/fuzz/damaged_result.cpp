@@ -7,9 +7,9 @@
 #include <string>
 #include <unistd.h>
 
-#include "simulation/load_scenario.hpp"
 #include "fuzz/targets.hpp"
 #include "output/check_result.hpp"
+#include "simulation/load_scenario.hpp"
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/summary/summary.hpp"
 

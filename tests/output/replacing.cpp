@@ -55,7 +55,7 @@ const std::vector<Writer> others{
 
 }  // namespace
 
-TEST_CASE("no result takes the place of somebody else's file, nor of a result of another kind") {
+TEST_CASE("no result takes the place of somebody else's file, nor of a result of another kind", "[slow]") {
   const Bench bench;
   const std::string theirs = bench.read("theirs.h5"), map = "map.h5";
   REQUIRE(bench.run({"statics", "s.toml", "-q", "-o", map}).exit == 0);
@@ -79,7 +79,7 @@ TEST_CASE("no result takes the place of somebody else's file, nor of a result of
   }
 }
 
-TEST_CASE("an older result of the same kind is replaced, and anything where it is forced") {
+TEST_CASE("an older result of the same kind is replaced, and anything where it is forced", "[slow]") {
   const Bench bench;
   for (const Writer& writer : results) {
     INFO(writer.words.front());
@@ -97,7 +97,7 @@ TEST_CASE("an older result of the same kind is replaced, and anything where it i
   }
 }
 
-TEST_CASE("pages, pictures and FMUs take the place of their like only") {
+TEST_CASE("pages, pictures and FMUs take the place of their like only", "[slow]") {
   const Bench bench;
   for (const Writer& writer : others) {
     INFO(writer.words.front());
@@ -151,7 +151,7 @@ TEST_CASE("what is left of another command's result is not begun anew") {
   CHECK_FALSE(bench.names().contains("r.h5.part"));
 }
 
-TEST_CASE("an output that is a symbolic link stays one: what it leads to is written") {
+TEST_CASE("an output that is a symbolic link stays one: what it leads to is written", "[slow]") {
   const Bench bench;
   std::filesystem::create_directory(bench / "there");
   auto writers = others;

@@ -15,7 +15,7 @@ namespace wormdrive::test::property_near_ties {
 
 using namespace near_ties;
 
-TEST_CASE("near ties: 300 random drives at the edge of an event end as they must, by every solver") {
+TEST_CASE("near ties: 300 random drives at the edge of an event end as they must, by every solver", "[slow]") {
   std::map<Verdict, int> verdicts;
   std::string faults;
   for (std::uint64_t index = 0; index < 300; ++index) {

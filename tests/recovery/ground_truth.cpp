@@ -126,7 +126,7 @@ TEST_CASE("the ground truth breaks in at the torques of the paper") {
   }
 }
 
-TEST_CASE("every hidden effect changes the recording, the more the larger it is") {
+TEST_CASE("every hidden effect changes the recording, the more the larger it is", "[slow]") {
   truth::RecordingSettings settings;
   const auto nominal = truth::record({}, follow(3, settings.duration), settings);
   const auto change = [&](const truth::Secret& secret, truth::Size size) {

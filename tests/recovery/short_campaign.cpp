@@ -48,7 +48,7 @@ Score scored(const std::vector<std::string>& hidden, wormdrive::Verdict verdict,
 
 }  // namespace
 
-TEST_CASE("hidden effects are found, and none is where nothing is hidden", "[recovery]") {
+TEST_CASE("hidden effects are found, and none is where nothing is hidden", "[recovery][slow]") {
   const std::uint64_t seed = seed_of_this_run();
   const double target = 0.92;  // of large effects under realistic conditions
   const auto found = campaign({.kind = Kind::single,

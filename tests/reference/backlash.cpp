@@ -34,7 +34,7 @@ std::array<double, 2> rate(double, const std::array<double, 2>& x) {
 
 }  // namespace
 
-TEST_CASE("ElastoBacklash: angle and speed are Dymola's in every row", "[reference]") {
+TEST_CASE("ElastoBacklash: angle and speed are Dymola's in every row", "[reference][slow]") {
   const auto dymola = reference("modelica/Backlash.csv");
   if (!dymola) return;
   Deviation angle, speed;

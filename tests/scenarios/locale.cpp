@@ -4,8 +4,8 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "description/number_text.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
+#include "simulation/load_scenario.hpp"
 
 // A program that the module or the libraries are loaded into may have a locale with a decimal comma; numbers do not.
 

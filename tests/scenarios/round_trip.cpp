@@ -7,8 +7,8 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/rigid_drive.hpp"
-#include "simulation/load_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
+#include "simulation/load_scenario.hpp"
 
 // The resolved scenario that every result carries: text and struct are the same after reading and writing.
 
@@ -227,7 +227,7 @@ TEST_CASE("a result is simulated again to the last bit, also when the CSV file o
   }
 }
 
-TEST_CASE("every shipped scenario is simulated again to the last bit from its result") {
+TEST_CASE("every shipped scenario is simulated again to the last bit from its result", "[slow]") {
   const Folder folder;
   for (const auto& entry : std::filesystem::directory_iterator(WORMDRIVE_SCENARIOS)) {
     if (entry.path().extension() != ".toml") continue;

@@ -95,7 +95,7 @@ TEST_CASE("trajectories are kept of the trials that a study names and of the wor
         "'final_gear_angle'?\n");
 }
 
-TEST_CASE("the referee agrees with the fast path, and says so where it does not", "[sweep]") {
+TEST_CASE("the referee agrees with the fast path, and says so where it does not", "[sweep][slow]") {
   const StudyFolder folder(closed);
   const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "5"});
   INFO(outcome.out << outcome.err);
@@ -174,7 +174,7 @@ TEST_CASE("the worst case is the corner of the box where it has to be", "[sweep]
   CHECK(outcome.out.find("  referee  with cvode final_gear_speed ") != std::string::npos);
 }
 
-TEST_CASE("a sweep has its picture, and runs of its trials are drawn one over the other", "[sweep]") {
+TEST_CASE("a sweep has its picture, and runs of its trials are drawn one over the other", "[sweep][slow]") {
   const StudyFolder folder(closed);
   REQUIRE(folder.sweep({"-o", "o.h5", "-q"}).exit == 0);
   for (const char* trial : {"3", "4"})

@@ -198,7 +198,7 @@ weights = [95, 5]
   }
 }
 
-TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[sweep]") {
+TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[sweep][slow]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 500000"));
   REQUIRE(folder.interrupted({"-o", "o.h5"}, SIGINT).exit == 128 + SIGINT);
   const std::string begun = folder.read("o.h5.part");
@@ -244,7 +244,7 @@ TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[swe
         "o.h5.part: error: cannot be resumed: it cannot be opened as HDF5; delete the file to begin anew\n");
 }
 
-TEST_CASE("shards that do not make one sweep are not merged", "[sweep]") {
+TEST_CASE("shards that do not make one sweep are not merged", "[sweep][slow]") {
   const StudyFolder folder;
   for (const char* k : {"1", "2", "3"})
     REQUIRE(folder.sweep({"-o", std::string(k) + ".h5", "--shard", std::string(k) + "/3"}).exit == 0);

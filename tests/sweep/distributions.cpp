@@ -76,7 +76,8 @@ TEST_CASE("distributions have the moments of their closed forms", "[sweep]") {
   CHECK(close(table.mean, 1.75, 1e-6));
 }
 
-TEST_CASE("a cut normal distribution is that of the closed form, in its middle and far out in its tails", "[sweep]") {
+TEST_CASE("a cut normal distribution is that of the closed form, in its middle and far out in its tails",
+          "[sweep][slow]") {
   const boost::math::normal_distribution<double> unit;
   const auto [low, high] = std::pair{-0.5, 2.0};
   const Moments cut(TruncatedNormal{0.0, 1.0, low, high});

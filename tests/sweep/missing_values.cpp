@@ -167,7 +167,7 @@ TEST_CASE("a limit is missed by whatever is not known to keep it", "[sweep]") {
   CHECK_FALSE(below.missed_by(1.5));
 }
 
-TEST_CASE("a design that is no sample has no confidence intervals anywhere", "[sweep]") {
+TEST_CASE("a design that is no sample has no confidence intervals anywhere", "[sweep][slow]") {
   const StudyFolder folder(study_but("design = \"monte_carlo\"\ntrials = 200", "design = \"grid\"\nlevels = 5"));
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const Outcome told = folder.run({"summary", "o.h5"});

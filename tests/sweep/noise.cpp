@@ -56,7 +56,7 @@ TEST_CASE("every trial has noise of its own, or all have the same if the study a
   CHECK(errors(noisy(sensor)) != errors(edited(noisy(sensor), "seed = 1", "seed = 2")));
 }
 
-TEST_CASE("noise is of the trial, whoever makes it and replays it", "[sweep]") {
+TEST_CASE("noise is of the trial, whoever makes it and replays it", "[sweep][slow]") {
   for (const char* noise : {sensor, disturbance}) {
     const StudyFolder folder(noisy(noise));
     REQUIRE(folder.sweep({"-o", "1.h5", "--threads", "1"}).exit == 0);

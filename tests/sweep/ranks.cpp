@@ -65,7 +65,7 @@ std::vector<pid_t> children(pid_t parent) {
 
 }  // namespace
 
-TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep]") {
+TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep][slow]") {
   if (!has_mpi()) return;
   const auto study = GENERATE(as<std::string>(), good_study, lanes_study);
   const StudyFolder folder(edited(study, "trials = 200", "trials = 2000"));
@@ -80,7 +80,7 @@ TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep]") {
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "1.h5", "2.h5", "4.h5"});
 }
 
-TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up for", "[sweep]") {
+TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up for", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 100000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
@@ -129,7 +129,7 @@ TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "ranks.h5"});
 }
 
-TEST_CASE("what a single process has left, ranks go on with", "[sweep]") {
+TEST_CASE("what a single process has left, ranks go on with", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 60000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
@@ -140,7 +140,7 @@ TEST_CASE("what a single process has left, ranks go on with", "[sweep]") {
   CHECK(folder.rows("ranks.h5") == folder.rows("alone.h5"));
 }
 
-TEST_CASE("ranks end for as many failures, and say so in the words, of a single process", "[sweep]") {
+TEST_CASE("ranks end for as many failures, and say so in the words, of a single process", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(edited(lanes_study, "trials = 200", "trials = 4000"));
   const auto told = [](const std::string& said) {  // "11 of 432 trials failed, ...; most often: ..."
@@ -164,7 +164,7 @@ TEST_CASE("ranks end for as many failures, and say so in the words, of a single 
 }
 
 /// What each of some ranks does in the test that follows: portions of a time in which it does not call MPI.
-TEST_CASE("a rank takes portions that take long", "[.]") {
+TEST_CASE("a rank takes portions that take long", "[.][slow]") {
   Ranks ranks(false);
   int made = 0;
   for (; ranks.add({1, 0}).portions < 40; ++made) std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -172,7 +172,7 @@ TEST_CASE("a rank takes portions that take long", "[.]") {
   std::cout << fmt::format("rank {} of {} made {}\n", ranks.rank(), ranks.count(), made);
 }
 
-TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "[sweep]") {
+TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "[sweep][slow]") {
   if (!has_mpi()) return;
   using Variables = std::vector<std::pair<std::string, std::string>>;
   const auto variables = GENERATE(Variables{}, Variables{{"OMPI_MCA_btl", "tcp,self"}});

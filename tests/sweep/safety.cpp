@@ -43,7 +43,7 @@ nlohmann::json so_far(const StudyFolder& folder, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a slow trial holds back no other: kill -9 costs the trials that have not ended", "[sweep]") {
+TEST_CASE("a slow trial holds back no other: kill -9 costs the trials that have not ended", "[sweep][slow]") {
   const StudyFolder folder(one_slow_trial);
   const int signal = GENERATE(SIGKILL, SIGTERM);
   {
@@ -121,7 +121,7 @@ TEST_CASE("trials in any order make the file of trials in order, reasons and the
         std::set<std::string>{"s.toml", "study.toml", "in_order.h5", "backward.h5", "mixed.h5", "gone_on.h5"});
 }
 
-TEST_CASE("of four who write one result at once one does, and the others say so", "[sweep]") {
+TEST_CASE("of four who write one result at once one does, and the others say so", "[sweep][slow]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 4000"));
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
@@ -168,7 +168,7 @@ TEST_CASE("a lock that a killed program left locks nothing", "[sweep]") {
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "o.h5"});
 }
 
-TEST_CASE("a sweep that is still running is summed up, shown and compared so far", "[sweep]") {
+TEST_CASE("a sweep that is still running is summed up, shown and compared so far", "[sweep][slow]") {
   const StudyFolder folder(edited(edited(one_slow_trial, "trials = 200", "trials = 2000000"), "5e-8", "9e-4"));
   Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "o.h5", "--threads", "1"}, folder.path());
   nlohmann::json now{{"trials", 0}};

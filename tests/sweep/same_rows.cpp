@@ -30,7 +30,7 @@ TEST_CASE("without the processor's own sine, fused multiplication and vectors th
   CHECK(folder.rows("plain.h5") == folder.rows("all.h5"));
 }
 
-TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep]") {
+TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep][slow]") {
   for (const std::string& study :
        {good_study, study_but("monte_carlo", "latin_hypercube"), study_but("monte_carlo", "sobol"), lanes_study}) {
     const StudyFolder folder(study);
@@ -54,7 +54,7 @@ TEST_CASE("another seed makes other rows", "[sweep]") {
   CHECK(folder.rows("a.h5") != folder.rows("b.h5"));
 }
 
-TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
+TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep][slow]") {
   const auto study = GENERATE(as<std::string>(), study_but("monte_carlo", "latin_hypercube"), lanes_study);
   const StudyFolder folder(study);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
@@ -71,7 +71,7 @@ TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep]") {
   CHECK(folder.rows("merged.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep]") {
+TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep][slow]") {
   const auto study = GENERATE(as<std::string>(), many, edited(lanes_study, "trials = 200", "trials = 60000"));
   const StudyFolder folder(study);
   const auto begin = std::chrono::steady_clock::now();
@@ -111,7 +111,7 @@ TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[
   is_whole();
 }
 
-TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on", "[sweep]") {
+TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on", "[sweep][slow]") {
   const int signal = GENERATE(SIGTERM, SIGUSR1);  // a batch system's, and what it has mpirun pass on
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
@@ -124,7 +124,7 @@ TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on"
   CHECK(folder.rows("ended.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when there is room", "[sweep]") {
+TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when there is room", "[sweep][slow]") {
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   constexpr rlim_t room = 2'000'000;

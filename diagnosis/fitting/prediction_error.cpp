@@ -1,4 +1,4 @@
-#include "diagnosis/verdict/prediction_error.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-#include "diagnosis/inference/normal_equations.hpp"
-#include "diagnosis/inference/screening.hpp"
+#include "diagnosis/fitting/normal_equations.hpp"
+#include "diagnosis/fitting/screening.hpp"
 
 namespace wormdrive {
 

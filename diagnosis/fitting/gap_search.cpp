@@ -1,4 +1,4 @@
-#include "diagnosis/inference/gap_search.hpp"
+#include "diagnosis/fitting/gap_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "core/elastic/impact.hpp"
 #include "description/build.hpp"
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {

@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "diagnosis/inference/hypothesis.hpp"
-#include "diagnosis/inference/normal_equations.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
+#include "diagnosis/fitting/normal_equations.hpp"
 
 namespace wormdrive {
 

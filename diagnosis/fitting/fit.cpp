@@ -1,9 +1,9 @@
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "diagnosis/inference/stepwise.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {

@@ -1,4 +1,4 @@
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,9 +51,9 @@ int index_of(const Hypothesis& h, std::string_view effect, std::string_view fiel
   return index_of(h, Coordinate{.effect = effect, .field = field, .scale = 1.0, .low = 0.0, .high = 0.0});
 }
 
-void add_suspect(Hypothesis& h, const std::vector<Candidate>& all, std::size_t index, std::size_t start) {
+void add_candidate(Hypothesis& h, const std::vector<Candidate>& all, std::size_t index, std::size_t start) {
   const Candidate& candidate = all[index];
-  const SuspectStart& from = candidate.starts[std::min(start, candidate.starts.size() - 1)];
+  const CandidateStart& from = candidate.starts[std::min(start, candidate.starts.size() - 1)];
   for (std::size_t k = 0; k < candidate.coordinates.size(); ++k) {
     const Coordinate& c = candidate.coordinates[k];
     const int known = index_of(h, c);

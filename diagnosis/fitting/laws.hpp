@@ -1,5 +1,5 @@
 #pragma once
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

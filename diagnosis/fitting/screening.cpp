@@ -1,10 +1,10 @@
-#include "diagnosis/inference/screening.hpp"
+#include "diagnosis/fitting/screening.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -15,8 +15,8 @@ namespace {
 class Trial {
  public:
   Trial(const Evaluation& evaluation, const Hypothesis& h, const std::vector<Candidate>& all, Screened& result)
-      : evaluation_(evaluation), h_(h), suspect_(all[result.candidate]), result_(result), with_(h) {
-    add_suspect(with_, all, result.candidate, result.start);
+      : evaluation_(evaluation), h_(h), candidate_(all[result.candidate]), result_(result), with_(h) {
+    add_candidate(with_, all, result.candidate, result.start);
     with_ = not_evaluated(std::move(with_));
   }
 
@@ -34,7 +34,7 @@ class Trial {
     const Eigen::VectorXd step = solve_normal(A, b, 1e-6);
     const double promised = b.dot(step), price = added_terms();
     // where a spring is slack shows only once it has a stiffness: then a step does not promise all that there is
-    const bool promises_all = !suspect_.finite && (A.diagonal().tail(fresh).array() > 0.0).all();
+    const bool promises_all = !candidate_.finite && (A.diagonal().tail(fresh).array() > 0.0).all();
     if (constexpr double little = 0.5; promises_all && promised < little * price) {
       result_.model = moved(step, 1.0);  // a prediction would say no more
       result_.gain = promised - price;
@@ -45,8 +45,8 @@ class Trial {
       keep_better(moved(step, share));
       if (result_.model.objective < h_.objective - 1.0) break;
     }
-    if (suspect_.finite && !suspect_.either_sign) keep_better(with_);
-    if (suspect_.impacts) {  // less wild with teeth that bounce little
+    if (candidate_.finite && !candidate_.either_sign) keep_better(with_);
+    if (candidate_.impacts) {  // less wild with teeth that bounce little
       Hypothesis soft = not_evaluated(with_);
       soft.noise.impact.restitution = 0.4;
       keep_better(std::move(soft));
@@ -63,7 +63,7 @@ class Trial {
   void collect_signatures() {
     const std::size_t old = h_.free.size();
     size_ = old;
-    if (suspect_.finite) {
+    if (candidate_.finite) {
       const bool moves = evaluate(evaluation_, with_);
       result_.signatures.push_back(moves ? difference(evaluation_, h_, with_.innovations)
                                          : std::vector<double>(h_.innovations.size(), 0.0));
@@ -97,12 +97,12 @@ class Trial {
       move(k, share * std::clamp(step[static_cast<Eigen::Index>(k)], -20.0, 20.0));
     for (std::size_t q = 0; q < result_.signatures.size(); ++q) {
       const double length = share * std::clamp(step[static_cast<Eigen::Index>(h_.free.size() + q)], -30.0, 30.0);
-      if (!suspect_.finite) {
+      if (!candidate_.finite) {
         move(size_ + q, length);
-      } else if (suspect_.resizable) {
+      } else if (candidate_.resizable) {
         const Coordinate& c = trial.free[size_];
         trial.values[size_] =
-            std::clamp(trial.values[size_] * std::max(suspect_.either_sign ? -30.0 : 0.05, length), c.low, c.high);
+            std::clamp(trial.values[size_] * std::max(candidate_.either_sign ? -30.0 : 0.05, length), c.low, c.high);
       }
     }
     return not_evaluated(std::move(trial));
@@ -116,7 +116,7 @@ class Trial {
 
   const Evaluation& evaluation_;
   const Hypothesis& h_;
-  const Candidate& suspect_;
+  const Candidate& candidate_;
   Screened& result_;
   Hypothesis with_;
   std::size_t size_ = 0;  ///< the candidate's first coordinate among the free ones

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/candidates/catalogue.hpp"
-#include "diagnosis/inference/evaluation.hpp"
+#include "diagnosis/fitting/evaluation.hpp"
 
 namespace wormdrive {
 
@@ -37,7 +37,7 @@ Hypothesis without_noise_model(Hypothesis h);
 bool evaluate(const Evaluation& evaluation, Hypothesis& h);
 
 /// Adds a candidate from one of its starts; a coordinate that is free already keeps its value and loses its tolerance.
-void add_suspect(Hypothesis& h, const std::vector<Candidate>& all, std::size_t candidate, std::size_t start);
+void add_candidate(Hypothesis& h, const std::vector<Candidate>& all, std::size_t candidate, std::size_t start);
 
 /// Index of a coordinate among the free ones, -1 where it is fixed.
 int index_of(const Hypothesis& h, const Coordinate& coordinate);

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/fitting/hypothesis.hpp"
 
 namespace wormdrive {
 

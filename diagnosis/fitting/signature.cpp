@@ -1,4 +1,4 @@
-#include "diagnosis/inference/signature.hpp"
+#include "diagnosis/fitting/signature.hpp"
 
 #include <Eigen/Dense>
 

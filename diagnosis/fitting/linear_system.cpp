@@ -1,4 +1,4 @@
-#include "diagnosis/inference/linear_system.hpp"
+#include "diagnosis/fitting/linear_system.hpp"
 
 namespace wormdrive {
 

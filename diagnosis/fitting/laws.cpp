@@ -1,8 +1,8 @@
-#include "diagnosis/inference/laws.hpp"
+#include "diagnosis/fitting/laws.hpp"
 
 #include <algorithm>
 
-#include "diagnosis/inference/fit.hpp"
+#include "diagnosis/fitting/fit.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -27,7 +27,7 @@ Hypothesis with_law(Hypothesis h, const Law& law) {
 void try_other_laws(const Evaluation& evaluation, Hypothesis& h, const Candidate& candidate) {
   if (!candidate.finite) return;  // else a start is as good as a fit
   std::vector<Hypothesis> others;
-  for (const SuspectStart& start : candidate.starts)
+  for (const CandidateStart& start : candidate.starts)
     if (!follows(h.effects, start.chosen) && std::none_of(others.begin(), others.end(), [&](const Hypothesis& known) {
           return follows(known.effects, start.chosen);
         }))

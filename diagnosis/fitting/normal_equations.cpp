@@ -1,4 +1,4 @@
-#include "diagnosis/inference/normal_equations.hpp"
+#include "diagnosis/fitting/normal_equations.hpp"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
-#include "diagnosis/inference/stepwise.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace wormdrive {
 
-bool has_slope(const Coordinate& coordinate) { return coordinate.effect != "static_friction"; }
+bool has_slope(const Coordinate& coordinate) { return !coordinate.stepwise; }
 
 bool search_steps(const Evaluation& evaluation, Hypothesis& h) {
   const double before = h.objective;

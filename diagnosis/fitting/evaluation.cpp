@@ -1,4 +1,4 @@
-#include "diagnosis/inference/evaluation.hpp"
+#include "diagnosis/fitting/evaluation.hpp"
 
 #include <cmath>
 #include <utility>
