@@ -122,6 +122,18 @@ Candidate tooth_compliance(const Magnitudes& m) {
   return s;
 }
 
+/// Values of a stated number at which a slip may have put it: a tenth to ten times, or any eighth of a turn.
+std::vector<double> far_values(const Coordinate& c) {
+  std::vector<double> values;
+  if (c.turns)
+    for (const double eighths : {-3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0})
+      values.push_back(c.centre + eighths * 0.25 * std::numbers::pi);
+  if (c.whole > 0.0)
+    for (const double factor : {0.1, 0.3, 3.0, 10.0}) values.push_back(c.centre + (factor - 1.0) * c.whole);
+  std::erase_if(values, [&](double x) { return x < c.low || x > c.high; });
+  return values;
+}
+
 /// An effect that the scenario has already is sought as a change of what it states.
 void start_from_stated(Candidate& s, const Effects<double>& stated) {
   if (!field_of(stated, s.effect, s.coordinates[0].field).on) return;
@@ -177,6 +189,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     Candidate s = linear(c.effect, c.field, c.scale, c.low, c.high);
     s.coordinates[0] = c;
     s.starts[0].values = {c.centre};
+    s.far = far_values(c);
     s.toleranced = c.tolerance > 0.0;
     if (c.effect == LoadAngle<double>::id) s.twins = {{"encoder_offset", "angle"}};
     all.push_back(s);

@@ -23,6 +23,7 @@ struct Candidate {
   std::string_view effect;
   std::vector<Coordinate> coordinates;
   std::vector<CandidateStart> starts;
+  std::vector<double> far{};  ///< values of the first coordinate decades from what is stated, tried out as they are
   /// Where the effect has no derivative at no effect, its signature is what a start of its own does.
   bool finite = false;
   bool resizable = true;             ///< the first coordinate of a finite start may be scaled down to no effect

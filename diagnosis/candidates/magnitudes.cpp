@@ -41,7 +41,8 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
   m.worm_speed = mesh.i * m.gear_speed;
   m.worm_inertia = mesh.has_teeth ? mesh.Jw : mesh.Jg;
   if (mesh.has_teeth) {
-    m.friction = mesh.mu;
+    m.stated_friction = mesh.mu;
+    m.friction = std::max(mesh.mu, std::tan(mesh.lambda) * std::cos(mesh.phi_n));
     m.gear_arm = mesh.gear_arm(0.0);
     m.sliding_speed = mesh.sliding_speed(m.worm_speed);
     m.gear_inertia = total_gear_inertia(scenario);

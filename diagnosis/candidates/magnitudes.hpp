@@ -16,7 +16,8 @@ struct Magnitudes {
   double worm_speed{};                   ///< rms [rad/s]
   double sliding_speed{};                ///< of the teeth, rms [m/s]; 0 without teeth
   double load_torque{};                  ///< largest on the gear within the angles of the recordings [N m]
-  double friction{};                     ///< of the mesh; 0 without teeth
+  double stated_friction{};              ///< of the mesh; 0 without teeth
+  double friction{};                     ///< the same, at least that at which the gear locks itself
   double worm_inertia{};                 ///< [kg m^2]; without teeth the only one
   double gear_inertia{};                 ///< with the load's own [kg m^2]; 0 without teeth
   double duration{};                     ///< of the longest recording [s]

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "diagnosis/data/even_time.hpp"
+#include "diagnosis/data/forgotten_load.hpp"
 #include "diagnosis/data/impossible_samples.hpp"
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/data/plausible_units.hpp"
@@ -27,6 +28,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   for (std::string& remark : leave_out_impossible(table, limits, recording.valid))
     recording.remarks.push_back(std::move(remark));
   refuse_implausible_size(table, time.period, scenario);
+  reject_forgotten_load(table, time.period, scenario);
   recording.gear_resolution = resolution(table.angle.values);
   if (!table.worm_angle.values.empty()) recording.worm_resolution = resolution(table.worm_angle.values);
   recording.motor_torque = std::move(table.torque.values);

@@ -1,6 +1,7 @@
 #include "diagnosis/fitting/fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "diagnosis/fitting/stepwise.hpp"
@@ -82,11 +83,13 @@ void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
 }
 
 void restart_noise(const Evaluation& evaluation, Hypothesis& h) {
-  if (!h.whitens) return;
-  for (const auto& [white, coloured] : {std::pair{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}) {
+  using Starts = std::array<ProcessNoise, 3>;
+  const Starts starts = h.whitens ? Starts{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}
+                                  : Starts{{{0.02, 0.0}, {0.005, 0.0}, {0.1, 0.0}}};
+  for (const ProcessNoise& start : starts) {
     Hypothesis trial = h;
-    trial.noise.white = white;
-    trial.noise.coloured = coloured;
+    trial.noise.white = start.white;
+    trial.noise.coloured = start.coloured;
     if (evaluate(evaluation, trial) && trial.objective < h.objective) h = std::move(trial);
   }
 }

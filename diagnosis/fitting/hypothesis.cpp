@@ -53,12 +53,15 @@ int index_of(const Hypothesis& h, std::string_view effect, std::string_view fiel
 
 void add_candidate(Hypothesis& h, const std::vector<Candidate>& all, std::size_t index, std::size_t start) {
   const Candidate& candidate = all[index];
-  const CandidateStart& from = candidate.starts[std::min(start, candidate.starts.size() - 1)];
+  const bool is_far = start >= candidate.starts.size();
+  CandidateStart from = candidate.starts[is_far ? 0 : start];
+  if (is_far) from.values[0] = candidate.far[start - candidate.starts.size()];
   for (std::size_t k = 0; k < candidate.coordinates.size(); ++k) {
     const Coordinate& c = candidate.coordinates[k];
     const int known = index_of(h, c);
     if (known >= 0) {
       h.free[static_cast<std::size_t>(known)].tolerance = 0.0;
+      if (is_far && k == 0) h.values[static_cast<std::size_t>(known)] = from.values[0];
     } else {
       h.free.push_back(c);
       h.free.back().tolerance = 0.0;

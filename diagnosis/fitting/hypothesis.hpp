@@ -36,7 +36,8 @@ Hypothesis without_noise_model(Hypothesis h);
 /// Predicts the data by a hypothesis and judges it; false where the model cannot move so (the objective is infinite).
 bool evaluate(const Evaluation& evaluation, Hypothesis& h);
 
-/// Adds a candidate from one of its starts; a coordinate that is free already keeps its value and loses its tolerance.
+/// Adds a candidate from one of its starts, or from one of its far values, which are counted on from the starts. A
+/// coordinate that is free already loses its tolerance, and keeps its value but for a far one.
 void add_candidate(Hypothesis& h, const std::vector<Candidate>& all, std::size_t candidate, std::size_t start);
 
 /// Index of a coordinate among the free ones, -1 where it is fixed.

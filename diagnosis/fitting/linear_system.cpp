@@ -9,6 +9,7 @@ LinearSystem linear_system(const Evaluation& evaluation, const Hypothesis& base,
   std::vector<Eigen::VectorXd> columns;
   for (const auto& c : screening.free_columns) columns.push_back(weigh(c));
   for (const Screened& s : screening.found) {
+    if (s.is_far) continue;
     made.starts.push_back({s.candidate, s.start, {}});
     for (const auto& c : s.signatures) {
       made.starts.back().columns.push_back(static_cast<Eigen::Index>(columns.size()));

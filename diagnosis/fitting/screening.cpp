@@ -21,6 +21,12 @@ class Trial {
   }
 
   void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
+    if (result_.is_far) {  // so far off no slope at the hypothesis says anything
+      evaluate(evaluation_, with_);
+      result_.model = with_;
+      result_.gain = h_.bic - with_.bic;
+      return;
+    }
     collect_signatures();
     const auto old = J.cols(), fresh = static_cast<Eigen::Index>(result_.signatures.size());
     Eigen::MatrixXd all(J.rows(), old + fresh);
@@ -144,7 +150,8 @@ Screening screen(const Evaluation& evaluation, const Hypothesis& h, const std::v
 
   for (std::size_t c = 0; c < all.size(); ++c)
     if (!is_in(h, all, c))
-      for (std::size_t start = 0; start < all[c].starts.size(); ++start) s.found.push_back({c, start});
+      for (std::size_t start = 0; start < all[c].starts.size() + all[c].far.size(); ++start)
+        s.found.push_back({.candidate = c, .start = start, .is_far = start >= all[c].starts.size()});
   parallel_for(s.found.size(), evaluation.threads(),
                [&](std::size_t k) { Trial(evaluation, h, all, s.found[k])(weigh, J, residual); });
   std::stable_sort(s.found.begin(), s.found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });

@@ -10,7 +10,9 @@ struct Screened {
   std::size_t candidate, start;
   double gain = -std::numeric_limits<double>::infinity();  ///< of the BIC
   Hypothesis model{};                                      ///< after the step
-  std::vector<std::vector<double>> signatures{};  ///< changes of the whitened innovations, per scale or by the start
+  /// Changes of the whitened innovations, per scale or by the start; none of what is free already or of a far value.
+  std::vector<std::vector<double>> signatures{};
+  bool is_far = false;  ///< a far value, of which no slope is known
 };
 
 /// What screening knows of the hypothesis itself.

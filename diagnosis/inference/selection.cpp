@@ -1,6 +1,7 @@
 #include "diagnosis/inference/selection.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -128,9 +129,15 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
   parallel_for(polished, evaluation_.threads(), [&](std::size_t k) {
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
-    restart_noise(evaluation_, h);
-    adjust_noise(evaluation_, h, 3);
-    fit(evaluation_, h, 4);
+    // far from what is stated noise and model are found by turns: each hides what the other one lacks
+    constexpr int most_turns = 5;
+    double before = std::numeric_limits<double>::infinity();
+    for (int turn = 0; turn < most_turns && before - h.objective > AcceptanceRules{}.least_bic; ++turn) {
+      before = h.objective;
+      restart_noise(evaluation_, h);
+      adjust_noise(evaluation_, h, 3);
+      fit(evaluation_, h, 4);
+    }
   });
   std::stable_sort(tried.begin(), tried.end(), by_bic);
   for (Tried& t : tried) t.evidence = compare(current, t.model, all_[t.candidate], evaluation_.layout());
@@ -201,7 +208,17 @@ bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, co
 }
 
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
-  // What stands at a bound is not what its name says; it must not keep others out.
+  // What stands at a bound is not what its name says. One that far outdoes all others leaves no room for a smaller
+  // name.
+  const Evidence& first_of_all = tried.front().evidence;
+  double best_within = 0.0;
+  for (const Tried& t : tried)
+    if (!t.evidence.at_bound) best_within = std::max(best_within, t.evidence.delta_bic);
+  if (first_of_all.at_bound && first_of_all.held_out > AcceptanceRules{}.least_held_out &&
+      first_of_all.delta_bic > AcceptanceRules{}.least_bic + 2.0 * best_within) {
+    s_.beyond_bound = tried.front().candidate;
+    return false;
+  }
   std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
   const double best = tried.front().evidence.delta_bic;
   // Among equals the one with the fewest parameters comes first.

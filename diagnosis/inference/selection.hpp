@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,10 @@ struct Selection {
   Hypothesis base;   ///< the scenario with its tolerances
   Hypothesis model;  ///< with the causes
   std::vector<Found> causes;
-  std::vector<Tried> tried;  ///< candidates beside the base, the best first
-  Screening screening;       ///< of the base
-  LinearSystem linear{};     ///< of the base with it
+  std::vector<Tried> tried;                   ///< candidates beside the base, the best first
+  Screening screening;                        ///< of the base
+  LinearSystem linear{};                      ///< of the base with it
+  std::optional<std::size_t> beyond_bound{};  ///< the candidate that does far best, beyond what it can be
 };
 
 /// A search for causes, step by step.

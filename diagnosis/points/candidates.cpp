@@ -6,15 +6,10 @@
 
 #include "core/place.hpp"
 #include "description/build.hpp"
+#include "statistics/sizes.hpp"
 
 namespace wormdrive {
 namespace {
-
-double rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 double largest(const std::vector<double>& values) {
   double size = 0.0;
@@ -38,14 +33,13 @@ class Maker {
                         double tolerance = 0.0) const {
     const FieldOfEffect found = field_of(effects_, effect, field);
     const double centre = found.on ? found.value : 0.0;
-    return {effect,
-            field,
-            scale,
-            std::max(found.bounds.low, centre - reach),
-            std::min(found.bounds.high, centre + reach),
-            CoordinateForm::plain,
-            centre,
-            tolerance};
+    return {.effect = effect,
+            .field = field,
+            .scale = scale,
+            .low = std::max(found.bounds.low, centre - reach),
+            .high = std::min(found.bounds.high, centre + reach),
+            .centre = centre,
+            .tolerance = tolerance};
   }
   void add(std::vector<Coordinate> coordinates, std::vector<std::vector<double>> starts = {}) {
     if (starts.empty()) {  // as stated, but off the bound: there a step may lead nowhere

@@ -91,6 +91,12 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
     d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
   }
 
+  if (selection.beyond_bound)
+    d.remarks.push_back(
+        fmt::format("{} explains most of what is lacking, but only beyond what it can be: something else "
+                    "acts like it",
+                    in_words(std::string(all[*selection.beyond_bound].effect))));
+
   const std::string lacking = "The simulation lacks something that no effect of the catalogue accounts for.";
   if (d.causes.empty()) {
     const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);

@@ -12,6 +12,7 @@ Candidate candidate(std::string_view effect, bool toleranced = false) {
   Candidate s;
   s.effect = effect;
   s.coordinates = {{.effect = effect, .field = "", .scale = 1.0, .low = -10.0, .high = 10.0}};
+  s.coordinates[0].stepwise = effect == "static_friction";
   s.toleranced = toleranced;
   return s;
 }
