@@ -199,13 +199,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   const std::vector<Candidate> all = candidates(scenario.effects, sizes, stated);
   const Evaluation evaluation(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
 
-  Hypothesis base;
-  base.effects = scenario.effects;
-  for (const Coordinate& c : stated)
-    if (c.tolerance > 0.0) {
-      base.free.push_back(c);
-      base.values.push_back(c.centre);
-    }
+  const Hypothesis base = stated_hypothesis(scenario.effects, stated);
   const Selection found = search(evaluation, all, base, sizes.torque, settings);
 
   Diagnosis d;

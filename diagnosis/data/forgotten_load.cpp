@@ -24,10 +24,8 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
   if (!mesh || !load || !load->terms.empty()) return;
   // As for a wrong unit: most is unaccounted for as it stands, and little with the load.
   constexpr double most = 0.35, too_much = 0.6;
-  const auto missed = [&](const Scenario& with) {
-    return TorqueJudge(with, table.time.values.front(), period).fit(table.torque.values, table.angle.values).missed_rms;
-  };
-  const double as_it_is = missed(scenario);
+  const TorqueJudge judge(table.torque.values, table.angle.values, table.time.values.front(), period);
+  const double as_it_is = judge.fit(scenario).missed_rms;
   if (as_it_is < too_much) return;
 
   Explained best;
@@ -37,7 +35,7 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
     arm.amplitude = torque;
     arm.offset = offset;
     with.load = arm;
-    if (const double left = missed(with); left < best.missed) best = {torque, offset, left};
+    if (const double left = judge.fit(with).missed_rms; left < best.missed) best = {torque, offset, left};
   };
   // what the motor could hold without any loss, and less by the losses of a gear
   const double largest = mesh->i * median_size(table.torque.values);

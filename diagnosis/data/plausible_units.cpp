@@ -90,11 +90,11 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
 /// What an arm that stands at another angle than stated would leave, which is a matter of the diagnosis.
 double least_missed_by_turned_arm(const RecordedTable& table, double period, Scenario scenario) {
   double least = std::numeric_limits<double>::infinity();
+  const TorqueJudge judge(table.torque.values, table.angle.values, table.time.values.front(), period);
   if (auto* const arm = std::get_if<GravityArm>(&scenario.load))
     for (int k = 1; k < 12; ++k) {
       arm->offset += std::numbers::pi / 6.0;
-      const TorqueJudge judge(scenario, table.time.values.front(), period);
-      least = std::min(least, judge.fit(table.torque.values, table.angle.values).missed);
+      least = std::min(least, judge.fit(scenario).missed);
     }
   return least;
 }
@@ -113,12 +113,14 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
            fmt::format("{} moves by {:.3g} {}, less than 20 steps of its encoder: too little to learn from",
                        table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
   refuse_other_speed(table, period, scenario);
-  const TorqueJudge judge(scenario, table.time.values.front(), period);
-  const TorqueFit as_is = judge.fit(table.torque.values, table.angle.values);
+  const auto fit = [&](const Values& torque, const Values& angle) {
+    return TorqueJudge(torque, angle, table.time.values.front(), period).fit(scenario);
+  };
+  const TorqueFit as_is = fit(table.torque.values, table.angle.values);
   if (as_is.missed < 0.6) return;
   std::optional<std::pair<double, std::string>> best;
   for (const Reading& reading : readings(table, scenario)) {
-    const double missed = judge.fit(reading.torque, reading.angle).missed;
+    const double missed = fit(reading.torque, reading.angle).missed;
     if (!best || missed < best->first) best = {missed, reading.says};
   }
   if (best && best->first >= least_missed_by_turned_arm(table, period, scenario)) return;
@@ -132,7 +134,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
   if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const TorqueFit as_is =
-      TorqueJudge(scenario, table.time.values.front(), period).fit(table.torque.values, table.angle.values);
+      TorqueJudge(table.torque.values, table.angle.values, table.time.values.front(), period).fit(scenario);
   if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
     reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
                                       "unit, or wrong scenario",

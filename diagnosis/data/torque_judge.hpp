@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 #include "diagnosis/data/needed_torque.hpp"
@@ -16,25 +16,30 @@ struct TorqueFit {
   double factor = 0.0;      ///< median size of the torque over that of the need
 };
 
-/// Compares recorded torques with those that the drive of a scenario needs for the recorded motion, by its inverse
-/// dynamics.
+/// Compares recorded torques with those that a drive needs for the recorded motion, by its inverse dynamics. What does
+/// not depend on the drive is worked out once.
 class TorqueJudge {
  public:
-  TorqueJudge(const Scenario& scenario, double start, double period)
-      : scenario_(scenario), start_(start), period_(period), half_width_(std::max(4L, std::lround(0.012 / period))) {}
+  /// Torque [N m] and gear angle [rad] from `start` on, every `period` [s].
+  TorqueJudge(const std::vector<double>& torque, const std::vector<double>& angle, double start, double period)
+      : start_(start),
+        period_(period),
+        half_width_(static_cast<std::size_t>(std::max(4L, std::lround(0.012 / period)))),
+        motion_(measured_motion(angle, period, half_width_)),
+        still_(std::max(0.3 * median_size(motion_.speed), 1e-9)),
+        mean_(torque.size()) {
+    const std::size_t w = half_width_;
+    for (std::size_t k = w; k + w < torque.size(); ++k)
+      for (std::size_t j = k - w; j < k + w; ++j) mean_[k] += torque[j] / static_cast<double>(2 * w);
+  }
 
-  TorqueFit fit(const std::vector<double>& torque, const std::vector<double>& angle) const {
-    const auto w = static_cast<std::size_t>(half_width_);
-    const MeasuredMotion motion = measured_motion(angle, period_, w);
-    const double still = std::max(0.3 * median_size(motion.speed), 1e-9);
-    const std::vector<double> needed = needed_torque(scenario_, motion, start_, period_, still);
+  TorqueFit fit(const Scenario& scenario) const {
+    const std::vector<double> needed = needed_torque(scenario, motion_, start_, period_, still_);
     std::vector<double> left, given, asked;
-    for (std::size_t k = w; k + w < torque.size(); ++k) {
+    for (std::size_t k = half_width_; k + half_width_ < mean_.size(); ++k) {
       if (needed[k] == 0.0) continue;
-      double mean = 0.0;
-      for (std::size_t j = k - w; j < k + w; ++j) mean += torque[j] / static_cast<double>(2 * w);
-      left.push_back(mean - needed[k]);
-      given.push_back(mean);
+      left.push_back(mean_[k] - needed[k]);
+      given.push_back(mean_[k]);
       asked.push_back(needed[k]);
     }
     if (given.size() < 100 || median_size(given) == 0.0 || median_size(asked) == 0.0) return {};
@@ -42,9 +47,11 @@ class TorqueJudge {
   }
 
  private:
-  const Scenario& scenario_;
   double start_, period_;
-  long half_width_;
+  std::size_t half_width_;
+  MeasuredMotion motion_;
+  double still_;              ///< speed below which rest does not tell the torque [rad/s]
+  std::vector<double> mean_;  ///< of the torque over as many samples as the motion is [N m]
 };
 
 }  // namespace wormdrive

@@ -7,6 +7,17 @@
 
 namespace wormdrive {
 
+Hypothesis stated_hypothesis(const Effects<double>& effects, const std::vector<Coordinate>& stated) {
+  Hypothesis h;
+  h.effects = effects;
+  for (const Coordinate& c : stated)
+    if (c.tolerance > 0.0) {
+      h.free.push_back(c);
+      h.values.push_back(c.centre);
+    }
+  return h;
+}
+
 Effects<double> extended(const Hypothesis& h) {
   Effects<double> effects = h.effects;
   apply(effects, h.free, h.values);

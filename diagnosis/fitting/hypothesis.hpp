@@ -27,6 +27,9 @@ struct Hypothesis {
   double bic = std::numeric_limits<double>::infinity();
 };
 
+/// What is stated: these effects, with the numbers that have a tolerance free at their stated values. To be evaluated.
+Hypothesis stated_hypothesis(const Effects<double>& effects, const std::vector<Coordinate>& stated);
+
 /// The effects with the free coordinates at their values.
 Effects<double> extended(const Hypothesis& h);
 

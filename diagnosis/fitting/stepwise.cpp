@@ -31,10 +31,10 @@ double spread_of_steps(const Evaluation& evaluation, const Hypothesis& h, std::s
   const Coordinate& c = h.free[k];
   double width = 0.0;
   for (const double side : {1.0, -1.0}) {
-    double equivalence_margin = 0.25 * c.scale;
-    for (bool open = true; open; equivalence_margin *= 1.5) {
+    double distance = 0.25 * c.scale;
+    for (bool open = true; open; distance *= 1.5) {
       Hypothesis there = h;
-      there.values[k] = std::clamp(h.values[k] + side * equivalence_margin, c.low, c.high);
+      there.values[k] = std::clamp(h.values[k] + side * distance, c.low, c.high);
       open = evaluate(evaluation, there) && there.objective < h.objective + fall && there.values[k] > c.low &&
              there.values[k] < c.high;
       if (!open) width += std::abs(there.values[k] - h.values[k]);

@@ -61,7 +61,7 @@ struct Axis1D {
   bool one_place = false;  ///< the torque acts at one place of the axis, the one where it explains most
 };
 
-/// Tents over the quantiles of an axis.
+/// Hat functions over the quantiles of an axis.
 class HatFunctions {
  public:
   HatFunctions(const std::vector<double>& x, int nodes) : x_(x) {
@@ -166,7 +166,7 @@ class Scores {
       b = -some.transpose() * residual_(rows);
     }
     add_tolerances(h_, A, b);
-    constexpr double shrink = 0.3;  // a tent without data is nothing
+    constexpr double shrink = 0.3;  // a hat without data is nothing
     for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += shrink;
     const Eigen::VectorXd x = columns > 0 ? solve_normal(A, b, 1e-6) : Eigen::VectorXd(0);
     return {x, columns > 0 ? x.dot(b) : 0.0};

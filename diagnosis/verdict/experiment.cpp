@@ -107,13 +107,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
       // signatures are those about what is stated
       const PreparedRecording recording = prepared(simulated(told), {}, 0);
       const Evaluation evaluation(told, InnovationLayout({recording}), threads);
-      Hypothesis h;
-      h.effects = told.effects;
-      for (const Coordinate& c : toleranced)
-        if (c.tolerance > 0.0) {
-          h.free.push_back(c);
-          h.values.push_back(c.centre);
-        }
+      Hypothesis h = stated_hypothesis(told.effects, toleranced);
       if (!evaluate(evaluation, h)) continue;
       adjust_noise(evaluation, h, 6);
       const std::vector<Visibility> seen =
