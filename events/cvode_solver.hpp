@@ -17,6 +17,7 @@
 #include "core/ripple.hpp"
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
+#include "events/growth.hpp"
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
@@ -173,6 +174,7 @@ class CvodeSolver {
     state() = ahead_.x;
     origin_ = ahead_.t;
     check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
+    if constexpr (Foresees<System>) friction_changes_ = system_.effects().change_friction();
     set_longest_step();
     limit_ = std::numeric_limits<double>::quiet_NaN();
     floor_.fill(0.0);
@@ -192,7 +194,7 @@ class CvodeSolver {
     }
     step_ = clock_ - from;
     ahead_.x = state();
-    if (growing_) set_longest_step();
+    if (friction_changes_) set_longest_step();
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
     const double parts = std::max(1.0, std::ceil(ripple * step_ / phase_between_looks(false)));
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
@@ -237,24 +239,15 @@ class CvodeSolver {
     const double omega = system_.fastest_input(now.t);
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
-  /// How fast a start grows [1/s] that is too slow for the relative tolerance to count, 0 where it does not: friction
-  /// that falls over the speed makes it unstable. With elastic teeth the period of the contact keeps steps short.
-  double growth(const Instant& now) {
-    if constexpr (Foresees<System> && System::state_size == 2) {
-      const double speed = std::abs(now.x[1]);
-      if (speed > 0.0 && settings_.relative_tolerance * speed < settings_.absolute_tolerance) {
-        ++total_.jacobians;
-        return std::max(0.0, system_.jacobian(now.t, now.x, now.mode)(1, 1));
-      }
-    }
-    return 0.0;
-  }
-  /// Tells CVODE its longest step. Where its absolute tolerance hides how a start grows, longer steps than this takes
-  /// would damp it, and the drive would stay where it cannot: so the implicit formulas do.
+  /// Tells CVODE its longest step. Friction that falls over the speed makes a motion unstable. In steps that are long
+  /// against its growth an implicit formula damps it, and its own estimate of the error finds nothing wrong.
   void set_longest_step() {
-    const double rate = growth(ahead_), longest = longest_step(ahead_);
-    growing_ = rate > 0.0;
-    const double step = growing_ ? std::min(longest, growth_in_a_step / rate) : longest;
+    double step = longest_step(ahead_);
+    if constexpr (Foresees<System>)
+      if (friction_changes_) {
+        ++total_.jacobians;
+        if (const double rate = growth(system_, ahead_); rate > 0.0) step = std::min(step, growth_in_a_step / rate);
+      }
     check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0));
   }
   static constexpr double growth_in_a_step = 0.25;  ///< exponent, well within what formulas of low order follow
@@ -281,7 +274,7 @@ class CvodeSolver {
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
   int first_steps_ = 0;                              ///< so many since the latest restart
-  bool growing_ = false;                             ///< the longest step is that of a start that grows
+  bool friction_changes_ = false;                    ///< so the longest step may be another one after each
   double waited_ = 0.0;                              ///< how long the clock has stood for first steps [s]
   Guards guards_{};                                  ///< where CVODE is ...
   std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero

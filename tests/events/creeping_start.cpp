@@ -44,4 +44,43 @@ TEST_CASE("a gear that leaves rest by next to nothing is carried off by friction
   }
 }
 
+TEST_CASE("a gear that only rounding moves off does not creep where friction falls over the speed") {
+  std::mt19937_64 random(19);
+  const auto decades = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution(low, high)(random));
+  };
+  for (int k = 0; k < 40; ++k) {
+    MeshParameters<double> p = table1();
+    const double size = decades(-3.0, 3.0), frequency = decades(-6.0, -2.0), drop = decades(-3.0, -0.5) * p.mu;
+    p.Jw *= size * decades(-1.0, 1.0);
+    p.Jg *= size * decades(-1.0, 1.0);
+    const GearMesh<double> mesh(p);
+    // motor and load pass through zero together, each at all times the one that the other just holds
+    const double hold = *break_in_torques(mesh, -size).forward;
+    const double phase = decades(-3.0, 0.0), omega_s = decades(-9.0, -5.0);
+    const auto wave = [&](double amplitude) { return Signal{{Sinusoid{amplitude, frequency, phase}}}; };
+    const Stribeck<double> stribeck{.drop = drop, .speed = std::abs(mesh.sliding_speed(p.i * omega_s))};
+    const auto d = drive(p, wave(-size), wave(hold), effects(stribeck));
+    for (const By by : every_solver) {
+      auto settings = tight(by, 1e-12);
+      settings.absolute_tolerance *= frequency;
+      CAPTURE(k, size, frequency, drop, omega_s, static_cast<int>(by.solver), static_cast<int>(by.method));
+      double begin = 0.0, slowest = 0.0, rate = 0.0;
+      const auto r = run(d, Timetable(0.0, 10.0, 0.05), {}, settings);
+      for (const auto& row : r.rows) {
+        if (row.now.mode.motion == Motion::stuck) {
+          begin = row.now.t;
+          auto at = drive(p, wave(-size), wave(hold), effects(stribeck));
+          at.enter(begin);
+          const Mode mode{Motion::forward, Flank::right};
+          const auto acceleration = [&](double omega) { return at.acceleration(at.moment(begin, 0.0, omega), mode); };
+          rate = (acceleration(0.01 * omega_s) - acceleration(0.0)) / (0.01 * omega_s);
+        } else if ((row.now.t - begin) * rate > 200.0) {
+          CHECK((row.now.x[1] == 0.0 || std::abs(row.now.x[1]) > omega_s));  // not begun, or carried off
+        }
+      }
+    }
+  }
+}
+
 }  // namespace wormdrive::test::events_creeping_start
