@@ -65,7 +65,7 @@ TEST_CASE("a gear that only rounding moves off does not creep where friction fal
       auto settings = tight(by, 1e-12);
       settings.absolute_tolerance *= frequency;
       CAPTURE(k, size, frequency, drop, omega_s, static_cast<int>(by.solver), static_cast<int>(by.method));
-      double begin = 0.0, slowest = 0.0, rate = 0.0;
+      double begin = 0.0, rate = 0.0;
       const auto r = run(d, Timetable(0.0, 10.0, 0.05), {}, settings);
       for (const auto& row : r.rows) {
         if (row.now.mode.motion == Motion::stuck) {
