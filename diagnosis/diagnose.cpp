@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/build.hpp"
@@ -161,29 +162,33 @@ std::optional<Remainder> error_above_noise(const Diagnosis& d) {
                    gain};
 }
 
-/// Looks for a motion that splits the class of a diagnosis.
+/// Looks for a motion that splits a class of a diagnosis, the first for which there may be one.
 void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Candidate>& all,
                         const std::vector<Coordinate>& stated, const Magnitudes& sizes,
                         const std::vector<Recording>& recordings, const DiagnosisSettings& settings) {
-  std::vector<Candidate> members;
-  for (const std::string& effect : d.equivalents)
-    for (const Candidate& s : all)
-      if (s.effect == effect) members.push_back(s);
-  double size = 0.0, excursion = 0.0;
-  for (const EstimatedEffect& cause : d.causes)
-    if (cause.effect == d.equivalents.front()) size = std::abs(cause.parameters.front().value);
-  for (const Recording& r : recordings)
-    for (const double y : r.gear_angle) excursion = std::max(excursion, std::abs(y));
-  if (members.size() < d.equivalents.size()) {
-    d.experiment_reason =
-        "twins: no motion tells them apart; it takes an index mark for a zero, a time stamp for a delay";
-    return;
+  for (const std::vector<std::string>& effects : d.classes) {
+    std::vector<Candidate> members;
+    for (const std::string& effect : effects)
+      for (const Candidate& s : all)
+        if (s.effect == effect) members.push_back(s);
+    if (members.size() < effects.size()) {  // twins are no candidates of their own
+      d.experiment_reason =
+          fmt::format("no motion tells {} apart: it takes an index mark for a zero, a time stamp for a delay",
+                      fmt::join(effects, " and "));
+      continue;
+    }
+    double size = 0.0, excursion = 0.0;
+    for (const EstimatedEffect& cause : d.causes)
+      if (cause.effect == effects.front()) size = std::abs(cause.parameters.front().value);
+    for (const Recording& r : recordings)
+      for (const double y : r.gear_angle) excursion = std::max(excursion, std::abs(y));
+    if (settings.progress) settings.progress("looking for an experiment");
+    Experiment found =
+        splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
+    d.experiment = std::move(found.scenario);
+    d.experiment_reason = std::move(found.reason);
+    if (d.experiment) return;
   }
-  if (settings.progress) settings.progress("looking for an experiment");
-  Experiment found =
-      splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
-  d.experiment = std::move(found.scenario);
-  d.experiment_reason = std::move(found.reason);
 }
 
 }  // namespace
@@ -244,7 +249,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   put_units_on_axis(d, scenario.axis);
   judge(d, found, all, sizes);
 
-  if (!d.causes.empty()) {
+  if (!d.causes.empty() || (found.causes.empty() && calibration_matters(d))) {
     d.extended.effects = extended(last);
     for (const Found& f : found.causes)
       if (std::none_of(d.causes.begin(), d.causes.end(),

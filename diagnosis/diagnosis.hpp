@@ -96,8 +96,8 @@ struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;  ///< for people: what is wrong, by how much, what is gained
   std::vector<EstimatedEffect> causes;
-  std::vector<std::string>
-      equivalents;  ///< ids of the class, if ambiguous, those in `causes` first; which of them are at work is not known
+  /// Ids of effects that these data cannot tell apart, those in `causes` first; which of them are at work is not known.
+  std::vector<std::vector<std::string>> classes;
   std::vector<RankedCandidate> ranking;      ///< best first
   std::vector<EstimatedEffect> calibration;  ///< stated parameters that moved, within tolerance or as part of a cause
   std::vector<PredictionError> prediction;

@@ -84,7 +84,7 @@ void print(const Diagnosis& d) {
     print_item("found", fmt::format("{} = {:.4g} +- {:.2g} (95 %: {:.4g} to {:.4g})", e.field, e.value,
                                     e.standard_error, e.low, e.high));
   print_blind_spots(d);
-  if (d.experiment) print_item("next", d.experiment_reason);
+  if (!d.experiment_reason.empty()) print_item("next", d.experiment_reason);
   std::fflush(stdout);  // pictures take a second
 }
 

@@ -16,7 +16,7 @@ constexpr double shape_error = 0.1;
 
 /// One coordinate that is a field.
 Coordinate plain_coordinate(std::string_view effect, std::string_view field, double scale, double low, double high) {
-  return {.effect = effect, .field = field, .scale = scale, .low = low, .high = high};
+  return {.effect = effect, .field = field, .scale = scale, .low = low, .high = high, .none_at_low = low == 0.0};
 }
 
 /// An effect that acts in proportion to one field.
@@ -83,6 +83,7 @@ Candidate cogging(const Magnitudes& m) {
 Candidate late(std::string_view effect, std::string_view field, double period, double least) {
   Candidate s = finite(effect, field, period, least, 30.0 * period, {0.5 * period, 3.0 * period});
   s.coordinates[0].model_error = {.of_scale = 0.0, .size = 1.5e-5};
+  s.coordinates[0].none_at_low = true;
   return s;
 }
 

@@ -29,10 +29,11 @@ struct Coordinate {
   double scale = 1.0;       ///< a size that shows
   double low, high;         ///< a fit stays within
   CoordinateForm form = CoordinateForm::plain;
-  double centre = 0.0;     ///< what the scenario states
-  double whole = 0.0;      ///< change that doubles what is stated; 0 where nothing is stated that could be doubled
-  bool turns = false;      ///< an angle, to which a turn more is nothing
-  double tolerance = 0.0;  ///< standard deviation of the truth about it; 0: nothing is known
+  double centre = 0.0;       ///< what the scenario states
+  double whole = 0.0;        ///< change that doubles what is stated; 0 where nothing is stated that could be doubled
+  bool none_at_low = false;  ///< the lower bound is no effect at all
+  bool turns = false;        ///< an angle, to which a turn more is nothing
+  double tolerance = 0.0;    ///< standard deviation of the truth about it; 0: nothing is known
   /// Whether the likelihood has steps over it instead of a slope: a model breaks away at one sample or at another.
   bool stepwise = false;
   ModelError model_error{};

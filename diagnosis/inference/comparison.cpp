@@ -46,9 +46,16 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
     if (c.tolerance > 0.0) e.tolerances = std::max(e.tolerances, std::abs(x - c.centre) / c.tolerance);
     // what has no slope is known to its scale at best; a size of less than two is none
     const double near = has_slope(c) ? 1e-6 * (c.high - c.low) : 2.0 * c.scale;
-    e.at_bound = e.at_bound || x <= c.low + near || x >= c.high - near;
+    e.at_bound = e.at_bound || (x <= c.low + near && !is_removed(with, candidate)) || x >= c.high - near;
   }
   return e;
+}
+
+bool is_removed(const Hypothesis& h, const Candidate& candidate) {
+  const Coordinate& size = candidate.coordinates[0];
+  const int k = index_of(h, size);
+  const double none = size.low + 1e-6 * (size.high - size.low);
+  return k >= 0 && size.none_at_low && size.centre > none && h.values[static_cast<std::size_t>(k)] <= none;
 }
 
 namespace {

@@ -32,6 +32,9 @@ struct Evidence {
 Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candidate& candidate,
                  const InnovationLayout& layout);
 
+/// Whether a stated effect turns out to be none.
+bool is_removed(const Hypothesis& h, const Candidate& candidate);
+
 bool accepted(const Evidence& evidence, const Candidate& candidate, const AcceptanceRules& rules = {});
 
 /// Candidates whose evidence is within reach of the best one's form a class with it.

@@ -170,6 +170,44 @@ void CauseSearch::confirm_classes() {
     });
 }
 
+/// A stated number far beyond its tolerance is a cause, whatever else is one: the one first that gains most by being
+/// free of it.
+void CauseSearch::name_far_numbers() {
+  const auto freed = [&](std::size_t number) {
+    return std::any_of(s_.causes.begin(), s_.causes.end(), [&](const Found& found) {
+      return found.candidate == number || all_[found.candidate].frees == all_[number].effect;
+    });
+  };
+  for (bool again = !s_.causes.empty(); again;) {
+    again = false;
+    std::vector<Tried> tried;
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      if (!all_[k].toleranced || freed(k)) continue;
+      const Coordinate& c = all_[k].coordinates[0];
+      const int at = index_of(s_.model, c);
+      // its tolerance draws a number back, from where it would be far off without it
+      constexpr double suspicious = 0.7;
+      if (at < 0 || std::abs(s_.model.values[static_cast<std::size_t>(at)] - c.centre) <
+                        suspicious * AcceptanceRules{}.least_tolerances * c.tolerance)
+        continue;
+      Tried t{k, s_.model, {}};
+      add_candidate(t.model, all_, k, 0);
+      fit(evaluation_, t.model, 6);
+      t.evidence = compare(s_.model, t.model, all_[k], evaluation_.layout());
+      if (supported(t.evidence, t.model, all_[k])) tried.push_back(std::move(t));
+    }
+    const auto best = std::max_element(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
+      return a.evidence.delta_bic < b.evidence.delta_bic;
+    });
+    if (best == tried.end()) return;
+    const double before = s_.model.bic;
+    s_.causes.push_back({best->candidate, {}});
+    s_.model = std::move(best->model);
+    eliminate(before);
+    again = true;
+  }
+}
+
 /// A stated number that a cause frees is a part of its law, and no cause beside it unless it has moved far.
 void CauseSearch::judge_freed_numbers() {
   for (std::size_t k = 0; k < all_.size(); ++k) {

@@ -45,7 +45,11 @@ Start fitted_start(const Evaluation& evaluation, const std::vector<Candidate>& a
 void CauseSearch::select(const Start& start, const Start* other) {
   s_.base = s_.model = start.base;
   s_.screening = start.screening;
-  for (int round = 0; round < most_causes_; ++round) {
+  const auto removed = [&] {  // an effect that is taken away leaves room for another
+    return std::count_if(s_.causes.begin(), s_.causes.end(),
+                         [&](const Found& found) { return is_removed(s_.model, all_[found.candidate]); });
+  };
+  for (int round = 0; round < most_causes_ + removed(); ++round) {
     tell(fmt::format("trying candidates, round {}", round + 1));
     const bool first = round == 0;
     std::vector<Tried> tried =
@@ -60,6 +64,7 @@ void CauseSearch::select(const Start& start, const Start* other) {
 }
 
 Selection CauseSearch::confirmed() {
+  name_far_numbers();
   confirm_classes();
   judge_freed_numbers();
   return std::move(s_);
@@ -185,7 +190,8 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
 /// more than all before it: how teeth bounce over a wide gap nobody can predict.
 bool CauseSearch::improves_prediction(const Tried& with) const {
   constexpr double least_share = 0.01;
-  return s_.causes.empty() || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
+  // a stated number lowers it without being named, within its tolerance
+  return s_.causes.empty() || all_[with.candidate].toleranced || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
          error_ahead(evaluation_, with.model, reported_horizon) <
              (1.0 - least_share) * error_ahead(evaluation_, s_.model, reported_horizon);
 }

@@ -71,6 +71,7 @@ class CauseSearch {
   bool exchange_for_fewer();
   Hypothesis fit_causes(const std::vector<std::size_t>& causes, const Hypothesis* warm, int rounds) const;
   void confirm_classes();
+  void name_far_numbers();
   void judge_freed_numbers();
   void tell(const std::string& what) const {
     if (progress_) progress_(what);

@@ -150,7 +150,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   put_units_on_axis(d, scenario.axis);
   judge_points(d, found, candidates);
   if (!d.causes.empty()) d.extended.effects = fitter.with(found.after.model, found.after.all.values);
-  if (more && !d.equivalents.empty()) propose_other_load(d, scenario, *more, candidates, found);
+  if (more && !d.classes.empty()) propose_other_load(d, scenario, *more, candidates, found);
   d.passes = fitter.passes();
   return d;
 }

@@ -142,8 +142,10 @@ std::vector<Remainder> point_remainders(const TorquePoints& points, const std::v
 }
 
 void judge_points(Diagnosis& d, const PointSelection& selection, const std::vector<PointCandidate>& candidates) {
-  for (const std::vector<std::size_t>& members : selection.classes)
-    for (const std::size_t k : members) d.equivalents.emplace_back(candidates[k].effect);
+  for (const std::vector<std::size_t>& members : selection.classes) {
+    d.classes.emplace_back();
+    for (const std::size_t k : members) d.classes.back().emplace_back(candidates[k].effect);
+  }
   const PredictionError& error = d.prediction.front();
   const std::string gain =
       fmt::format(" The error of {}s that a fit has not seen falls from {:.3g} to {:.3g} m{}.",
@@ -166,38 +168,39 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     for (RankedCandidate& c : d.ranking)
       if (std::exchange(c.named, false)) c.outcome = "leaves structure behind";
     d.causes.clear();
-    d.equivalents.clear();
+    d.classes.clear();
     return;
   }
-  std::vector<std::string> names, classed;
-  for (const EstimatedEffect& cause : d.causes) {
-    const bool member = std::find(d.equivalents.begin(), d.equivalents.end(), cause.effect) != d.equivalents.end();
-    (member ? classed : names).push_back(phrase(cause, d.extended.axis));
-  }
-  d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
-  if (classed.size() == 1) names.push_back(classed.front());
+  const auto causes_in = [&](const std::vector<std::string>& members) {
+    return std::count_if(d.causes.begin(), d.causes.end(), [&](const EstimatedEffect& cause) {
+      return std::find(members.begin(), members.end(), cause.effect) != members.end();
+    });
+  };
+  std::vector<std::string> names;
+  for (const EstimatedEffect& cause : d.causes)
+    if (const auto* members = class_of(d, cause.effect); !members || causes_in(*members) == 1)
+      names.push_back(phrase(cause, d.extended.axis));
+  d.verdict = d.classes.empty() ? Verdict::named : Verdict::ambiguous;
   if (!names.empty()) d.sentence = fmt::format("The simulation lacks {}.", fmt::join(names, " and "));
-  if (classed.size() == 1)
-    d.sentence += fmt::format(" These data cannot tell {} from {}.", d.equivalents.front(),
-                              fmt::join(d.equivalents.begin() + 1, d.equivalents.end(), " or "));
-  else if (!classed.empty())
-    d.sentence += fmt::format("{}ome of {} are at work; these data cannot tell which.",
-                              names.empty() ? "S" : " Beside, s", fmt::join(d.equivalents, ", "));
+  for (const std::vector<std::string>& members : d.classes)
+    if (causes_in(members) == 1)
+      d.sentence += fmt::format(" These data cannot tell {} from {}.", members.front(),
+                                fmt::join(members.begin() + 1, members.end(), " or "));
+    else
+      d.sentence += fmt::format("{}ome of {} are at work; these data cannot tell which.",
+                                d.sentence.empty() ? "S" : " In addition, s", fmt::join(members, ", "));
   d.sentence += gain + left;
 }
 
 void propose_other_load(Diagnosis& d, const Scenario& scenario, const TorquePoints& more,
                         const std::vector<PointCandidate>& candidates, const PointSelection& selection) {
   const PointFitter fitter(scenario, more);
-  const double before =
-      std::accumulate(d.certificate.begin(), d.certificate.end(), 0.0, [&](double worst, const auto& v) {
-        const bool member = std::find(d.equivalents.begin(), d.equivalents.end(), v.effect) != d.equivalents.end();
-        return member ? std::max(worst, v.likeness) : worst;
-      });
+  const double before = std::accumulate(
+      d.certificate.begin(), d.certificate.end(), 0.0,
+      [&](double worst, const auto& v) { return class_of(d, v.effect) ? std::max(worst, v.likeness) : worst; });
   double after = 0.0;
   for (const Visibility& v : point_certificate(fitter, candidates, selection.after))
-    if (std::find(d.equivalents.begin(), d.equivalents.end(), v.effect) != d.equivalents.end() && v.observable)
-      after = std::max(after, v.likeness);
+    if (class_of(d, v.effect) && v.observable) after = std::max(after, v.likeness);
   d.experiment = d.extended;
   d.experiment->load = Signal{{Constant{more.load_torque.back()}}};
   d.experiment->title = scenario.title + ", another load to tell effects apart";

@@ -15,7 +15,7 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
 /// Structure left over the speed, or over the load at break-in: neighbours that err to the same side.
 std::vector<Remainder> point_remainders(const TorquePoints& points, const std::vector<double>& errors);
 
-/// Decides what a diagnosis of torque points may claim; fills verdict, equivalents and sentence, and withdraws names
+/// Decides what a diagnosis of torque points may claim; fills verdict, classes and sentence, and withdraws names
 /// that leave structure behind without a clear gain.
 void judge_points(Diagnosis& diagnosis, const PointSelection& selection, const std::vector<PointCandidate>& candidates);
 

@@ -30,9 +30,10 @@ constexpr const char* file_names[] = {"diagnosis.h5", "extended.toml", "experime
 
 std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
-  if (!d.equivalents.empty())
-    text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(d.equivalents, ", "));
-  if (!d.calibration.empty()) text += fmt::format("# Stated values that moved with them: {}.\n", ids(d.calibration));
+  for (const std::vector<std::string>& members : d.classes)
+    text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(members, ", "));
+  if (!d.calibration.empty())
+    text += fmt::format("# Stated values that moved within their tolerances: {}.\n", ids(d.calibration));
   return text + to_toml(d.extended);
 }
 

@@ -95,7 +95,7 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
           {"sentence", d.sentence},
           {"data", {{"kind", data_kind}, {"files", files}}},
           {"causes", list_of(d.causes)},
-          {"class", d.equivalents},
+          {"classes", d.classes},
           {"ranking", list_of(d.ranking)},
           {"gain", list_of(d.prediction)},
           {"calibration", list_of(d.calibration)},
@@ -106,7 +106,7 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
           {"noise",
            {{key("torque", unit::newton_metre, d.extended.axis), number(d.noise_torque)},
             {key("angle", unit::radian, d.extended.axis), number(d.noise_angle)}}},
-          {"experiment", d.experiment ? json(d.experiment_reason) : json(nullptr)},
+          {"experiment", d.experiment_reason.empty() ? json(nullptr) : json(d.experiment_reason)},
           {"remarks", d.remarks},
           {"settings", {{"seed", d.seed}, {"passes", d.passes}}},
           {"program", build_description()}};

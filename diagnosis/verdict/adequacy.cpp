@@ -242,7 +242,7 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
   for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r)
     for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {
       all.push_back(spectral_line(evaluation, h, r, demodulated, demodulated ? "a line by flank" : "a line"));
-      all.back().found = all.back().what.evidence > rules.most_line;
+      all.back().found = all.back().what.evidence > rules.most_line && all.back().ahead > rules.least_ahead;
     }
   return all;
 }

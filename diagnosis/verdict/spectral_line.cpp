@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
 #include <unsupported/Eigen/FFT>
+
+#include "diagnosis/fitting/prediction_error.hpp"
 
 namespace wormdrive {
 
@@ -37,6 +41,7 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
   // the median of m exponential variates is known as well as the mean of 0.48 m of them
   constexpr double variates = 0.48 * (2 * around + 1);
   double strongest = 0.0, frequency = 0.0;
+  std::size_t at = 0;
   for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(lowest * r.duration())); f < lines; ++f) {
     std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
                              power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
@@ -45,10 +50,18 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
     const double ratio = power[f] / (*middle / std::numbers::ln2 + 1e-300);
     if (ratio > strongest) {
       strongest = ratio;
+      at = f;
       frequency = static_cast<double>(f) / (static_cast<double>(n * bin) * r.data.period);
     }
   }
   test.what.gain = strongest;
+  // A torque of this frequency adds up over a part of its period, noise over the whole horizon.
+  const double others = std::accumulate(power.begin(), power.end(), 0.0) - power[at];
+  const double white = others * 0.5 * static_cast<double>(n) / static_cast<double>(lines);  // up to half the rate
+  const double line = power[at] / std::max(white, std::numeric_limits<double>::min());
+  const double interval = static_cast<double>(bin) * r.data.period, turn = 2.0 * std::numbers::pi * frequency;
+  const double adds_up = std::min(2.0 / (turn * turn * interval * reported_horizon), reported_horizon / interval);
+  test.ahead = line * adds_up;
   test.what.axis = fmt::format("{} at {:.5} Hz", name, fmt::format("{:f}", frequency));
   test.what.evidence =
       variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));

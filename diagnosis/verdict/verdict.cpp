@@ -36,6 +36,18 @@ std::string gain_sentence(const Diagnosis& d) {
       milli * e->floor);
 }
 
+/// What moved within its tolerance, at least the number that moved most.
+std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
+  std::vector<double> tolerances;
+  for (std::size_t k = 0; k < h.free.size(); ++k)
+    if (h.free[k].tolerance > 0.0) tolerances.push_back(std::abs(h.values[k] - h.free[k].centre) / h.free[k].tolerance);
+  const double most = tolerances.empty() ? 0.0 : *std::max_element(tolerances.begin(), tolerances.end());
+  std::vector<std::string> moved;
+  for (std::size_t k = 0; k < std::min(tolerances.size(), d.calibration.size()); ++k)
+    if (tolerances[k] >= std::min(1.0, most)) moved.push_back(phrase(d.calibration[k], d.extended.axis));
+  return " once stated numbers move within their tolerances: " + joined(moved, "and") + ".";
+}
+
 /// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
 /// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
 constexpr double most_noise = 1.0 / 3.0;
@@ -63,8 +75,20 @@ const PredictionError* reported_error(const Diagnosis& d) {
   return nullptr;
 }
 
+bool calibration_matters(const Diagnosis& d) {
+  constexpr double no_account = 0.05;  // of the error, as for anything that is said to be missing
+  const PredictionError* e = reported_error(d);
+  return e && e->after < (1.0 - no_account) * e->before;
+}
+
 bool impacts(const Diagnosis& d) {
   return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return has_impacts(c.effect); });
+}
+
+const std::vector<std::string>* class_of(const Diagnosis& d, std::string_view effect) {
+  for (const std::vector<std::string>& members : d.classes)
+    if (std::find(members.begin(), members.end(), effect) != members.end()) return &members;
+  return nullptr;
 }
 
 std::string phrase(const EstimatedEffect& effect, Axis axis) {
@@ -80,15 +104,14 @@ std::string phrase(const EstimatedEffect& effect, Axis axis) {
 
 void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate>& all, const Magnitudes& sizes) {
   for (const Found& found : selection.causes) {
-    std::vector<std::string> equals;
+    std::vector<std::string> members{std::string(all[found.candidate].effect)};
     for (const std::size_t other : found.equals) {
-      equals.emplace_back(all[other].effect);
-      for (const Twin& twin : all[other].twins) equals.emplace_back(twin.effect);
+      members.emplace_back(all[other].effect);
+      for (const Twin& twin : all[other].twins) members.emplace_back(twin.effect);
     }
-    for (const Twin& twin : all[found.candidate].twins) equals.emplace_back(twin.effect);
-    if (equals.empty() || !d.equivalents.empty()) continue;
-    d.equivalents.emplace_back(all[found.candidate].effect);
-    d.equivalents.insert(d.equivalents.end(), equals.begin(), equals.end());
+    if (!is_removed(selection.model, all[found.candidate]))  // what is stated is not there, whatever else may be
+      for (const Twin& twin : all[found.candidate].twins) members.emplace_back(twin.effect);
+    if (members.size() > 1) d.classes.push_back(std::move(members));
   }
 
   if (selection.beyond_bound)
@@ -102,7 +125,8 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
     const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);
     d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
     d.sentence =
-        adequate ? "The simulation has all that these data show." : lacking + remainder_sentence(d, sizes.torque);
+        adequate ? "The simulation has all that these data show" : lacking + remainder_sentence(d, sizes.torque);
+    if (adequate) d.sentence += calibration_matters(d) ? calibration_clause(d, selection.base) + gain_sentence(d) : ".";
     return;
   }
 
@@ -124,7 +148,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
       if (withdrawn(cause.effect)) tried.push_back(in_words(cause.effect));
     if (!tried.empty())
       d.remarks.push_back("best of the catalogue, but it leaves structure behind: " + joined(tried, "and"));
-    if (!d.equivalents.empty() && withdrawn(d.equivalents.front())) d.equivalents.clear();
+    std::erase_if(d.classes, [&](const std::vector<std::string>& members) { return withdrawn(members.front()); });
     std::erase_if(d.causes, [&](const EstimatedEffect& cause) { return withdrawn(cause.effect); });
     for (RankedCandidate& c : d.ranking)
       if (c.named && withdrawn(c.effect.effect)) {
@@ -140,13 +164,13 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
 
   std::vector<std::string> phrases;
   for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause, d.extended.axis));
-  d.verdict = d.equivalents.empty() ? Verdict::named : Verdict::ambiguous;
+  d.verdict = d.classes.empty() ? Verdict::named : Verdict::ambiguous;
   d.sentence = (d.remainders.empty() ? "What the simulation lacks is " : "What the simulation lacks is in part ") +
                joined(phrases, "and") + ".";
-  if (!d.equivalents.empty()) {
+  for (const std::vector<std::string>& members : d.classes) {
     std::vector<std::string> others;
-    for (std::size_t k = 1; k < d.equivalents.size(); ++k) others.push_back(in_words(d.equivalents[k]));
-    d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(d.equivalents[0]), joined(others, "or"));
+    for (std::size_t k = 1; k < members.size(); ++k) others.push_back(in_words(members[k]));
+    d.sentence += fmt::format(" These data cannot tell {} from {}.", in_words(members[0]), joined(others, "or"));
   }
   d.sentence += gain_sentence(d);
   if (e && e->after > e->before)

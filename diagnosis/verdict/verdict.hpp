@@ -6,15 +6,21 @@
 namespace wormdrive {
 
 /// Decides what a diagnosis may claim, from its causes, what remains and the gain of prediction; fills verdict,
-/// equivalents and sentence, and withdraws names that the data do not bear out.
+/// classes and sentence, and withdraws names that the data do not bear out.
 void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<Candidate>& all,
            const Magnitudes& sizes);
 
 /// The error ahead that the sentence tells of, null if there is none.
 const PredictionError* reported_error(const Diagnosis& diagnosis);
 
+/// Whether stated numbers that move within their tolerances lower the error ahead by more than is of no account.
+bool calibration_matters(const Diagnosis& diagnosis);
+
 /// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
 bool impacts(const Diagnosis& diagnosis);
+
+/// The class that an effect belongs to, null if it is told from all others.
+const std::vector<std::string>* class_of(const Diagnosis& diagnosis, std::string_view effect);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect, Axis axis);

@@ -63,7 +63,7 @@ TEST_CASE("the report holds every key with its type, and null for what is no num
                     {"sentence", "string"},
                     {"data", "object"},
                     {"causes", "array"},
-                    {"class", "array"},
+                    {"classes", "array"},
                     {"ranking", "array"},
                     {"gain", "array"},
                     {"calibration", "array"},

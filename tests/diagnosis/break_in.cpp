@@ -64,7 +64,7 @@ TEST_CASE("friction at rest that is not the scenario's is named, with the true v
     const Diagnosis d = diagnosed(table(break_in_csv(0.25, 0.03, seed), {"mesh.friction=0.2"}));
     INFO("seed " << seed << ": " << d.sentence);
     REQUIRE(d.causes.size() == 1);
-    const std::set<std::string> members(d.equivalents.begin(), d.equivalents.end());
+    const std::set<std::string> members(d.classes.at(0).begin(), d.classes.at(0).end());
     CHECK(members == std::set<std::string>{"mesh_friction", "static_friction"});
     const Estimate& e = d.causes[0].parameters.at(0);
     CHECK((e.low <= 0.05 && 0.05 <= e.high));

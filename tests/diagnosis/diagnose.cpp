@@ -106,7 +106,7 @@ TEST_CASE("names that are withdrawn leave nothing in the extended scenario", "[s
 TEST_CASE("a delay is named together with its twin", "[slow]") {
   const Diagnosis d = of({{"actuator_delay", "delay", 3e-3}});
   REQUIRE(d.verdict == Verdict::ambiguous);
-  REQUIRE(d.equivalents == std::vector<std::string>{"actuator_delay", "encoder_delay"});
+  REQUIRE(d.classes == std::vector<std::vector<std::string>>{{"actuator_delay", "encoder_delay"}});
   CHECK(close(value_of(d, "delay"), 3e-3, 0.02));
   CHECK_FALSE(d.experiment);
 }

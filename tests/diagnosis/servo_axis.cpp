@@ -153,4 +153,17 @@ TEST_CASE("the measured axis: from its mass, friction is named and then that it 
   CHECK(ours <= by_direction);
 }
 
+TEST_CASE("the measured axis: a delay that is stated and is not there costs nothing", "[reference][slow]") {
+  auto axis = measured_axis();
+  if (!axis) return;
+  set_field(axis->scenario.effects, {"actuator_delay", "delay", 4e-4});
+  const Diagnosis d = diagnose(axis->scenario, {axis->recording}, {.threads = 2});
+  CAPTURE(d.sentence);
+  const auto error = std::find_if(d.prediction.begin(), d.prediction.end(),
+                                  [](const PredictionError& e) { return e.horizon == 0.25; });
+  REQUIRE(error != d.prediction.end());
+  CHECK(error->after < 0.08e-3);  // without it 0.074 mm
+  CHECK(std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "worm_viscous"; }));
+}
+
 }  // namespace wormdrive::test::diagnosis_servo_axis

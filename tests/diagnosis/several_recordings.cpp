@@ -60,8 +60,8 @@ TEST_CASE("a second payload splits the class that one leaves", "[slow]") {
   CAPTURE(one.sentence, other.sentence);
   for (const Diagnosis* d : {&one, &other}) {
     CHECK(d->verdict == Verdict::ambiguous);
-    CHECK(holds(d->equivalents, "worm_coulomb"));
-    CHECK(holds(d->equivalents, "mesh_friction"));
+    CHECK(holds(d->classes.at(0), "worm_coulomb"));
+    CHECK(holds(d->classes.at(0), "mesh_friction"));
   }
   const Diagnosis both = diagnose(exact_arm(), {light, heavy});
   CAPTURE(both.sentence);
@@ -75,7 +75,7 @@ TEST_CASE("the proposed experiment, made and diagnosed with the first recording,
   const Diagnosis before = diagnose(exact_arm(), {first});
   CAPTURE(before.sentence);
   REQUIRE(before.verdict == Verdict::ambiguous);
-  REQUIRE(holds(before.equivalents, "mesh_friction"));
+  REQUIRE(holds(before.classes.at(0), "mesh_friction"));
   REQUIRE(before.experiment);
   Scenario made = *before.experiment;  // on the true drive, not on the one that was found
   made.effects = {};

@@ -31,6 +31,29 @@ const T& one_of(const std::vector<T>& all, truth::Generator& generator) {
   return all[std::uniform_int_distribution<std::size_t>(0, all.size() - 1)(generator)];
 }
 
+/// What the data sheet states, with the tolerance that goes with stated_errors.
+struct StatedNumber {
+  std::string_view effect;
+  double tolerance;
+};
+std::vector<StatedNumber> stated_numbers() {
+  const truth::Geometry g;
+  const double share = stated_errors.share;
+  return {{"mesh_friction", share * truth::MeshFriction{}.level},
+          {"load_magnitude", share},
+          {"load_angle", stated_errors.angle},
+          {"torque_gain", share},
+          {"torque_offset", stated_errors.offset},
+          {"worm_inertia", share * g.worm_inertia},
+          {"gear_inertia", share * (g.gear_inertia + g.mass * g.arm * g.arm)}};
+}
+
+/// Whether an effect is a stated number, or leaves the same data as one.
+bool is_stated(const truth::Secret& secret) {
+  const auto all = stated_numbers();
+  return std::any_of(all.begin(), all.end(), [&](const StatedNumber& n) { return same_or_twin(n.effect, secret); });
+}
+
 double signed_amount(const truth::Secret& secret, truth::Size size, truth::Generator& generator) {
   const bool turn = secret.either_sign && std::bernoulli_distribution(0.5)(generator);
   return turn ? -secret.amount(size) : secret.amount(size);
@@ -67,15 +90,16 @@ std::string_view name(Kind kind) {
     case Kind::nothing: return "nothing";
     case Kind::pair: return "pair";
     case Kind::cancelling: return "cancelling";
+    case Kind::stated_off: return "stated_off";
     case Kind::outside: return "outside";
   }
   return {};
 }
 
 Kind kind(std::string_view sought) {
-  for (const Kind k : {Kind::single, Kind::nothing, Kind::pair, Kind::cancelling, Kind::outside})
+  for (const Kind k : {Kind::single, Kind::nothing, Kind::pair, Kind::cancelling, Kind::stated_off, Kind::outside})
     if (name(k) == sought) return k;
-  throw std::invalid_argument("a campaign hides single, nothing, pair, cancelling or outside, not " +
+  throw std::invalid_argument("a campaign hides single, nothing, pair, cancelling, stated_off or outside, not " +
                               std::string(sought));
 }
 
@@ -103,6 +127,15 @@ std::vector<Case> draw(const Plan& plan) {
         const truth::Secret* second = first;
         while (same_or_twin(second->effect, *first)) second = one_of(secrets, generator);
         for (const truth::Secret* secret : {first, second}) hide(*secret, signed_amount(*secret, size, generator));
+        break;
+      }
+      case Kind::stated_off: {
+        const truth::Secret* effect = one_of(secrets, generator);
+        while (is_stated(*effect)) effect = one_of(secrets, generator);
+        hide(*effect, signed_amount(*effect, size, generator));
+        const StatedNumber number = one_of(stated_numbers(), generator);
+        const double off = number.tolerance * std::uniform_real_distribution(5.0, 20.0)(generator);
+        hide(truth::secret(number.effect), std::bernoulli_distribution(0.5)(generator) ? -off : off);
         break;
       }
       case Kind::cancelling: {

@@ -30,7 +30,14 @@ inline constexpr truth::NominalErrors stated_errors{
 Conditions conditions(std::string_view name);
 
 /// What a campaign hides.
-enum class Kind { single, nothing, pair, cancelling, outside };
+enum class Kind {
+  single,
+  nothing,
+  pair,
+  cancelling,
+  stated_off,  ///< an effect, and a stated number that is off by 5 to 20 of its tolerances
+  outside
+};
 Kind kind(std::string_view name);
 std::string_view name(Kind kind);
 

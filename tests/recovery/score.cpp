@@ -76,7 +76,11 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   const bool claims = found.verdict == Verdict::named || found.verdict == Verdict::ambiguous;
   if (claims)
     for (const auto& cause : found.causes) outcome.named.push_back(cause.effect);
-  outcome.class_size = std::max<std::size_t>(1, found.equivalents.size());
+  std::vector<std::string> members;
+  for (const std::vector<std::string>& of_class : found.classes) {
+    members.insert(members.end(), of_class.begin(), of_class.end());
+    outcome.class_size = std::max(outcome.class_size, of_class.size());
+  }
   const auto is_hidden = [&](const std::string& cause) {
     return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
                        [&](const Hiding& h) { return same_or_twin(cause, *h.secret); });
@@ -85,7 +89,7 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
     return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return same_or_twin(n, *h.secret); });
   };
   const auto named = [&](const Hiding& h) { return is_named(h, outcome.named); };
-  const auto in_class = [&](const Hiding& h) { return named(h) || is_named(h, found.equivalents); };
+  const auto in_class = [&](const Hiding& h) { return named(h) || is_named(h, members); };
   const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
   const bool only_hidden =
       std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
@@ -93,11 +97,10 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   const auto off = [&](const std::string& cause) { return is_off(cause, drive, stated); };
   const bool only_true = std::all_of(outcome.named.begin(), outcome.named.end(), [&](const std::string& cause) {
     return is_hidden(cause) || off(cause) ||
-           (found.verdict == Verdict::ambiguous &&
-            std::any_of(found.equivalents.begin(), found.equivalents.end(), off));
+           (found.verdict == Verdict::ambiguous && std::any_of(members.begin(), members.end(), off));
   });
   const bool some_off = !std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden);
-  const bool class_of_twins = std::all_of(found.equivalents.begin(), found.equivalents.end(), is_hidden);
+  const bool class_of_twins = std::all_of(members.begin(), members.end(), is_hidden);
   if (!claims || outcome.named.empty())
     outcome.score = drawn.hidden.empty() ? Score::exact : Score::silent;
   else if (drawn.hidden.empty())

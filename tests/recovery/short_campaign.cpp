@@ -42,7 +42,7 @@ Score scored(const std::vector<std::string>& hidden, wormdrive::Verdict verdict,
   wormdrive::Diagnosis found;
   found.verdict = verdict;
   for (const std::string& effect : named) found.causes.push_back({effect, {}});
-  found.equivalents = equivalents;
+  if (!equivalents.empty()) found.classes = {equivalents};
   return judge(hiding(hidden), {}, found).score;
 }
 

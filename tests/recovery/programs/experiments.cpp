@@ -40,7 +40,8 @@ std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
     const wormdrive::Diagnosis first = diagnose(sheet, {slow});
     if (first.verdict != wormdrive::Verdict::ambiguous) continue;
     if (judge(hidden, drive, first).score != Score::in_class) continue;
-    Split split{hidden, first.equivalents, first.experiment.has_value()};
+    Split split{hidden, first.classes.empty() ? std::vector<std::string>{} : first.classes[0],
+                first.experiment.has_value()};
     if (split.proposed) {
       wormdrive::Scenario heavier = sheet;
       heavier.load = first.experiment->load;

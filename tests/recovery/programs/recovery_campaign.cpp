@@ -38,6 +38,7 @@ std::vector<Plan> benchmark(std::uint64_t seed, double scale) {
   add(Kind::nothing, "double", all, 100);
   add(Kind::pair, "ideal", upper, 70);
   add(Kind::cancelling, "ideal", upper, 32);
+  add(Kind::stated_off, "realistic", upper, 60);
   add(Kind::outside, "ideal", upper, 60);
   Plan* const with_worm = add(Kind::single, "ideal", all, 27);
   with_worm->effects = {"backlash", "tooth_compliance", "transmission_error"};
@@ -89,10 +90,10 @@ int main(int argc, char** argv) {
   bool worm_encoder = false, all = false;
   int threads = 2;
   double scale = 1.0;
-  app.add_option(
-      "--hide", kind,
-      "single, nothing, pair, cancelling or outside; or thresholds, unseen or experiments: from which size on "
-      "effects are named, effects in motions that cannot show them, experiments that are proposed");
+  app.add_option("--hide", kind,
+                 "single, nothing, pair, cancelling, stated_off or outside; or thresholds, unseen or experiments: from "
+                 "which size on "
+                 "effects are named, effects in motions that cannot show them, experiments that are proposed");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--sizes", sizes, "small, medium, large")->delimiter(',');
   app.add_option("--effects", plan.effects, "only these")->delimiter(',');
