@@ -103,7 +103,7 @@ std::optional<std::string> not_exportable(const Scenario& scenario) {
 
 void export_fmu(const Scenario& scenario, const std::string& path, Replace replace) {
   const std::string plant = plant_to_json(scenario), library = read_library(), file = followed(path);
-  refuse_to_replace_unmarked(file, archive_mark, replace);
+  reject_replacing_unmarked(file, archive_mark, replace);
   Zip zip(file);
   zip.add(std::string(archive_mark), "An FMU of a worm-gear drive, made by wormdrive.\n");
   zip.add("modelDescription.xml", model_description(scenario, guid_of(plant)));

@@ -52,7 +52,7 @@ void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::stri
 }
 
 int replay_command(const ReplayOptions& options) {
-  refuse_to_overwrite(options.output, options.sweep);
+  reject_overwriting(options.output, options.sweep);
   RunOptions run;
   run.scenario.quiet = options.quiet;
   run.scenario.command_line = options.command_line;

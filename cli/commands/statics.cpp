@@ -87,7 +87,7 @@ void print_table(const StaticsMap& map, bool outside) {
 }  // namespace
 
 int statics_command(const StaticsOptions& options) {
-  refuse_to_overwrite(options.output, options.scenario.file);
+  reject_overwriting(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) reject({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");

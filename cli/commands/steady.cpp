@@ -149,7 +149,7 @@ void print_comparison(const Comparison& comparison, const std::string& data, con
 }  // namespace
 
 int steady_command(const SteadyOptions& options) {
-  for (const std::string& input : {options.scenario.file, options.data}) refuse_to_overwrite(options.output, input);
+  for (const std::string& input : {options.scenario.file, options.data}) reject_overwriting(options.output, input);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   if (scenario.axis == Axis::linear && !options.data.empty())
     reject({options.data}, "records are torques over worm speeds; mesh.axis = \"linear\" has none");

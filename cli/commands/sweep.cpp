@@ -127,7 +127,7 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
   const bool good = looks_good(ranks, [&] {
     load_study(options.study);
-    refuse_to_overwrite(output, options.study);
+    reject_overwriting(output, options.study);
     if (ranks.count() > 1 && !options.shard.empty())
       reject({"--shard " + options.shard}, "the ranks share all trials; leave it out");
   });

@@ -32,8 +32,8 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
 }  // namespace
 
 int worst_command(const WorstOptions& options) {
-  refuse_to_overwrite(options.output, options.sweep);
-  refuse_to_replace(followed(options.output), "run", options.replace);  // before the search, which takes its time
+  reject_overwriting(options.output, options.sweep);
+  reject_replacing(followed(options.output), "run", options.replace);  // before the search, which takes its time
   const SweepReader sweep(options.sweep);
   const Study& study = sweep.study();
   const WorstCase worst = find_worst(

@@ -38,7 +38,7 @@ class ControlReader {
       sensor.read_fields(control.sensor);
       require_whole(sensor, "counts", control.sensor.counts);
       require_whole(sensor, "seed", control.sensor.seed);
-      refuse_spoilt_speed(sensor, control.sensor);
+      reject_degraded_exact_speed(sensor, control.sensor);
     });
     if (root_.has("disturbance"))
       root_.section("disturbance", [&](TableReader& disturbance) {
@@ -50,7 +50,7 @@ class ControlReader {
 
  private:
   /// An exact speed is none that was made of counts, noise or a filtered difference.
-  static void refuse_spoilt_speed(TableReader& table, const SensorSettings& sensor) {
+  static void reject_degraded_exact_speed(TableReader& table, const SensorSettings& sensor) {
     if (!sensor.exact_speed) return;
     for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
                                      std::pair{"speed_filter_Hz", sensor.filter_cutoff}})

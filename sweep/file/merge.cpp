@@ -26,7 +26,7 @@ std::string trials(TrialRange range) {
                            : fmt::format("trials {} to {}", range.first, range.end - 1);
 }
 
-void refuse_what_does_not_belong_together(const Shards& shards) {
+void reject_unrelated_shards(const Shards& shards) {
   Diagnostics faults;
   const SweepReader& first = *shards.front();
   for (const auto& shard : shards)
@@ -88,7 +88,7 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
                            const std::string& command_line, Replace replace) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
-  refuse_what_does_not_belong_together(shards);
+  reject_unrelated_shards(shards);
   const std::vector<Stretch> stretches = in_order(shards);
   const Study& study = shards.front()->study();
   if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;

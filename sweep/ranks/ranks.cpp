@@ -19,7 +19,7 @@ namespace {
 constexpr const char* each_its_shard = "give every process a --shard of its own";
 
 /// Throws InputFault in the first process; in the others one that tells nothing.
-[[noreturn]] void refuse_launch(const Launch& launch, const std::string& what) {
+[[noreturn]] void reject_launch(const Launch& launch, const std::string& what) {
   if (launch.rank == 0) reject({launch.by}, what);
   throw InputFault(std::vector<Fault>{});
 }
@@ -94,7 +94,7 @@ Ranks::Ranks(bool apart) {
   if (launched.size == 1) return;  // joining takes time, and a single process needs nobody
   if (apart && launched.by == "srun") return;
   if (!launched.can_meet)
-    refuse_launch(launched, fmt::format("has started {} processes that cannot find each other; start them with srun "
+    reject_launch(launched, fmt::format("has started {} processes that cannot find each other; start them with srun "
                                         "--mpi=pmix or with mpirun, or {}",
                                         launched.size, each_its_shard));
   int level = 0;
@@ -119,7 +119,7 @@ Ranks::Ranks(bool apart) {
   }
   if (!fault.empty()) {
     MPI_Finalize();
-    refuse_launch(launched, fault);
+    reject_launch(launched, fault);
   }
   if (count_ == 1) {
     MPI_Finalize();
@@ -170,7 +170,7 @@ struct Ranks::Link {};
 Ranks::Ranks(bool apart) {
   const Launch launched = launch();
   if (launched.size <= 1 || (apart && launched.by == "srun")) return;
-  refuse_launch(launched,
+  reject_launch(launched,
                 fmt::format("this wormdrive was built without MPI; install libopenmpi-dev and build it again, "
                             "or {}",
                             each_its_shard));

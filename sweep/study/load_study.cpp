@@ -89,13 +89,13 @@ class StudyReader {
           faults_.add(stated_[k].where,
                       fmt::format("'{}' is the same number as '{}'; keep one of them", parameter.path, path));
       taken.emplace_back(found->place, parameter.path);
-      refuse_broken_numbers(source, stated_[k]);
+      reject_broken_numbers(source, stated_[k]);
     }
     faults_.raise();
   }
 
   /// Some numbers have to be whole: they are refused when they are moved by a hair, and nothing else is.
-  void refuse_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
+  void reject_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
     if (const auto* const discrete = std::get_if<Discrete>(&stated.parameter.distribution))
       if (std::all_of(discrete->values.begin(), discrete->values.end(), [](double v) { return v == std::round(v); }))
         return;

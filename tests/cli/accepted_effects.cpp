@@ -88,17 +88,17 @@ TEST_CASE("without teeth inertias count against all that moves, wherever an effe
     CHECK(std::abs(read_column(file, "trajectory/gear_acceleration").back() - 3.5 / mass) <= 1e-12);
   }
   std::filesystem::remove(folder / "s.h5");
-  refuse_all(folder, {
-                         {"all of it", with("-2", "0"),
-                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 2 + -2 kg"},
-                         {"more than all", with("1", "-3"),
-                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 3 + -3 kg"},
-                         {"both", with("-1.5", "-1"),
-                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 1 + -1.5 kg\n"
-                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 0.5 + -1 kg"},
-                         {"a wheel", wheel + "[effect.worm_inertia]\ninertia_kgm2 = -2.5\n",
-                          "s.toml:10:1: error: effect.worm_inertia leaves no inertia that moves: 2 + -2.5 kg m^2"},
-                     });
+  check_rejected(folder, {
+                             {"all of it", with("-2", "0"),
+                              "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 2 + -2 kg"},
+                             {"more than all", with("1", "-3"),
+                              "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 3 + -3 kg"},
+                             {"both", with("-1.5", "-1"),
+                              "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 1 + -1.5 kg\n"
+                              "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 0.5 + -1 kg"},
+                             {"a wheel", wheel + "[effect.worm_inertia]\ninertia_kgm2 = -2.5\n",
+                              "s.toml:10:1: error: effect.worm_inertia leaves no inertia that moves: 2 + -2.5 kg m^2"},
+                         });
 }
 
 TEST_CASE("on the gear the load's own inertia counts along with what the mesh states") {
@@ -109,10 +109,10 @@ TEST_CASE("on the gear the load's own inertia counts along with what the mesh st
   for (const char* const command : {"check", "run", "steady", "statics"})
     CHECK(folder.run({command, "s.toml", "-q"}).exit == 0);
   std::filesystem::remove(folder / "s.h5");
-  refuse_all(folder,
-             {{"more than load and gear", arm + "[effect.gear_inertia]\ninertia_kgm2 = -6e-3\n",
-               "s.toml:20:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.005739 + -0.006 kg "
-               "m^2"}});
+  check_rejected(folder,
+                 {{"more than load and gear", arm + "[effect.gear_inertia]\ninertia_kgm2 = -6e-3\n",
+                   "s.toml:20:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.005739 + -0.006 kg "
+                   "m^2"}});
 }
 
 TEST_CASE("an effect that cannot be is refused by every command that reads the scenario") {

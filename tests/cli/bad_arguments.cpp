@@ -21,7 +21,7 @@ void write_hdf5(const std::string& path, const std::string& attribute, const std
 }  // namespace
 
 TEST_CASE("an override that cannot be applied is told with its own words") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       set("no =", "mesh.ratio", "mesh.ratio: error: no '='; write table.key=value"),
       set("no key", "=3", "=3: error: an empty key; write table.key=value"),
       set("no last key", "mesh.=3", "mesh.=3: error: an empty key; write table.key=value"),
@@ -49,7 +49,7 @@ TEST_CASE("an override that cannot be applied is told with its own words") {
 
 TEST_CASE("an override of an array is told how many elements it has") {
   const std::string two = good_but("[motor.torque]", "[[motor.torque]]\nkind = \"ramp\"\nrate_Nm_per_s = 1\n[[motor.torque]]");
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no such element", two, "--set motor.torque[2].torque_Nm=3: error: motor.torque has no element [2], counted from 0; it has 2",
        {"--set", "motor.torque[2].torque_Nm=3"}},
       {"no index", two, "--set motor.torque.torque_Nm=3: error: motor.torque is an array; name one of its elements, as in motor.torque[0]",
@@ -64,7 +64,7 @@ TEST_CASE("a file that is no scenario is told by name") {
   folder.write("cut.h5", "\x89HDF\r\n\x1a\n and no more");
   const std::string long_name(300, 'a');
   for (const std::string command : {"run", "check", "statics", "steady"})
-    refuse_all(folder, {
+    check_rejected(folder, {
         {"missing", "", "no.toml: error: cannot be read: No such file or directory", {command, "no.toml"}, true},
         {"folder", "", "folder: error: cannot be read: it is a directory", {command, "folder"}, true},
         {"a device without end", "", "/dev/zero:1:1: error: a NUL byte; a scenario is plain text or a result file (.h5)", {command, "/dev/zero"}, true},
@@ -88,13 +88,13 @@ TEST_CASE("an HDF5 attribute that is no single text is no scenario") {
     H5Awrite(attribute, type, texts);
   }
   for (const std::string file : {"number.h5", "list.h5"})
-    refuse_all(folder, {{file, "", file + ": error: it is not a wormdrive result: its attribute 'scenario' is not a text", {"check", file}, true}});
+    check_rejected(folder, {{file, "", file + ": error: it is not a wormdrive result: its attribute 'scenario' is not a text", {"check", file}, true}});
 }
 
 TEST_CASE("a command that does not exist, and words that do not belong, end with exit code 2") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  refuse_all(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, fmu, schema, new, diff, report, list",
+  check_rejected(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, fmu, schema, new, diff, report, list",
                        {"simulate", "s.toml"}, true},
                       {"misspelled command", "", "wormdrive: error: unknown command 'rum'; did you mean 'run'?", {"rum", "s.toml"}, true},
                       {"no command", "", "wormdrive: error: A subcommand is required; see wormdrive --help", {}, true},
@@ -131,7 +131,7 @@ TEST_CASE("a picture of what is no result is refused") {
   folder.write("s.toml", good_scenario);
   std::filesystem::create_directory(folder / "folder");
   write_hdf5(folder / "other.h5", "author", "somebody");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"missing", "", "no.h5: error: cannot be read: No such file or directory", {"plot", "no.h5"}, true},
       {"no HDF5", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"plot", "s.toml"}, true},
       {"folder", "", "folder: error: cannot be read: it is a directory", {"plot", "folder"}, true}});

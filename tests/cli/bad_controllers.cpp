@@ -37,7 +37,7 @@ TEST_CASE("the scenario with a controller that the others spoil is a good one") 
 }
 
 TEST_CASE("controller tables in the wrong company are told what to keep") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"a motor torque too", good_scenario + controlled.substr(controlled.find("[controller]"), controlled.find("[load]") - controlled.find("[controller]")),
        "s.toml:11:1: error: [motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over time between samples"},
       {"a sensor alone", good_scenario + "[sensor]\ncounts = 16\n", "s.toml:19:1: error: [sensor] belongs to a [controller], and there is none"},
@@ -52,7 +52,7 @@ TEST_CASE("controller tables in the wrong company are told what to keep") {
 }
 
 TEST_CASE("keys of a controller that are unknown, missing or out of their limits are told") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no kind", but("kind = \"sliding\"\n", ""),
        "s.toml:11:1: error: [controller] lacks 'kind' (one of \"sliding\", \"pid\", \"open_loop\")"},
       {"unknown kind", but("\"sliding\"", "\"smc\""),
@@ -81,7 +81,7 @@ TEST_CASE("keys of a controller that are unknown, missing or out of their limits
 }
 
 TEST_CASE("sample times that do not fit the run are told") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"longer than the run", but("sample_time_s = 1e-3", "sample_time_s = 1"),
        "s.toml:13:17: error: controller.sample_time_s = 1 s must be at most the duration, 0.01 s"},
       {"too many", but("sample_time_s = 1e-3", "sample_time_s = 1e-12"),
@@ -92,7 +92,7 @@ TEST_CASE("sample times that do not fit the run are told") {
 }
 
 TEST_CASE("faults of references, sensors, disturbances and windows are told") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"unknown reference", but("\"sinusoid\"", "\"sine\""),
        "s.toml:18:8: error: reference.kind = \"sine\" must be one of \"sinusoid\", \"step\", \"trapezoid\", \"chirp\", \"multisine\", "
        "\"random_steps\", \"table\""},

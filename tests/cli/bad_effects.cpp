@@ -13,7 +13,7 @@ std::string with(const std::string& effect) { return good_scenario + effect; }
 }  // namespace
 
 TEST_CASE("an effect out of its bounds is told with the rule") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no Stribeck speed", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0\n"),
        "s.toml:21:17: error: effect.stribeck.speed_m_per_s = 0 m/s must be greater than 0 m/s"},
       {"half an exponent", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\nexponent = 1.5\n"),
@@ -31,7 +31,7 @@ TEST_CASE("an effect out of its bounds is told with the rule") {
 }
 
 TEST_CASE("an effect that contradicts the drive is told with what it would come to") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n[run]\nduration_s = 1\n[effect.mesh_friction]\nchange = 0.1\n",
        "s.toml:6:1: error: effect.mesh_friction needs teeth, and mesh.kind is \"none\""},
       {"no worm", with("[effect.worm_inertia]\ninertia_kgm2 = -2.53e-5\n"),
@@ -43,7 +43,7 @@ TEST_CASE("an effect that contradicts the drive is told with what it would come 
 }
 
 TEST_CASE("two effects that say the same, or of which one leaves out the other, are told with the reason") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"two curves", with("[effect.agma]\n[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\n"),
        "s.toml:19:1: error: effect.agma excludes effect.stribeck: both say how friction falls with the sliding speed; keep one of them"},
       {"rest on elastic teeth", with("[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n[effect.static_friction]\nrise = 0.05\n"),
@@ -53,7 +53,7 @@ TEST_CASE("two effects that say the same, or of which one leaves out the other, 
 }
 
 TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 is told with how far it goes") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"below zero", with("[effect.stribeck]\ndrop = 0.3\nspeed_m_per_s = 0.1\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 may fall to -0.05 with its effects; friction must be at least 0"},
       {"drifts to mu_g", with("[effect.friction_drift]\nshare = 60\ntime_s = 0.01\n"),

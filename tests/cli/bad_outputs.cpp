@@ -31,7 +31,7 @@ TEST_CASE("a place where no result can be written is told, and nothing else ther
   std::filesystem::create_directory(folder / "taken.h5.part");
   const std::string long_name(300, 'a');
   for (const auto& writer : writers)
-    refuse_all(folder, {
+    check_rejected(folder, {
         into(writer, "no/r.h5", "wormdrive: cannot create no/r.h5.part: No such file or directory", 4),
         into(writer, "folder", "wormdrive: cannot write folder: it is not a plain file", 4),
         into(writer, "/dev/full", "wormdrive: cannot write /dev/full: it is not a plain file", 4),
@@ -49,7 +49,7 @@ TEST_CASE("a run is not written over the result from which it is read, nor over 
   REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);
   std::filesystem::copy(folder / "s.h5", folder / "t.h5.part");
   const std::string result = folder.read("s.h5");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"result", "", "s.h5: error: the result would overwrite s.h5; choose another --output", {"run", "s.h5", "-o", "s.h5"}, true},
       {"part", "", "t.h5: error: the result would overwrite t.h5.part; choose another --output", {"run", "t.h5.part", "-o", "t.h5"}, true}});
   CHECK(folder.read("s.h5") == result);
@@ -61,7 +61,7 @@ TEST_CASE("steady is not written over the data that it reads") {
   folder.write("s.toml", good_scenario);
   const std::string data = "record,worm_speed_rad_per_s,motor_torque_Nm\na,1,0.01\n";
   folder.write("d.csv", data);
-  refuse_all(folder, {{"data", "", "d.csv: error: the result would overwrite d.csv; choose another --output",
+  check_rejected(folder, {{"data", "", "d.csv: error: the result would overwrite d.csv; choose another --output",
                        {"steady", "s.toml", "--data", "d.csv", "-o", "d.csv"}, true}});
   CHECK(folder.read("d.csv") == data);
 }
@@ -74,7 +74,7 @@ TEST_CASE("a result that another program is writing is left to it") {
   const std::string part = folder.read("r.h5.part");
   const int other = open((folder / "r.h5.part").c_str(), O_RDWR);
   REQUIRE(flock(other, LOCK_EX) == 0);
-  refuse_all(folder, {{"locked", "", "wormdrive: cannot write r.h5.part: another program is writing it", {"run", "s.toml", "-q", "-o", "r.h5"}, true, 4}});
+  check_rejected(folder, {{"locked", "", "wormdrive: cannot write r.h5.part: another program is writing it", {"run", "s.toml", "-q", "-o", "r.h5"}, true, 4}});
   CHECK(folder.read("r.h5.part") == part);
   close(other);
   CHECK(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);  // a part that nobody writes is from a run that died

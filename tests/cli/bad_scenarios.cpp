@@ -21,7 +21,7 @@ std::string with_run(const std::string& line) { return good_but("duration_s = 0.
 }  // namespace
 
 TEST_CASE("a file that is no TOML is told with line and column") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no value", good_but("ratio = 60", "ratio = = 60"), "s.toml:3:9: error: not valid TOML: *"},
       {"no bracket", good_but("[mesh]", "[mesh"), "s.toml:2:6: error: not valid TOML: *"},
       {"decimal comma", good_but("ratio = 60", "ratio = 60,5"),
@@ -42,11 +42,11 @@ TEST_CASE("a file that is no TOML is told with line and column") {
 TEST_CASE("an empty scenario is told what it needs") {
   const Folder folder;
   folder.write("s.toml", "");
-  refuse_all(folder, {{"empty", "", needs_mesh + "\ns.toml: error: there is no [run]; it needs duration_s"}});
+  check_rejected(folder, {{"empty", "", needs_mesh + "\ns.toml: error: there is no [run]; it needs duration_s"}});
 }
 
 TEST_CASE("a key that does not exist is told with the one that was probably meant") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"letters swapped", good_but("lead_angle_deg", "lead_angel_deg"),
        "s.toml:4:1: error: unknown key 'lead_angel_deg' in [mesh]; did you mean 'lead_angle_deg'?"},
       {"unit forgotten", good_but("worm_inertia_kgm2", "worm_inertia"),
@@ -69,7 +69,7 @@ TEST_CASE("a key that does not exist is told with the one that was probably mean
 }
 
 TEST_CASE("a value of the wrong type is told with the type that it needs") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"text for a number", good_but("ratio = 60", "ratio = \"60\""), "s.toml:3:9: error: mesh.ratio must be a number, not a string"},
       {"truth for a number", good_but("ratio = 60", "ratio = true"), "s.toml:3:9: error: mesh.ratio must be a number, not true or false"},
       {"array for a number", good_but("ratio = 60", "ratio = [60]"), "s.toml:3:9: error: mesh.ratio must be a number, not an array"},
@@ -92,7 +92,7 @@ TEST_CASE("a value of the wrong type is told with the type that it needs") {
 }
 
 TEST_CASE("what is missing is told with its meaning") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"key", good_but("ratio = 60\n", ""), "s.toml:2:1: error: [mesh] lacks 'ratio' (transmission ratio, worm angle over gear angle)"},
       {"duration", good_but("duration_s = 0.01", ""), "s.toml:17:1: error: [run] lacks 'duration_s' (simulated time)"},
       {"mesh", without_mesh(), needs_mesh},
@@ -110,7 +110,7 @@ TEST_CASE("what is missing is told with its meaning") {
 }
 
 TEST_CASE("a value out of its bounds is told with unit and limits") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"inertia", good_but("7.39e-4", "-7.39e-4"),
        "s.toml:10:21: error: mesh.gear_inertia_kgm2 = -0.000739 kg m^2 must be greater than 0 kg m^2"},
       {"ratio", good_but("ratio = 60", "ratio = 0"), "s.toml:3:9: error: mesh.ratio = 0 must be greater than 0"},
@@ -138,7 +138,7 @@ TEST_CASE("a value out of its bounds is told with unit and limits") {
 }
 
 TEST_CASE("a word that is not known is told with those that are") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"solver", with_run("solver = \"euler\""), "s.toml:19:10: error: run.solver = \"euler\" must be one of \"cvode\", \"taylor\""},
       {"method", with_run("method = \"euler\""), "s.toml:19:10: error: run.method = \"euler\" must be one of \"bdf\", \"adams\""},
       {"torque", good_but(motor, "kind = \"sinus\""),
@@ -151,7 +151,7 @@ TEST_CASE("a word that is not known is told with those that are") {
 }
 
 TEST_CASE("statements that exclude each other are told at the one to take away") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"deg and rad", good_but("lead_angle_deg = 4", "lead_angle_deg = 4\nlead_angle_rad = 0.07"),
        "s.toml:5:18: error: mesh.lead_angle_rad is stated twice, also as lead_angle_deg; keep one"},
       {"torque and mass", good_but(load, "kind = \"gravity_arm\"\nmass_kg = 1\ntorque_Nm = 0.02"),
@@ -159,7 +159,7 @@ TEST_CASE("statements that exclude each other are told at the one to take away")
 }
 
 TEST_CASE("a gear without a unique motion is told by name and with the limit") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"mu_g", good_but("friction = 0.25", "friction = 14"),
        "s.toml:8:12: error: mesh.friction = 14 is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], can follow it"},
       {"eq. 17", good_but("7.39e-4", "1"),
@@ -174,7 +174,7 @@ TEST_CASE("all faults of a file are told at once and in the order of its lines")
   text = edited(text, "friction = 0.25", "friction = -1");
   text = edited(text, "torque_Nm = 0.02", "torque_Nm = inf");
   text = edited(text, "duration_s = 0.01", "duration_s = -1");
-  refuse_all(Folder(), {{"five faults and an override", text,
+  check_rejected(Folder(), {{"five faults and an override", text,
                          "--set mesh.lead_angle_deg=50: error: mesh.lead_angle_deg = 50 deg must be greater than 0 deg and at most 45 deg\n"
                          "s.toml:3:9: error: mesh.ratio must be a number, not a string\n"
                          "s.toml:5:1: error: unknown key 'pressure_angle_dg' in [mesh]; did you mean 'pressure_angle_deg'?\n"

@@ -18,7 +18,7 @@ const std::string reads_csv = samples("file = \"t.csv\"");
 }  // namespace
 
 TEST_CASE("arrays that make no table are told with what is wrong") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"none", good_but(motor, "kind = \"samples\""), "s.toml:11:1: error: [motor.torque] lacks 'file' (a CSV file), or 'times_s' and 'torques_Nm'"},
       {"one of two", samples("times_s = [0, 1]"), "s.toml:11:1: error: [motor.torque] lacks 'file' (a CSV file), or 'times_s' and 'torques_Nm'"},
       {"different length", samples("times_s = [0, 1, 2]\ntorques_Nm = [1, 2]"),
@@ -49,7 +49,7 @@ TEST_CASE("a CSV file that cannot be read is told where the scenario names it") 
   const Folder folder;
   std::filesystem::create_directory(folder / "folder");
   folder.write("short.csv", "time_s,motor_torque_Nm\n0,1\n");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"missing", samples("file = \"no.csv\""), "s.toml:13:8: error: motor.torque.file = \"no.csv\" cannot be read: No such file or directory"},
       {"folder", samples("file = \"folder\""), "s.toml:13:8: error: motor.torque.file = \"folder\" cannot be read: it is a directory"},
       {"no text", samples("file = 3"), "s.toml:13:8: error: motor.torque.file must be a string, not a number"},
@@ -81,7 +81,7 @@ TEST_CASE("what is wrong inside a CSV file is told with the line of that file") 
            {"time stands still", header + "0,1\n0.5,2\n0.5,3\n", "t.csv:4: error: time_s = 0.5 does not increase after 0.5"},
            {"a NUL byte", header + "0,1\n1," + std::string(1, '\0') + "\n", "t.csv:3: error: a NUL byte; a CSV file is plain text"}}) {
     folder.write("t.csv", bad.text);
-    refuse_all(folder, {{bad.name, reads_csv, bad.message + " (motor.torque.file at s.toml:13:8)"}});
+    check_rejected(folder, {{bad.name, reads_csv, bad.message + " (motor.torque.file at s.toml:13:8)"}});
   }
 }
 

@@ -16,7 +16,7 @@ std::string with(const std::string& effect) { return good_scenario + effect; }
 }  // namespace
 
 TEST_CASE("elastic teeth out of their bounds are told with the rule") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"soft", with("[effect.tooth_compliance]\nstiffness_N_per_m = 0\ndamping_s_per_m = 10\n"),
        "s.toml:20:21: error: effect.tooth_compliance.stiffness_N_per_m = 0 N/m must be greater than 0 N/m"},
       {"driving", with("[effect.tooth_compliance]\nstiffness_N_per_m = 1e6\ndamping_s_per_m = -1\n"),
@@ -30,7 +30,7 @@ TEST_CASE("elastic teeth out of their bounds are told with the rule") {
 }
 
 TEST_CASE("a gap that is no less than the pitch of the teeth is told with the pitch") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"a tooth", with(teeth + "[effect.backlash]\ngap_deg = 6\n"),
        "s.toml:22:1: error: effect.backlash has a gap of 6 deg, which must be less than the pitch of the gear's teeth, 6 deg (360 deg / ratio)"},
       {"a slip in the unit", with(teeth + "[effect.backlash]\ngap_rad = 0.2\n"),
@@ -38,7 +38,7 @@ TEST_CASE("a gap that is no less than the pitch of the teeth is told with the pi
 }
 
 TEST_CASE("effects of the teeth that exclude each other, or lack one, are told by name") {
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"rigid flanks that meet", with("[effect.backlash]\ngap_deg = 0.1\n"),
        "s.toml:19:1: error: effect.backlash needs teeth that yield where they meet; add [effect.tooth_compliance] with stiffness_N_per_m and damping_s_per_m"},
       {"two laws", with(teeth + "damping_Ns_per_m = 10\n"),

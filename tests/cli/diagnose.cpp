@@ -135,7 +135,7 @@ TEST_CASE("data of no kind, of two kinds and too few are told, and nothing is wr
   const auto words = [](const std::string& data) {
     return std::vector<std::string>{"diagnose", scenario, data, "-o", "out"};
   };
-  refuse_all(
+  check_rejected(
       folder,
       {
           {"few", "", "few.csv: error: 2 break-in torques; at least 6 are needed, in both directions", words("few.csv"),
@@ -192,7 +192,7 @@ TEST_CASE("a diagnosis never writes over what it reads") {
 
 TEST_CASE("tolerances and column names that cannot be are told") {
   const auto with = [](const std::string& tables) { return good_scenario + tables; };
-  refuse_all(
+  check_rejected(
       Folder(),
       {
           {"unit", with("[tolerance]\nfriction = 1\n"),

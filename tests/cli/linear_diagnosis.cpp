@@ -166,20 +166,20 @@ TEST_CASE("what is refused of a recording on a linear axis is refused in its uni
   folder.write("s.toml", sledge);
   folder.write("small.csv", edited(recorded("time_s,motor_force_N,position_m"), "position_m", "y"));
   folder.write("none.csv", "a,b\n1,2\n");
-  refuse_all(folder,
-             {{"other name",
-               "",
-               "small.csv:1: error: no column 'position_m'; the header line names time_s, motor_force_N, y; [data] "
-               "position_m = \"...\" in the scenario would say which it is",
-               {"diagnose", "s.toml", "small.csv", "-o", "out"},
-               true},
-              {"no kind",
-               "",
-               "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_force_N, position_m) "
-               "nor records at constant speed (record, worm_speed_m_per_s, motor_force_N) nor a break-in table "
-               "(load_force_N, motor_force_N); [data] in the scenario tells other names",
-               {"diagnose", "s.toml", "none.csv", "-o", "out"},
-               true}});
+  check_rejected(folder,
+                 {{"other name",
+                   "",
+                   "small.csv:1: error: no column 'position_m'; the header line names time_s, motor_force_N, y; [data] "
+                   "position_m = \"...\" in the scenario would say which it is",
+                   {"diagnose", "s.toml", "small.csv", "-o", "out"},
+                   true},
+                  {"no kind",
+                   "",
+                   "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_force_N, position_m) "
+                   "nor records at constant speed (record, worm_speed_m_per_s, motor_force_N) nor a break-in table "
+                   "(load_force_N, motor_force_N); [data] in the scenario tells other names",
+                   {"diagnose", "s.toml", "none.csv", "-o", "out"},
+                   true}});
 }
 
 TEST_CASE("[data] tells the names of records at constant speed and of break-in tables too", "[slow]") {
@@ -211,12 +211,12 @@ TEST_CASE("[data] tells the names of records at constant speed and of break-in t
     return found;
   };
   CHECK(diagnosed("s.toml", "usual.csv") == diagnosed("named.toml", "own.csv"));
-  refuse_all(folder, {{"the usual name where another is told",
-                       "",
-                       "usual.csv:1: error: no column 'run'; the header line names record, worm_speed_rad_per_s, "
-                       "motor_torque_Nm",
-                       {"steady", "named.toml", "--data", "usual.csv"},
-                       true}});
+  check_rejected(folder, {{"the usual name where another is told",
+                           "",
+                           "usual.csv:1: error: no column 'run'; the header line names record, worm_speed_rad_per_s, "
+                           "motor_torque_Nm",
+                           {"steady", "named.toml", "--data", "usual.csv"},
+                           true}});
 }
 
 }  // namespace wormdrive::test::cli_linear_diagnosis

@@ -188,23 +188,23 @@ TEST_CASE("what is no result, or no longer whole, gets no report") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   write_attribute(create_hdf5(folder / "other.h5"), "kind", "something");
-  refuse_all(folder,
-             {{"a result of another kind",
-               "",
-               "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
-               {"report", "other.h5"},
-               true},
-              {"a scenario",
-               "",
-               "s.toml: error: is no result file (HDF5); wormdrive run writes one",
-               {"report", "s.toml"},
-               true},
-              {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
-              {"a folder of something else",
-               "",
-               ".: error: holds no diagnosis.h5; wormdrive diagnose -o writes one",
-               {"report", "."},
-               true}});
+  check_rejected(folder,
+                 {{"a result of another kind",
+                   "",
+                   "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
+                   {"report", "other.h5"},
+                   true},
+                  {"a scenario",
+                   "",
+                   "s.toml: error: is no result file (HDF5); wormdrive run writes one",
+                   {"report", "s.toml"},
+                   true},
+                  {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
+                  {"a folder of something else",
+                   "",
+                   ".: error: holds no diagnosis.h5; wormdrive diagnose -o writes one",
+                   {"report", "."},
+                   true}});
 }
 
 }  // namespace wormdrive::test::cli_report

@@ -131,24 +131,25 @@ TEST_CASE("the controller of a new scenario keeps what Lemma 1 promises") {
 TEST_CASE("what new and diff cannot do is told") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  refuse_all(folder, {{"over something", "", "s.toml: error: it exists; choose another name", {"new", "s.toml"}, true},
-                      {"nowhere",
-                       "",
-                       "wormdrive: cannot write nowhere/s.toml: No such file or directory",
-                       {"new", "nowhere/s.toml"},
-                       true,
-                       4},
-                      {"no result",
-                       "",
-                       "s.toml: error: is no result file (HDF5); wormdrive run writes one",
-                       {"diff", "s.toml", "s.toml"},
-                       true},
-                      {"no two results",
-                       "",
-                       "a.h5: error: cannot be read: No such file or directory\n"
-                       "b.h5: error: cannot be read: No such file or directory",
-                       {"diff", "a.h5", "b.h5"},
-                       true}});
+  check_rejected(folder,
+                 {{"over something", "", "s.toml: error: it exists; choose another name", {"new", "s.toml"}, true},
+                  {"nowhere",
+                   "",
+                   "wormdrive: cannot write nowhere/s.toml: No such file or directory",
+                   {"new", "nowhere/s.toml"},
+                   true,
+                   4},
+                  {"no result",
+                   "",
+                   "s.toml: error: is no result file (HDF5); wormdrive run writes one",
+                   {"diff", "s.toml", "s.toml"},
+                   true},
+                  {"no two results",
+                   "",
+                   "a.h5: error: cannot be read: No such file or directory\n"
+                   "b.h5: error: cannot be read: No such file or directory",
+                   {"diff", "a.h5", "b.h5"},
+                   true}});
 }
 
 TEST_CASE("diff tells by its exit code whether two runs agree, and by its words where they do not", "[slow]") {

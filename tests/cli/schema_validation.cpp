@@ -226,11 +226,12 @@ TEST_CASE("on a linear axis every key of a tolerance that a message names is one
                                  Purpose::run));
   }
   CHECK(count == 13);
-  refuse_all(folder, {{"unit forgotten", sledge + "[tolerance]\nworm_mass = 1\n",
-                       "s.toml:11:1: error: unknown key 'worm_mass' in [tolerance]; did you mean 'worm_mass_share'?"},
-                      {"misspelled", sledge + "[tolerance]\nworm_mas_percent = 1\n",
-                       "s.toml:11:1: error: unknown key 'worm_mas_percent' in [tolerance]; did you mean "
-                       "'worm_mass_percent'?"}});
+  check_rejected(folder,
+                 {{"unit forgotten", sledge + "[tolerance]\nworm_mass = 1\n",
+                   "s.toml:11:1: error: unknown key 'worm_mass' in [tolerance]; did you mean 'worm_mass_share'?"},
+                  {"misspelled", sledge + "[tolerance]\nworm_mas_percent = 1\n",
+                   "s.toml:11:1: error: unknown key 'worm_mas_percent' in [tolerance]; did you mean "
+                   "'worm_mass_percent'?"}});
 }
 
 }  // namespace wormdrive::test::cli_schema_validation

@@ -246,17 +246,18 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[referenc
 }
 
 TEST_CASE("what cannot be an FMU is refused with a way out, and nothing is written") {
-  refuse_all(Folder(), {{"a delay",
-                         good_scenario + "[effect.actuator_delay]\ndelay_s = 1e-3\n",
-                         "s.toml: error: effect.actuator_delay needs a memory of the past, which an FMU for model "
-                         "exchange does not have; switch it off (effect.actuator_delay.on = false) and put the delay "
-                         "or lag beside the FMU in the importing tool",
-                         {"fmu", "s.toml"},
-                         true},
-                        {"a place that cannot be written",
-                         good_scenario,
-                         "wormdrive: cannot write nowhere/a.fmu.part: No such file or directory",
-                         {"fmu", "s.toml", "-o", "nowhere/a.fmu"},
-                         true,
-                         4}});
+  check_rejected(Folder(),
+                 {{"a delay",
+                   good_scenario + "[effect.actuator_delay]\ndelay_s = 1e-3\n",
+                   "s.toml: error: effect.actuator_delay needs a memory of the past, which an FMU for model "
+                   "exchange does not have; switch it off (effect.actuator_delay.on = false) and put the delay "
+                   "or lag beside the FMU in the importing tool",
+                   {"fmu", "s.toml"},
+                   true},
+                  {"a place that cannot be written",
+                   good_scenario,
+                   "wormdrive: cannot write nowhere/a.fmu.part: No such file or directory",
+                   {"fmu", "s.toml", "-o", "nowhere/a.fmu"},
+                   true,
+                   4}});
 }
