@@ -60,7 +60,7 @@ std::string described(const std::string& kind) {
 
 void reject_another_kind(const std::string& path, std::string_view kind) {
   const std::optional<std::string> there = kind_of(path);
-  if (!there) reject_place(path, fmt::format("it exists and is no result of wormdrive; {}", cure));
+  if (!there) reject_place(path, fmt::format("it exists and is not a wormdrive result; {}", cure));
   if (*there != kind) reject_place(path, fmt::format("it holds {}; {}", described(*there), cure));
 }
 

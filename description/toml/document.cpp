@@ -36,7 +36,7 @@ std::string_view hint(std::string_view text, const Location& where) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (is(where.column, comma) && is(where.column - 1, digit) && is(where.column + 1, digit))
-    return "; decimals take a point, as in 0.25";
+    return "; write decimals with a point, as in 0.25";
   return is(where.column, letter) ? "; a word needs quotes, as in kind = \"constant\"" : "";
 }
 

@@ -43,10 +43,10 @@ void tell_missing(const Shards& shards, const SweepReader& beside, std::string_v
   };
   const auto owner = std::find_if(shards.begin(), shards.end(), has_room);
   if (std::count_if(shards.begin(), shards.end(), has_room) == 1)
-    faults.add({(*owner)->path()}, fmt::format("holds {} of {} trials; finish it with --resume", (*owner)->trials(),
-                                               (*owner)->range().size()));
+    faults.add({(*owner)->path()}, fmt::format("contains only {} of {} trials; finish it with --resume",
+                                               (*owner)->trials(), (*owner)->range().size()));
   else
-    faults.add({beside.path()}, fmt::format("{} {} it stand in no shard", trials(range), side));
+    faults.add({beside.path()}, fmt::format("no shard contains {} {} it", trials(range), side));
 }
 
 /// Whether an older merge of the same sweep is there: nothing that it holds would be lost.
@@ -71,7 +71,7 @@ std::vector<Stretch> in_order(const Shards& shards) {
   for (const auto& [shard, range] : stretches) {
     if (range.first < next)
       faults.add({shard->path()},
-                 fmt::format("{} stand in another shard too", trials({range.first, std::min(next, range.end)})));
+                 fmt::format("another shard also contains {}", trials({range.first, std::min(next, range.end)})));
     if (range.first > next) tell_missing(shards, *shard, "before", {next, range.first}, faults);
     next = std::max(next, range.end);
   }

@@ -21,7 +21,7 @@ std::optional<SweepReader> trials_left(const std::string& part_path, bool resume
   } catch (const InputFault& fault) {
     if (!resume) return std::nullopt;  // what another command left, or nothing that could be read
     std::vector<Fault> faults = fault.faults;
-    faults.front().what = fmt::format("cannot be resumed: {}; delete the file to begin anew", faults.front().what);
+    faults.front().what = fmt::format("cannot be resumed: {}; delete the file to start again", faults.front().what);
     throw InputFault(faults);
   }
 }
@@ -31,17 +31,19 @@ std::optional<SweepReader> trials_left(const std::string& part_path, bool resume
 void reject_another_sweep(const SweepReader& there, const Study& study, TrialRange range) {
   if (const std::string why = there.why_not_of(study); !why.empty())
     reject({there.path()},
-           fmt::format("cannot be resumed: {}; undo the change, or delete the file to begin anew", why));
+           fmt::format("cannot be resumed: {}; undo the change, or delete the file to start again", why));
   if (there.range().first != range.first || there.range().end != range.end)
     reject({there.path()},
-           fmt::format("cannot be resumed: it holds trials {} to {}, and {} to {} are wanted; give its --shard again",
+           fmt::format("cannot be resumed: it contains trials {} to {}, not {} to {}; repeat its --shard",
                        there.range().first, there.range().end - 1, range.first, range.end - 1));
 }
 
 void reject_restart(const SweepReader& there) {
-  reject({there.path()},
-         fmt::format("holds {} of {} trials of an interrupted sweep; add --resume to go on, or delete it to begin anew",
-                     there.trials(), there.range().size()));
+  reject(
+      {there.path()},
+      fmt::format(
+          "contains {} of {} trials of an interrupted sweep; add --resume to continue it, or delete it to start again",
+          there.trials(), there.range().size()));
 }
 
 OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& study, TrialRange range,

@@ -16,7 +16,7 @@
 namespace wormdrive {
 namespace {
 
-constexpr const char* each_its_shard = "give every process a --shard of its own";
+constexpr const char* each_its_shard = "give every process its own --shard";
 
 /// Throws InputFault in the first process; in the others one that tells nothing.
 [[noreturn]] void reject_launch(const Launch& launch, const std::string& what) {
@@ -108,12 +108,12 @@ Ranks::Ranks(bool apart) {
     MPI_Get_library_version(library, &length);
     const std::string name(library, static_cast<std::size_t>(length));
     fault = fmt::format(
-        "has started {} processes, of which MPI finds {}: it is not of the MPI with which wormdrive was "
-        "built, {}; start them with its mpirun, or {}",
+        "has started {} processes, but MPI finds {}: it belongs to another MPI than the one wormdrive was "
+        "built with, {}; start them with the mpirun of that MPI, or {}",
         launched.size, count_, name.substr(0, name.find_first_of(",\n")), each_its_shard);
   } else if (level < MPI_THREAD_SERIALIZED) {
     fault = fmt::format(
-        "has started {} processes with an MPI that no second thread may call; build it with threads, or "
+        "has started {} processes with an MPI without support for threads; build it with threads, or "
         "{}",
         count_, each_its_shard);
   }

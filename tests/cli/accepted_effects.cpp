@@ -51,8 +51,7 @@ std::string random_effects(Axis axis, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("what check accepts of random effects on a linear axis, run and fmu accept, and what it refuses, they refuse",
-          "[slow]") {
+TEST_CASE("check, run and fmu accept the same random effects on a linear axis", "[slow]") {
   std::mt19937 random(7);
   const Folder folder;
   int accepted = 0, refused = 0;
@@ -72,7 +71,7 @@ TEST_CASE("what check accepts of random effects on a linear axis, run and fmu ac
   CHECK(refused >= 10);
 }
 
-TEST_CASE("without teeth inertias count against all that moves, wherever an effect puts them") {
+TEST_CASE("without teeth inertias of either side count against the whole moving inertia") {
   const Folder folder;
   const auto with = [](const std::string& on_worm, const std::string& on_gear) {
     return sledge + "[effect.worm_inertia]\nmass_kg = " + on_worm + "\n[effect.gear_inertia]\nmass_kg = " + on_gear +
@@ -101,7 +100,7 @@ TEST_CASE("without teeth inertias count against all that moves, wherever an effe
                          });
 }
 
-TEST_CASE("on the gear the load's own inertia counts along with what the mesh states") {
+TEST_CASE("the inertia of the load counts on the gear side") {
   const Folder folder;
   const std::string arm = edited(good_scenario, "kind = \"constant\"\ntorque_Nm = 0.02",
                                  "kind = \"gravity_arm\"\nmass_kg = 0.5\narm_m = 0.1");
@@ -115,7 +114,7 @@ TEST_CASE("on the gear the load's own inertia counts along with what the mesh st
                    "m^2"}});
 }
 
-TEST_CASE("an effect that cannot be is refused by every command that reads the scenario") {
+TEST_CASE("every command that reads a scenario rejects an impossible effect") {
   const Folder folder;
   folder.write("s.toml", good_scenario + "[effect.backlash]\ngap_deg = 0.1\n");
   folder.write("b.csv", "load_torque_Nm,motor_torque_Nm\n0.2,0.01\n");

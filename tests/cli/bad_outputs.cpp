@@ -23,7 +23,7 @@ BadInput into(const std::vector<std::string>& writer, const std::string& output,
 
 }  // namespace
 
-TEST_CASE("a place where no result can be written is told, and nothing else there is touched") {
+TEST_CASE("a place where no result can be written is reported, and nothing there is touched") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   folder.write("notes.csv", "a,b\n1,2\n");
@@ -43,7 +43,7 @@ TEST_CASE("a place where no result can be written is told, and nothing else ther
   CHECK(folder.read("notes.csv") == "a,b\n1,2\n");
 }
 
-TEST_CASE("a run is not written over the result from which it is read, nor over its part") {
+TEST_CASE("a run does not overwrite the result that it is read from, nor its part") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);
@@ -56,7 +56,7 @@ TEST_CASE("a run is not written over the result from which it is read, nor over 
   CHECK(folder.read("t.h5.part") == result);
 }
 
-TEST_CASE("steady is not written over the data that it reads") {
+TEST_CASE("steady does not overwrite its data") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   const std::string data = "record,worm_speed_rad_per_s,motor_torque_Nm\na,1,0.01\n";
@@ -66,7 +66,7 @@ TEST_CASE("steady is not written over the data that it reads") {
   CHECK(folder.read("d.csv") == data);
 }
 
-TEST_CASE("a result that another program is writing is left to it") {
+TEST_CASE("a result that another program is writing is not touched") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);
@@ -93,7 +93,7 @@ TEST_CASE("an older result stays until a new one is complete") {
 
 // A file may not grow beyond a limit, which HDF5 meets like the end of the disk: while it creates the file and its
 // tables, while it appends rows, and when it closes the file.
-TEST_CASE("a full disk at any moment is told in one line, and nothing is left behind", "[slow]") {
+TEST_CASE("a full disk at any moment is reported in one line, and nothing is left behind", "[slow]") {
   const Folder folder;
   folder.write("s.toml", edited(good_scenario, "duration_s = 0.01", "duration_s = 1\nreport_interval_s = 5e-5"));
   for (const auto& writer : writers) {
