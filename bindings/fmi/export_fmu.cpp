@@ -97,7 +97,7 @@ std::optional<std::string> not_exportable(const Scenario& scenario) {
   if (!what) return std::nullopt;
   return fmt::format(
       "effect.{} needs a memory of the past, which an FMU for model exchange does not have; switch it "
-      "off (effect.{}.on = false) and put the delay or lag beside the FMU in the importing tool",
+      "off (effect.{}.on = false) and add the delay or lag outside the FMU in the importing tool",
       what, what);
 }
 
