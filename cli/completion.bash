@@ -6,7 +6,7 @@ _wormdrive() {
   local help words
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    words=$("$program" --help 2>/dev/null | sed -n '/^Subcommands:/,$ s/^  \([a-z][a-z]*\) .*/\1/p')
+    words=$("$program" --help 2>/dev/null | sed -n 's/^  \([a-z][a-z]*\)  .*/\1/p')
     mapfile -t COMPREPLY < <(compgen -W "$words --help --version" -- "$current")
     return
   fi
@@ -19,7 +19,7 @@ _wormdrive() {
   if [[ $previous == -* ]]; then  # choices of an option: --over TEXT:{motor_torque}
     words=$(sed -n "s/^  \(-[a-zA-Z],\)\{0,1\}$previous [^ ]*{\([^}]*\)}.*/\2/p" <<<"$help")
   else  # of an argument
-    words=$(sed -n '/^Positionals:/,/^Options:/ s/^  [a-z]* [^ ]*{\([^}]*\)}.*/\1/p' <<<"$help")
+    words=$(sed -n '/^Arguments:/,/^Options:/ s/^  [a-z]* [^ ]*{\([^}]*\)}.*/\1/p' <<<"$help")
   fi
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${words//,/ }" -- "$current")

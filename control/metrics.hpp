@@ -19,7 +19,7 @@ struct MetricsWindow {
   static constexpr auto fields() {
     using P = MetricsWindow;
     return std::tuple{
-        Field{&P::from, "from", unit::second, bounds::not_negative, "begin of the window", Presence::optional},
+        Field{&P::from, "from", unit::second, bounds::not_negative, "start of the window", Presence::optional},
         Field{&P::to, "to", unit::second, bounds::positive, "end of the window; that of the run if not stated",
               Presence::optional}};
   }

@@ -93,7 +93,7 @@ std::optional<std::string> probably_meant(std::string_view unknown, const std::v
 }
 
 std::string suggestion(std::string_view unknown, const std::vector<std::string>& valid) {
-  if (valid.empty()) return "nothing may stand here";
+  if (valid.empty()) return "no keys are allowed here";
   if (const auto meant = probably_meant(unknown, valid)) return fmt::format("did you mean '{}'?", *meant);
   return fmt::format("valid keys: {}", fmt::join(valid, ", "));
 }

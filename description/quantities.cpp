@@ -115,10 +115,11 @@ std::vector<Quantity> derived(const Scenario& scenario) {
   if (has_elastic_teeth(scenario.effects)) {
     const TeethNumbers teeth = teeth_numbers(scenario);
     list.push_back(
-        {"contact frequency", "Hz", "at which worm and gear swing while their teeth touch", teeth.frequency});
+        {"contact frequency", "Hz", "at which worm and gear oscillate while their teeth touch", teeth.frequency});
     list.push_back({"contact time", "ms", "of an impact without damping, half a period", 1e3 * teeth.contact});
     list.push_back({"gap", "um", "between the flanks along their normal", 1e6 * teeth.gap});
-    list.push_back({"restitution", "1", "parting over approach speed of an impact at 0.1 m/s", teeth.restitution});
+    list.push_back(
+        {"restitution", "1", "separation speed over approach speed of an impact at 0.1 m/s", teeth.restitution});
   }
   return list;
 }

@@ -62,7 +62,7 @@ std::string refusal(const ToothCompliance<double>& teeth, const Scenario&) {
 /// The gap is less than the pitch of the gear's teeth, which is largest for a worm with one start: 2 pi / i.
 std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) {
   if (!has_elastic_teeth(scenario.effects))
-    return "needs teeth that yield where they meet; add [effect.tooth_compliance] with stiffness_N_per_m and "
+    return "needs elastic teeth; add [effect.tooth_compliance] with stiffness_N_per_m and "
            "damping_s_per_m";
   if (const double pitch = 2.0 * std::numbers::pi / stated_mesh(scenario).i; backlash.gap >= pitch)
     return fmt::format(
@@ -87,7 +87,7 @@ std::string conflict(const Effects<double>& on) {
 
 template <class Effect>
 std::string why_not(const Effect& effect, const Scenario& scenario) {
-  if (Effect::place == Place::mesh && !stated_mesh(scenario).has_teeth) return "needs teeth, and mesh.kind is \"none\"";
+  if (Effect::place == Place::mesh && !stated_mesh(scenario).has_teeth) return "needs teeth, but mesh.kind is \"none\"";
   const std::string refused = refusal(effect, scenario);
   return refused.empty() ? conflict<Effect>(scenario.effects) : refused;
 }
@@ -121,7 +121,7 @@ std::optional<std::string> why_it_cannot_move(const Scenario& scenario) {
   if (mesh.mu >= mesh.mu_g())
     return fmt::format(
         "{} is not below mu_g = {:.6g} (cos(phi_n)/tan(lambda)): the worm would lock itself; only "
-        "elastic teeth, [effect.tooth_compliance], can follow it",
+        "elastic teeth, [effect.tooth_compliance], allow it",
         friction, mesh.mu_g());
   const double slope = scenario.effects.least_slope(), Jw_i = mesh.Jw * mesh.i * slope * slope;
   const double Jg = total_gear_inertia(scenario), surface = Jw_i / Jg;
@@ -152,7 +152,7 @@ std::vector<ControllerRejection> controller_rejections(const Scenario& scenario)
       if (std::isinf(bounds.D[k]) || std::isinf(bounds.E[k]))
         list.push_back({"variation",
                         fmt::format("controller.variation leaves the branch C{0} without inertia, Jw i + C{0} Jg <= 0, "
-                                    "and no gain withstands that; vary less, or state D{0}_per_kgm2 and "
+                                    "and no gain withstands that; reduce the variation, or state D{0}_per_kgm2 and "
                                     "E{0}_rad_per_s2",
                                     k + 1)});
   }

@@ -20,11 +20,13 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   const NominalSettings& stated = scenario.control->nominal;
   if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
       !stated.load_torque && !stated.load_constant)
-    list.push_back("the controller takes the load for 0: neither an arm nor a constant; state [controller.nominal]");
+    list.push_back(
+        "the controller assumes no load because the load is neither an arm nor a constant; state [controller.nominal]");
   std::string failing;
   for (const Condition& c : lemma1_conditions(scenario))
     if (!c.holds()) failing += fmt::format("{}{}", failing.empty() ? "" : "; ", c.rule);
-  if (!failing.empty()) list.push_back(fmt::format("Lemma 1 does not hold (wormdrive check says why): {}", failing));
+  if (!failing.empty())
+    list.push_back(fmt::format("Lemma 1 does not hold (wormdrive check prints the details): {}", failing));
   return list;
 }
 
@@ -38,7 +40,7 @@ std::vector<std::string> warnings(const Scenario& scenario) {
         fmt::format("geometry does not close: lg/(lw tan lambda) = {:.2f} but ratio = {:g}; lead_angle_deg = "
                     "{:.4f} would close it{}",
                     mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
-                    has_elastic_teeth(scenario.effects) ? "; the flanks move as the ratio says" : ""));
+                    has_elastic_teeth(scenario.effects) ? "; the flanks follow the ratio" : ""));
   if (scenario.motor.terms.empty() && !scenario.control)
     list.push_back(
         fmt::format("no [motor.torque]: the motor {} is 0 throughout", in_words_of(scenario.axis, "torque")));

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* cure = "choose another name, or replace it with --force";
 
-[[noreturn]] void refuse_place(const std::string& path, const std::string& why) {
+[[noreturn]] void reject_place(const std::string& path, const std::string& why) {
   throw OutputFault(fmt::format("cannot write {}: {}", path, why));
 }
 
@@ -58,10 +58,10 @@ std::string described(const std::string& kind) {
                                                                  : fmt::format("a result of {}", kind);
 }
 
-void refuse_another_kind(const std::string& path, std::string_view kind) {
+void reject_another_kind(const std::string& path, std::string_view kind) {
   const std::optional<std::string> there = kind_of(path);
-  if (!there) refuse_place(path, fmt::format("it exists and is no result of wormdrive; {}", cure));
-  if (*there != kind) refuse_place(path, fmt::format("it holds {}; {}", described(*there), cure));
+  if (!there) reject_place(path, fmt::format("it exists and is not a wormdrive result; {}", cure));
+  if (*there != kind) reject_place(path, fmt::format("it holds {}; {}", described(*there), cure));
 }
 
 }  // namespace
@@ -71,46 +71,46 @@ std::string followed(const std::string& path) {
   std::error_code none;
   constexpr int most = 40;  // as the kernel follows
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, none)); ++links) {
-    if (links == most) refuse_place(path, std::strerror(ELOOP));
+    if (links == most) reject_place(path, std::strerror(ELOOP));
     at = at.parent_path() / fs::read_symlink(at, none);  // an absolute target stands for itself
   }
   return at.string();
 }
 
-void refuse_what_is_no_file(const std::string& path) {
+void reject_unless_plain_file(const std::string& path) {
   std::error_code none;
-  if (fs::exists(path, none) && !fs::is_regular_file(path, none)) refuse_place(path, "it is not a plain file");
+  if (fs::exists(path, none) && !fs::is_regular_file(path, none)) reject_place(path, "it is not a plain file");
 }
 
-void refuse_to_replace_part(const std::string& part_path, std::string_view kind, Replace replace) {
+void reject_replacing_part(const std::string& part_path, std::string_view kind, Replace replace) {
   std::error_code none;
-  if (fs::is_symlink(fs::symlink_status(part_path, none))) refuse_place(part_path, "it is a symbolic link");
+  if (fs::is_symlink(fs::symlink_status(part_path, none))) reject_place(part_path, "it is a symbolic link");
   if (replace == Replace::anything || !fs::is_regular_file(part_path, none)) return;
   // what was torn in its first moments has zeros where a signature belongs, or does not open
   const std::string begin = beginning(part_path).substr(0, 8);
   if (std::all_of(begin.begin(), begin.end(), [](char c) { return c == '\0'; })) return;
-  if (!is_hdf5(part_path)) refuse_place(part_path, fmt::format("it exists and is not an HDF5 file; {}", cure));
-  if (opens(part_path)) refuse_another_kind(part_path, kind);
+  if (!is_hdf5(part_path)) reject_place(part_path, fmt::format("it exists and is not an HDF5 file; {}", cure));
+  if (opens(part_path)) reject_another_kind(part_path, kind);
 }
 
-void refuse_to_replace(const std::string& path, std::string_view kind, Replace replace) {
-  refuse_what_is_no_file(path);
-  refuse_to_replace_part(path + ".part", kind, replace);
+void reject_replacing(const std::string& path, std::string_view kind, Replace replace) {
+  reject_unless_plain_file(path);
+  reject_replacing_part(path + ".part", kind, replace);
   std::error_code none;
   if (replace == Replace::anything || !fs::exists(path, none) || fs::file_size(path, none) == 0) return;
-  if (!is_hdf5(path)) refuse_place(path, fmt::format("it exists and is not an HDF5 file; {}", cure));
-  refuse_another_kind(path, kind);
-  if (kind == "sweep") refuse_place(path, fmt::format("it holds a finished sweep; {}", cure));
+  if (!is_hdf5(path)) reject_place(path, fmt::format("it exists and is not an HDF5 file; {}", cure));
+  reject_another_kind(path, kind);
+  if (kind == "sweep") reject_place(path, fmt::format("it holds a finished sweep; {}", cure));
 }
 
-void refuse_to_replace_unmarked(const std::string& path, std::string_view mark, Replace replace) {
-  refuse_what_is_no_file(path);
+void reject_replacing_unmarked(const std::string& path, std::string_view mark, Replace replace) {
+  reject_unless_plain_file(path);
   std::error_code none;
   for (const std::string& at : {path, path + ".part"}) {
-    if (at != path && fs::is_symlink(fs::symlink_status(at, none))) refuse_place(at, "it is a symbolic link");
+    if (at != path && fs::is_symlink(fs::symlink_status(at, none))) reject_place(at, "it is a symbolic link");
     if (replace == Replace::anything || !fs::is_regular_file(at, none) || fs::file_size(at, none) == 0) continue;
     if (beginning(at).find(mark) == std::string::npos)
-      refuse_place(at, fmt::format("it exists and was not written by wormdrive; {}", cure));
+      reject_place(at, fmt::format("it exists and was not written by wormdrive; {}", cure));
   }
 }
 

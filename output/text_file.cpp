@@ -15,8 +15,8 @@ namespace wormdrive {
 
 void write_text_file(const std::string& link, const std::string& text) {
   const std::string path = followed(link), part = path + ".part";
-  refuse_what_is_no_file(path);
-  refuse_what_is_no_file(part);
+  reject_unless_plain_file(path);
+  reject_unless_plain_file(part);
   errno = 0;
   std::FILE* const file = std::fopen(part.c_str(), "wb");
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();

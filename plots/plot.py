@@ -98,7 +98,7 @@ def is_picture(path):
     return not start or MARK in start
 
 
-def refuse_to_replace(path, force):
+def reject_replacing(path, force):
     """Ends the program if a picture may not take the place of what is there: only of an older picture, unless forced."""
     for there in (path, path + ".part"):
         if os.path.lexists(there) and not os.path.isfile(there):
@@ -115,7 +115,7 @@ def save(figure, path, force):
     path = os.path.realpath(path)
     part = path + ".part"
     try:
-        refuse_to_replace(path, force)
+        reject_replacing(path, force)
         figure.savefig(part, format="png", metadata={"Software": SOFTWARE})
         os.replace(part, path)
     except OSError as error:

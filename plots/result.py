@@ -49,9 +49,9 @@ def dataset(table, name):
     if column is None or column.ndim != 1:
         raise NotAResult(f"it has no column '{table.name}/{name}'")
     if column.is_virtual or column.external or column.id.get_create_plist().get_nfilters():
-        raise NotAResult(f"column '{column.name}' is compressed or lies outside the file")
+        raise NotAResult(f"column '{column.name}' is compressed or outside the file")
     if column.size * column.id.get_type().get_size() > column.id.get_storage_size():
-        raise NotAResult(f"column '{column.name}' states more rows than the file holds")
+        raise NotAResult(f"column '{column.name}' states more rows than the file contains")
     return column
 
 
@@ -59,7 +59,7 @@ def column(table, name):
     """Returns the values of a numeric column."""
     values = dataset(table, name)
     if values.dtype.kind not in "iuf":
-        raise NotAResult(f"column '{values.name}' holds no numbers")
+        raise NotAResult(f"column '{values.name}' contains no numbers")
     return values[:]
 
 

@@ -158,7 +158,7 @@ def draw(result):
     names = "time", "gear_angle", "gear_speed", "motor_torque", "load_torque"
     time, angle, speed, motor, load = columns(trajectory, *names)
     if not (np.diff(time) > 0).all():
-        raise NotAResult("its times do not rise")
+        raise NotAResult("its times do not increase")
     angle_factor, angle_unit = style.scale(units(trajectory, "gear_angle"), angle)
     speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
     linear = units(trajectory, "gear_angle") == "m"

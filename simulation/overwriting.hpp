@@ -10,7 +10,7 @@
 namespace wormdrive {
 
 /// Throws InputFault if writing the output, or its part, would destroy the file that the command reads.
-inline void refuse_to_overwrite(const std::string& output, const std::string& input) {
+inline void reject_overwriting(const std::string& output, const std::string& input) {
   for (const std::string& written : {output, followed(output) + ".part"})
     if (std::error_code none; std::filesystem::equivalent(written, input, none))
       reject({output}, fmt::format("the result would overwrite {}; choose another --output", input));

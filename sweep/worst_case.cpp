@@ -87,7 +87,7 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
   const Study& study = sweep.study();
   if (summary.worst.empty())
     reject({sweep.path()},
-           fmt::format("has no trial from which a search could start{}", settings.done_only ? ": none is done" : ""));
+           fmt::format("has no trial to start a search from{}", settings.done_only ? ": none ran to the end" : ""));
 
   std::vector<std::unique_ptr<Search>> searches;
   for (std::size_t k = 0; k < summary.worst.size(); ++k)

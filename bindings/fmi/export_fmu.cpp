@@ -97,13 +97,13 @@ std::optional<std::string> not_exportable(const Scenario& scenario) {
   if (!what) return std::nullopt;
   return fmt::format(
       "effect.{} needs a memory of the past, which an FMU for model exchange does not have; switch it "
-      "off (effect.{}.on = false) and put the delay or lag beside the FMU in the importing tool",
+      "off (effect.{}.on = false) and add the delay or lag outside the FMU in the importing tool",
       what, what);
 }
 
 void export_fmu(const Scenario& scenario, const std::string& path, Replace replace) {
   const std::string plant = plant_to_json(scenario), library = read_library(), file = followed(path);
-  refuse_to_replace_unmarked(file, archive_mark, replace);
+  reject_replacing_unmarked(file, archive_mark, replace);
   Zip zip(file);
   zip.add(std::string(archive_mark), "An FMU of a worm-gear drive, made by wormdrive.\n");
   zip.add("modelDescription.xml", model_description(scenario, guid_of(plant)));

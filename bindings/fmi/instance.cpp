@@ -75,7 +75,7 @@ void FmuInstance::set_parameter(unsigned k, double value) {
     found = true;
     if (!std::isfinite(value) || !field.bounds.contain(value))
       throw std::invalid_argument(
-          fmt::format("{}.{} = {} is not a value that it may have", path, si_spelling(field, set_.axis).key, value));
+          fmt::format("{}.{} = {} is not an allowed value", path, si_spelling(field, set_.axis).key, value));
     stated = value;
   });
   if (!found) unknown(reference);

@@ -145,7 +145,7 @@ class DescriptionWriter {
     if (elastic_) shaft(list, "worm", worm_angle, worm_speed, worm_angle_rate, worm_speed_rate);
     shaft(list, "gear", gear_angle, gear_speed, gear_angle_rate, gear_speed_rate);
     Tree& input = variable(list, "motor_torque", static_cast<unsigned>(motor_torque),
-                           in_words_of(scenario_.axis, "motor torque, before what effects of the actuator make of it"));
+                           in_words_of(scenario_.axis, "motor torque before the effects of the actuator"));
     attribute(input, "causality", "input");
     attribute(input, "variability", "continuous");
     Tree& type = child(input, "Real");
@@ -153,7 +153,7 @@ class DescriptionWriter {
     attribute(type, "start", "0");
     real(list, "normal_force", static_cast<unsigned>(normal_force), "output", "N", "normal force between the teeth");
     real(list, "measured_angle", static_cast<unsigned>(measured_angle), "output", "rad",
-         "gear angle as the sensor shows it");
+         "gear angle as the sensor measures it");
     whole(list, "motion", motion, "-1 backward, 0 stuck, 1 forward; of elastic teeth the worm");
     whole(list, "flank", flank, "flank that carries: -1 right, 0 none, 1 left");
     if (elastic_) whole(list, "gear_motion", gear_motion, "-1 backward, 0 stuck, 1 forward");

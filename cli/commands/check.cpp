@@ -43,7 +43,7 @@ int check_command(const ScenarioOptions& options) {
   fmt::print("{}\n\nparameters\n", scenario.title);
   print(parameters(scenario));
   if (const auto list = derived(scenario); !list.empty()) {
-    fmt::print("\nwhat follows\n");
+    fmt::print("\nderived quantities\n");
     print(list);
     fmt::print("\n");
     print_item("regime", describe_mesh(scenario));

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands.hpp"
 #include "cli/commands/diff_sweeps.hpp"
 #include "cli/describe/drive.hpp"
-#include "cli/help_commands.hpp"
 #include "cli/report/result_file.hpp"
 #include "description/diagnostics.hpp"
 #include "output/trajectory.hpp"
@@ -66,7 +66,8 @@ void compare_table(const ResultFile& a, const ResultFile& b, const std::string& 
   result.rows += rows.size();
   if (over == "time")
     if (const double end_a = at_a.back(), end_b = at_b.back(); !(std::abs(end_a - end_b) <= allowed.time))
-      result.faults.push_back(fmt::format("{}: ends at {:.9g} s against {:.9g} s", table, end_a, end_b));
+      result.faults.push_back(
+          fmt::format("{}: ends at {:.9g} s in the first result, {:.9g} s in the second", table, end_a, end_b));
   const std::vector<std::string> of_b = b.columns(table);
   for (const std::string& name : a.columns(table)) {
     if (name == over) continue;
@@ -103,13 +104,14 @@ std::string event_name(double kind) {
 void compare_events(const ResultFile& a, const ResultFile& b, const DiffOptions& allowed, FileComparison& result) {
   const auto ta = a.column("events/time"), tb = b.column("events/time");
   const auto ka = a.column("events/kind"), kb = b.column("events/kind");
-  if (ta.size() != tb.size()) result.faults.push_back(fmt::format("events: {} against {}", ta.size(), tb.size()));
+  if (ta.size() != tb.size())
+    result.faults.push_back(fmt::format("events: {} in the first result, {} in the second", ta.size(), tb.size()));
   Difference late{"events/time"};
   late.allowed = allowed.time;
   for (std::size_t k = 0; k < std::min(ta.size(), tb.size()); ++k) {
     if (ka[k] != kb[k]) {
-      result.faults.push_back(fmt::format("event {}: {} at {:.9g} s against {} at {:.9g} s", k + 1, event_name(ka[k]),
-                                          ta[k], event_name(kb[k]), tb[k]));
+      result.faults.push_back(fmt::format("event {}: {} at {:.9g} s in the first result, {} at {:.9g} s in the second",
+                                          k + 1, event_name(ka[k]), ta[k], event_name(kb[k]), tb[k]));
       break;  // what follows is another course
     }
     ++result.events;
@@ -150,8 +152,8 @@ void print(const FileComparison& result) {
     fmt::print("  {:<36} {:>12.4g} at {:<12.6g} allowed {:<10.3g} {}\n", s.signal, s.largest, s.at, s.allowed,
                s.too_large() ? "DIFFERS" : "");
   for (const std::string& fault : result.faults) fmt::print("  {}\n", fault);
-  fmt::print("{}: {} events and {} rows compared\n", result.differs() ? "they differ" : "they agree", result.events,
-             result.rows);
+  fmt::print("{}: {} events and {} rows compared\n", result.differs() ? "the results differ" : "the results agree",
+             result.events, result.rows);
 }
 
 nlohmann::json as_json(const FileComparison& result) {

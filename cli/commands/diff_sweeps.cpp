@@ -156,14 +156,14 @@ class Comparer {
     }
     const auto tell = [this](const std::vector<std::uint64_t>& trials, const std::string& what, auto&& said) {
       if (trials.empty()) return;
-      result_.faults.push_back(fmt::format("{} of {} trial{}: {}; {} {}, then {}", what, trials.size(),
-                                           trials.size() == 1 ? "" : "s", listed(trials), trials.front(),
-                                           said(a_, trials.front()), said(b_, trials.front())));
+      result_.faults.push_back(fmt::format("{} trial{} {}: {}; trial {}: {} in the first result, {} in the second",
+                                           trials.size(), trials.size() == 1 ? "" : "s", what, listed(trials),
+                                           trials.front(), said(a_, trials.front()), said(b_, trials.front())));
     };
-    tell(ended, "another end", [](const SweepReader& sweep, std::uint64_t trial) {
+    tell(ended, "ended differently", [](const SweepReader& sweep, std::uint64_t trial) {
       return std::string(wormdrive::name(sweep.read({trial, trial + 1}).front().status));
     });
-    tell(failed, "another reason", [](const SweepReader& sweep, std::uint64_t trial) {
+    tell(failed, "failed for another reason", [](const SweepReader& sweep, std::uint64_t trial) {
       return "'" + sweep.read({trial, trial + 1}).front().reason + "'";
     });
   }
@@ -188,7 +188,7 @@ void print(const SweepComparison& result) {
                                 : fmt::format("DIFFERS in {} trial{}: {}", c.beyond.size(),
                                               c.beyond.size() == 1 ? "" : "s", listed(c.beyond)));
   for (const std::string& fault : result.faults) fmt::print("  {}\n", fault);
-  fmt::print("{}: {} trials compared\n", result.differs() ? "they differ" : "they agree", result.trials);
+  fmt::print("{}: {} trials compared\n", result.differs() ? "the results differ" : "the results agree", result.trials);
 }
 
 nlohmann::json as_json(const SweepComparison& result) {

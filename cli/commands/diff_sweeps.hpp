@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/help_commands.hpp"
+#include "cli/commands.hpp"
 
 namespace wormdrive {
 

@@ -18,7 +18,7 @@ int fmu_command(const FmuOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
   if (const auto why = not_exportable(scenario)) reject({options.scenario.file}, *why);
   const std::string output = options.output.empty() ? default_output(options.scenario.file, ".fmu") : options.output;
-  refuse_to_overwrite(output, options.scenario.file);
+  reject_overwriting(output, options.scenario.file);
   export_fmu(scenario, output, options.replace);
   const InterfaceNames ports(has_elastic_teeth(scenario.effects));
   int parameters = 0;

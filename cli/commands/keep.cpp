@@ -38,7 +38,7 @@ void keep_trajectories(const std::string& path, const std::string& command_line,
   std::vector<std::uint64_t> kept;
   for (const std::uint64_t trial : wanted(sweep)) {
     if (const TrialStatus status = sweep.read({trial, trial + 1}).front().status; status != TrialStatus::done) {
-      if (!quiet) print_item("kept", fmt::format("nothing of trial {}: it was {}", trial, name(status)));
+      if (!quiet) print_item("kept", fmt::format("no trajectory of trial {}: it was {}", trial, name(status)));
       continue;
     }
     const auto output = file.parent_path() / fmt::format("{}_trial_{}.h5", file.stem().string(), trial);

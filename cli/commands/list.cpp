@@ -64,7 +64,7 @@ void for_each_effect(Visit&& visit) {
 }
 
 void list_effects() {
-  fmt::print("effects: [effect.ID] in a scenario; on = false keeps one without using it\n");
+  fmt::print("effects: [effect.ID] in a scenario; on = false switches one off\n");
   for_each_effect([]<class Effect>() {
     print_kind(Effect::id, fmt::format("{}: {}", name(Effect::place), Effect::cause));
     fmt::print("      {}\n", Effect::law);
@@ -106,7 +106,7 @@ void list_controllers() {
   print_kinds<ControllerParameters>("torque: [[controller.torque]], any torque over time (wormdrive list torques)");
   fmt::print("its model of the drive: [controller.nominal]\n");
   print_fields<NominalSettings>();
-  fmt::print("what it is to withstand: [controller.variation]\n");
+  fmt::print("variations that it must withstand: [controller.variation]\n");
   print_fields<Variations>();
   fmt::print("what it measures: [sensor] speed = \"difference\" or \"exact\"\n");
   print_fields<SensorSettings>();
@@ -136,7 +136,8 @@ void list_scenarios() {
 
 }  // namespace
 
-int list_command(const std::string& what) {
+int list_command(const ListOptions& options) {
+  const std::string& what = options.topic;
   if (what == "effects") list_effects();
   if (what == "effects.md") list_effects_as_markdown();
   if (what == "torques") list_torques();

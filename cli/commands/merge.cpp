@@ -10,7 +10,7 @@
 namespace wormdrive {
 
 int merge_command(const MergeOptions& options) {
-  for (const std::string& shard : options.shards) refuse_to_overwrite(options.output, shard);
+  for (const std::string& shard : options.shards) reject_overwriting(options.output, shard);
   const std::string output = followed(options.output);
   const std::uint64_t trials =
       merge_shards(options.shards, output, OutputLock(output), options.command_line, options.replace);

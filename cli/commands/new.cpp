@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
-#include "cli/help_commands.hpp"
 #include "description/diagnostics.hpp"
 #include "output/hdf5/hdf5.hpp"
 

@@ -18,8 +18,8 @@ namespace {
 Trial stored(const SweepReader& sweep, std::uint64_t index) {
   if (!sweep.has(index)) {
     const TrialRange range = sweep.range();
-    reject({sweep.path()}, fmt::format("holds no trial {}; {} of {} to {} are there", index, sweep.trials(),
-                                       range.first, range.end - 1));
+    reject({sweep.path()}, fmt::format("does not contain trial {}; it contains {} of the trials {} to {}", index,
+                                       sweep.trials(), range.first, range.end - 1));
   }
   return sweep.read({index, index + 1}).front();
 }
@@ -30,7 +30,7 @@ std::string difference(const Study& study, const Trial& trial, const Outcome& ou
     const double now = study.metrics[k].of(outcome);
     const bool neither = std::isnan(now) && std::isnan(trial.metrics[k]);
     if (!neither && std::bit_cast<std::uint64_t>(now) != std::bit_cast<std::uint64_t>(trial.metrics[k]))
-      return fmt::format("{} = {}, in the sweep {}", study.metrics[k].name, now, trial.metrics[k]);
+      return fmt::format("{} = {}, but {} in the sweep", study.metrics[k].name, now, trial.metrics[k]);
   }
   return "";
 }
@@ -40,26 +40,26 @@ std::string difference(const Study& study, const Trial& trial, const Outcome& ou
 void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::string& output, const RunOptions& options) {
   const Trial trial = stored(sweep, index);
   if (trial.status == TrialStatus::refused)
-    reject({sweep.path()}, fmt::format("trial {} was not run: {}", index, trial.reason));
+    reject({sweep.path()}, fmt::format("trial {} was refused and has no trajectory: {}", index, trial.reason));
   Trials trials(sweep.study());
   Scenario scenario = trials.scenario(index);
   scenario.title = fmt::format("{}, trial {}", sweep.study().title, index);
   const Outcome outcome{run_and_write(scenario, output, options), lemma1_conditions(scenario)};
   if (const std::string other = difference(sweep.study(), trial, outcome); !other.empty())
-    throw SimulationFailure(
-        fmt::format("trial {} came out differently: {}; was {} made by this program on this kind of machine?", index,
-                    other, sweep.path()));
+    throw SimulationFailure(fmt::format(
+        "trial {} gives another result: {}; was {} made by another version or on another kind of processor?", index,
+        other, sweep.path()));
 }
 
 int replay_command(const ReplayOptions& options) {
-  refuse_to_overwrite(options.output, options.sweep);
+  reject_overwriting(options.output, options.sweep);
   RunOptions run;
   run.scenario.quiet = options.quiet;
   run.scenario.command_line = options.command_line;
   run.replace = options.replace;
   const SweepSoFar so_far(options.sweep);
   replay_trial(SweepReader(so_far.path()), options.trial, options.output, run);
-  if (!options.quiet) print_item("replay", "every metric is that of the sweep, to the last bit");
+  if (!options.quiet) print_item("replay", "every metric equals that of the sweep to the last bit");
   return 0;
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
-#include "cli/help_commands.hpp"
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
 #include "output/replacing.hpp"
@@ -31,7 +31,7 @@ ReportPage page_of(const ResultFile& file) {
   const std::string kind = file.attribute("/", "kind");
   for (const KindOfPage& known : pages)
     if (known.name == kind) return known.page(file);
-  reject({file.path()}, fmt::format("is the result of '{}', of which there is no report", kind));
+  reject({file.path()}, fmt::format("is a result of '{}', for which there is no report", kind));
 }
 
 ReportTable provenance(const ResultFile& file) {
@@ -50,25 +50,25 @@ int report_command(const ReportOptions& options) {
   const std::filesystem::path path =
       folder ? std::filesystem::path(options.file) / "diagnosis.h5" : std::filesystem::path(options.file);
   if (folder && !std::filesystem::exists(path))
-    reject({options.file}, "holds no diagnosis.h5; wormdrive diagnose -o writes one");
+    reject({options.file}, "contains no diagnosis.h5; wormdrive diagnose -o writes one");
   const SweepSoFar so_far(path.string());
   const ResultFile file(so_far.path());
   std::string output = options.output;
   if (output.empty() && folder) output = (std::filesystem::path(options.file) / "report.html").string();
   if (output.empty()) output = std::filesystem::path(path).replace_extension(".html").filename().string();
-  refuse_to_overwrite(output, path.string());
+  reject_overwriting(output, path.string());
 
   ReportPage page = page_of(file);
   const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   page.title = file.attribute("/", "title");
   page.tables.push_back(table_of("Parameters", parameters(scenario)));
-  if (const auto list = derived(scenario); !list.empty()) page.tables.push_back(table_of("What follows", list));
+  if (const auto list = derived(scenario); !list.empty()) page.tables.push_back(table_of("Derived quantities", list));
   page.tables.push_back(provenance(file));
   page.texts.push_back({"Scenario", file.attribute("/", "scenario")});
   for (const std::string& warning : warnings(scenario)) page.remarks.push_back(warning);
-  refuse_to_replace_unmarked(followed(output), page_mark, options.replace);
+  reject_replacing_unmarked(followed(output), page_mark, options.replace);
   write_text_file(output, to_html(page));
-  print_item("wrote", fmt::format("{}    open it in a browser; it needs nothing else", output));
+  print_item("wrote", fmt::format("{}    open it in a browser", output));
   return 0;
 }
 

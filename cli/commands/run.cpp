@@ -82,7 +82,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
 int run_command(const RunOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
   const std::string output = options.output.empty() ? default_output(options.scenario.file, ".h5") : options.output;
-  refuse_to_overwrite(output, options.scenario.file);
+  reject_overwriting(output, options.scenario.file);
   run_and_write(scenario, output, options);
   return 0;
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/help_commands.hpp"
+#include "cli/commands.hpp"
 #include "description/keys.hpp"
 #include "description/scenario.hpp"
 #include "description/variant_kinds.hpp"
@@ -58,7 +58,8 @@ class Table {
   }
   /// A function that a file or two arrays state.
   Table& pairs(const std::string& x, const Unit& x_unit, const std::string& y, const Unit& y_unit) {
-    with("file", any_text("CSV file, beside the scenario")).with("x_column", any_text("its column of " + x));
+    with("file", any_text("CSV file, relative to the folder of the scenario"))
+        .with("x_column", any_text("its column of " + x));
     with("y_column", any_text("its column of " + y));
     const auto x_spellings = spellings(x, x_unit, axis_), y_spellings = spellings(y, y_unit, axis_);
     for (const auto& list : {x_spellings, y_spellings})
@@ -175,7 +176,7 @@ Json effects(Axis axis) {
   Table all(axis, "what extends the nominal drive");
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
     Table one(axis, fmt::format("{}: {}", name(Effect::place), Effect::cause));
-    one.with("on", {{"type", "boolean"}, {"default", true}, {"description", "false keeps it without using it"}});
+    one.with("on", {{"type", "boolean"}, {"default", true}, {"description", "false switches it off"}});
     all.with(std::string(Effect::id), one.fields<Effect>().json());
   });
   return all.json();
@@ -183,7 +184,7 @@ Json effects(Axis axis) {
 
 /// What the columns of recordings are called.
 Json recorded_names(Axis axis) {
-  Table table(axis, "what the columns of recordings are called, where they have other names than usual");
+  Table table(axis, "column names of the recordings, if they are not the usual ones");
   for (const RecordedColumn& column : recorded_columns) {
     Json name = any_text("its column in the files");
     name["minLength"] = 1;
@@ -198,8 +199,8 @@ Json controller() {
   const auto add = [&]<class Law>() {
     Table table = kind_table<Law>(axis);
     table.fields<SamplingSettings>();
-    table.with("nominal", Table(axis, "the model that the controller believes").fields<NominalSettings>().json());
-    table.with("variation", Table(axis, "what it is to withstand").fields<Variations>().json());
+    table.with("nominal", Table(axis, "the controller's model of the drive").fields<NominalSettings>().json());
+    table.with("variation", Table(axis, "variations that the controller must withstand").fields<Variations>().json());
     if constexpr (!requires { Law::fields(); }) table.with("torque", torque(axis)).requires_key("torque");
     kinds.push_back(table.json());
   };
@@ -215,25 +216,25 @@ Json tables(Axis axis) {
   Table root(axis);
   root.with("title", any_text("one line"));
   root.with("mesh", mesh(axis)).requires_key("mesh");
-  root.with("motor", Table(axis, "what drives in open loop").with("torque", torque(axis)).json());
+  root.with("motor", Table(axis, "motor torque in open loop").with("torque", torque(axis)).json());
   root.with("load", load(axis)).with("effect", effects(axis));
   root.with("initial", Table(axis, "where the run starts").fields<InitialState<double>>().json());
-  root.with("run", Table(axis, "how long and how exactly")
+  root.with("run", Table(axis, "duration and accuracy")
                        .fields<RunSettings>()
-                       .with("solver", choice({"cvode", "taylor"}, "taylor is fast and follows rigid teeth only"))
-                       .with("method", choice({"bdf", "adams"}, "of cvode"))
+                       .with("solver", choice({"cvode", "taylor"}, "taylor is fast but supports rigid teeth only"))
+                       .with("method", choice({"bdf", "adams"}, "integration method of cvode"))
                        .json());
-  root.with("tolerance", Table(axis, "how well stated numbers are known").fields<Tolerances>().json());
+  root.with("tolerance", Table(axis, "standard deviations of stated numbers").fields<Tolerances>().json());
   root.with("data", recorded_names(axis));
   if (axis == Axis::rotary) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));
-    root.with("sensor", Table(axis, "what the controller sees")
-                            .with("speed", choice({"difference", "exact"}, "how it learns the speed"))
+    root.with("sensor", Table(axis, "what the controller measures")
+                            .with("speed", choice({"difference", "exact"}, "how the speed is obtained"))
                             .fields<SensorSettings>()
                             .json());
     root.with("disturbance", Table(axis, "a random torque on the worm").fields<DisturbanceSettings>().json());
-    root.with("metrics", Table(axis, "when metrics are taken").fields<MetricsWindow>().json());
+    root.with("metrics", Table(axis, "time window of the metrics").fields<MetricsWindow>().json());
   }
   return root.json();
 }
@@ -247,7 +248,7 @@ int schema_command() {
       {"required", Json::array({"mesh"})}};
   const Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                     {"title", "wormdrive scenario"},
-                    {"description", "A scenario of wormdrive as TOML; units stand in the keys"},
+                    {"description", "A wormdrive scenario in TOML; every key includes its unit"},
                     {"if", on_linear_axis},
                     {"then", tables(Axis::linear)},
                     {"else", tables(Axis::rotary)}};

@@ -70,7 +70,7 @@ void write(const std::string& output, const Scenario& scenario, const StaticsMap
 void print_start(const Scenario& scenario) {
   const RestAtStart rest = rest_at_start(scenario);
   fmt::print("\n");
-  print_item("start", fmt::format("at the initial angle, load {:.6g} N m, all effects included: at rest from {:.6g} to "
+  print_item("start", fmt::format("with all effects, at the initial angle (load {:.6g} N m): at rest from {:.6g} to "
                                   "{:.6g} N m",
                                   rest.load, rest.low, rest.high));
 }
@@ -87,10 +87,10 @@ void print_table(const StaticsMap& map, bool outside) {
 }  // namespace
 
 int statics_command(const StaticsOptions& options) {
-  refuse_to_overwrite(options.output, options.scenario.file);
+  reject_overwriting(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
-  if (!mesh.has_teeth) reject({options.scenario.file}, "mesh.kind = \"none\" has no statics; only teeth lock");
+  if (!mesh.has_teeth) reject({options.scenario.file}, "statics needs teeth, but mesh.kind is \"none\"");
   const StaticsMap map = make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
                                   options.max_load.value_or(sensible_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
@@ -110,9 +110,9 @@ int statics_command(const StaticsOptions& options) {
   if (options.scenario.quiet) return 0;
   fmt::print("{}\n", scenario.title);
   print_item("regime", describe_mesh(scenario));
-  print_item("break-in",
-             outside ? "no torque moves it without load; it moves between the two limits below, driven by the load"
-                     : "motor torque at which the gear starts to turn, over the load torque:");
+  print_item("break-in", outside
+                             ? "without load no torque moves the gear; under load it moves between the two limits below"
+                             : "motor torque at which the gear starts to turn, over the load torque:");
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   print_table(map, outside);
   if (!outside) print_start(scenario);

@@ -38,7 +38,8 @@ Comparison compare(const Scenario& scenario, const std::string& data, std::vecto
   std::vector<double> errors, torques;
   for (const SpeedTorqueRecord& record : comparison.records) {
     if (record.worm_speed == 0.0)
-      reject({data}, fmt::format("record {} stands still; its torque is that of no motion", record.name));
+      reject({data},
+             fmt::format("record {} does not move; a torque at standstill is not that of a motion", record.name));
     comparison.model.push_back(steady_torque(scenario, record.worm_speed));
     errors.push_back(record.motor_torque - comparison.model.back());
     torques.push_back(record.motor_torque);
@@ -149,10 +150,10 @@ void print_comparison(const Comparison& comparison, const std::string& data, con
 }  // namespace
 
 int steady_command(const SteadyOptions& options) {
-  for (const std::string& input : {options.scenario.file, options.data}) refuse_to_overwrite(options.output, input);
+  for (const std::string& input : {options.scenario.file, options.data}) reject_overwriting(options.output, input);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   if (scenario.axis == Axis::linear && !options.data.empty())
-    reject({options.data}, "records are torques over worm speeds; mesh.axis = \"linear\" has none");
+    reject({options.data}, "records are torques over worm speeds, but mesh.axis = \"linear\" has no worm");
   std::optional<Comparison> comparison;
   if (!options.data.empty())
     comparison = compare(scenario, options.data, read_speed_torque_records(options.data, scenario));
@@ -174,7 +175,7 @@ int steady_command(const SteadyOptions& options) {
   for (const std::string& warning : warnings(scenario))
     if (!warning.starts_with("no [motor.torque]")) print_item("warning", warning);
   if (scenario.axis == Axis::rotary)
-    print_item("load", fmt::format("{:g} N m, that of the initial angle at time 0", rest_at_start(scenario).load));
+    print_item("load", fmt::format("{:g} N m, at the initial angle and time 0", rest_at_start(scenario).load));
   if (comparison)
     print_comparison(*comparison, options.data, recorded_name("motor_torque", scenario));
   else

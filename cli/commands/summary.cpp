@@ -14,41 +14,96 @@
 namespace wormdrive {
 namespace {
 
+using Chosen = std::vector<const MetricSummary*>;
+
+/// The margins of Lemma 1's conditions, or all other metrics.
+Chosen choose(const SweepSummary& summary, bool conditions) {
+  Chosen list;
+  for (const MetricSummary& m : summary.metrics)
+    if (m.metric.condition.has_value() == conditions) list.push_back(&m);
+  return list;
+}
+
+/// What all trials share, on one line: "0 for layer_violations, reversals; 0.2 s for layer_reached".
+void print_constants(const std::string& heading, const Chosen& metrics) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const MetricSummary* m : metrics) {
+    if (!m->is_constant()) continue;
+    const std::string value = m->least == 0.0 ? "0" : fmt::format("{:.4g}{}", m->least, in_unit(m->metric.unit)),
+                      name = m->metric.condition ? m->metric.condition->rule : m->metric.name;
+    const auto same = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == value; });
+    if (same != values.end())
+      same->second += ", " + name;
+    else
+      values.emplace_back(value, name);
+  }
+  std::string text;
+  for (const auto& [value, names] : values) text += fmt::format("{}{} for {}", text.empty() ? "" : "; ", value, names);
+  if (!text.empty()) fmt::print("  {}: {}\n", heading, text);
+}
+
 void print_metrics(const SweepSummary& summary) {
+  const Chosen metrics = choose(summary, false);
   const char* const interval = summary.sample ? " [95 % interval]" : "";
   fmt::print("\n  {:<28} {:<10} {:>11} {:>11} {:>34} {:>34} {:>11}\n", "metric", "unit", "mean", "median",
              fmt::format("95 % lie below{}", interval), fmt::format("99 % lie below{}", interval), "greatest");
   bool some_without = false;
-  for (const MetricSummary& m : summary.metrics) {
-    if (m.count == 0) {
-      fmt::print("  {:<28} {:<10} no trial has it\n", m.metric.name, m.metric.unit.symbol);
+  for (const MetricSummary* m : metrics) {
+    if (m->is_constant()) continue;
+    if (m->count == 0) {
+      fmt::print("  {:<28} {:<10} no trial has a value\n", m->metric.name, m->metric.unit.symbol);
       continue;
     }
-    some_without = some_without || m.without > 0;
-    fmt::print("  {:<28} {:<10} {:>11.4g} {:>11.4g} {:>34} {:>34} {:>11.4g}{}\n", m.metric.name, m.metric.unit.symbol,
-               m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]), with_interval(m.quantiles[3]), m.greatest,
-               m.without > 0 ? fmt::format("  {} without", m.without) : "");
+    some_without = some_without || m->without > 0;
+    fmt::print("  {:<28} {:<10} {:>11.4g} {:>11.4g} {:>34} {:>34} {:>11.4g}{}\n", m->metric.name, m->metric.unit.symbol,
+               m->mean, m->quantiles[1].value, with_interval(m->quantiles[2]), with_interval(m->quantiles[3]),
+               m->greatest, m->without > 0 ? fmt::format("  {} without a value", m->without) : "");
   }
   if (some_without)
-    fmt::print("  trials without a value count as the worst below a share, and not in mean and greatest\n");
+    fmt::print("  trials without a value count as the worst in the quantiles; mean and greatest leave them out\n");
+  print_constants("the same in all trials", metrics);
 }
 
-void print_thresholds(const SweepSummary& summary) {
+void print_conditions(const SweepSummary& summary) {
+  const Chosen margins = choose(summary, true);
+  if (margins.empty()) return;
+  fmt::print("\n  Lemma 1: margin of each condition, negative if it fails\n");
+  fmt::print("  {:>11} {:>11} {:>16}   {}\n", "least", "mean", "fails in", "condition (name of the metric)");
+  for (std::size_t k = 0; k < margins.size(); ++k) {
+    const MetricSummary& m = *margins[k];
+    const ConditionSummary& c = summary.conditions[k];
+    if (m.count == 0 || (m.is_constant() && c.trials == 0)) continue;
+    fmt::print("  {:>11.4g} {:>11.4g} {:>16}   {} ({})\n", m.least, m.mean, fmt::format("{} of {}", c.trials, c.of),
+               c.rule, m.metric.name);
+  }
+  Chosen holding;
+  for (std::size_t k = 0; k < margins.size(); ++k)
+    if (summary.conditions[k].trials == 0) holding.push_back(margins[k]);
+  print_constants("the same margin in all trials", holding);
+}
+
+/// The limits that the study states, in its order.
+void print_thresholds(const SweepSummary& summary, const Study& study) {
   const auto share = [&](const SampleEstimate& e) {
     return fmt::format("{} %{}", with_interval(e, 100.0), e.has_interval() ? " (95 % interval, exact binomial)" : "");
   };
-  for (const ThresholdSummary& t : summary.thresholds) {
-    print_item(t.threshold.above ? "above" : "below",
-               fmt::format("{} {} {:g} {}: {} of {} trials, {}", t.threshold.metric, t.threshold.above ? ">" : "<",
-                           t.threshold.limit, t.unit.symbol, t.missed, t.of, share(t.share)));
-    if (t.refused + t.halted > 0)
-      print_item("", fmt::format("{} refused, {} halted, {} kept; not kept in {}", t.refused, t.halted, t.kept(),
-                                 share(t.not_kept)));
+  for (const Threshold& stated : study.thresholds) {
+    const auto t =
+        std::find_if(summary.thresholds.begin(), summary.thresholds.end(), [&](const ThresholdSummary& found) {
+          return found.threshold.metric == stated.metric && found.threshold.limit == stated.limit &&
+                 found.threshold.above == stated.above;
+        });
+    print_item("limit", fmt::format("{} at {} {:g}{}: missed in {} of {} trials, {}", stated.metric,
+                                    stated.above ? "most" : "least", stated.limit, in_unit(t->unit), t->missed, t->of,
+                                    share(t->share)));
+    if (t->refused + t->halted > 0)
+      print_item("", fmt::format("{} refused, {} halted, {} kept; missed, refused or halted: {}", t->refused, t->halted,
+                                 t->kept(), share(t->not_kept)));
   }
 }
 
 void print_influences(const SweepSummary& summary) {
-  fmt::print("\n  what matters most for {}\n", summary.ranked_by);
+  fmt::print("\n  influence on {}, the largest first\n", summary.ranked_by);
   for (const Influence& i : summary.influences)
     if (i.sobol)
       fmt::print("  {:<44} Sobol index total {:<24} first {}\n", i.parameter, with_interval(i.sobol->total),
@@ -56,8 +111,8 @@ void print_influences(const SweepSummary& summary) {
     else
       fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
   if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
-    fmt::print("  {} of {} samples are left out of the Sobol indices: a trial of theirs has no value\n", sobol.left_out,
-               sobol.used + sobol.left_out);
+    fmt::print("  {} of {} samples are left out of the Sobol indices because one of their trials has no value\n",
+               sobol.left_out, sobol.used + sobol.left_out);
 }
 
 void print_worst(const SweepReader& sweep, const SweepSummary& summary, const std::string& path) {
@@ -74,12 +129,7 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary, const st
   const auto ran = std::find_if(summary.worst.begin(), summary.worst.end(),
                                 [](const Trial& trial) { return trial.status != TrialStatus::refused; });
   if (ran != summary.worst.end())
-    fmt::print("  see one: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(path), ran->index);
-}
-
-void print_conditions(const SweepSummary& summary) {
-  for (const ConditionSummary& c : summary.conditions)
-    if (c.trials > 0) print_item("Lemma 1", fmt::format("{} of {} trials that are done: {}", c.trials, c.of, c.rule));
+    fmt::print("  see a trial: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(path), ran->index);
 }
 
 nlohmann::json as_json(const SampleEstimate& e) {
@@ -96,6 +146,7 @@ nlohmann::json as_json(const SweepReader& sweep, const SweepSummary& summary) {
     nlohmann::json& metric = json["metrics"][m.metric.name];
     metric = {{"unit", m.metric.unit.symbol}, {"count", m.count}, {"without", m.without},  {"mean", m.mean},
               {"deviation", m.deviation},     {"least", m.least}, {"greatest", m.greatest}};
+    if (m.metric.condition) metric["condition"] = in_words(*m.metric.condition);
     for (std::size_t k = 0; k < m.quantiles.size(); ++k)
       metric["quantiles"][fmt::format("{:g}", summary_quantiles[k])] = as_json(m.quantiles[k]);
   }
@@ -144,22 +195,23 @@ int summary_command(const SummaryOptions& options) {
     return 0;
   }
   fmt::print("{}\n", sweep.study().title);
+  print_thresholds(summary, sweep.study());
   print_item("trials", fmt::format("{} of {}{}", summary.trials, sweep.range().size(),
                                    sweep.complete()   ? ""
                                    : so_far.running() ? " so far; the sweep is still running"
                                                       : " so far; the sweep was interrupted"));
   if (summary.done < summary.trials)
-    print_item("failed",
-               fmt::format("{} refused, {} halted; {}", summary.refused, summary.halted,
-                           summary.done_only ? fmt::format("all else is told of the {} that are done", summary.done)
-                                             : "they count as the worst, without them: --done-only"));
+    print_item("failed", fmt::format("{} refused, {} halted; {}", summary.refused, summary.halted,
+                                     summary.done_only
+                                         ? fmt::format("all other lines describe the {} completed trials", summary.done)
+                                         : "they count as the worst (--done-only leaves them out)"));
   for (const std::string& reason : sweep.reasons()) print_item("", reason);
-  print_verdicts(sweep.verdicts(), sweep.study());
-  print_thresholds(summary);
-  print_conditions(summary);
   print_metrics(summary);
+  print_conditions(summary);
   print_influences(summary);
   print_worst(sweep, summary, options.sweep);
+  if (!sweep.verdicts().empty()) fmt::print("\n");
+  print_verdicts(sweep.verdicts(), sweep.study());
   return 0;
 }
 

@@ -37,7 +37,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
       open_sweep(output, OutputLock(output), study, range, options.command_line, options.resume, options.replace);
   if (!options.quiet) print_study(study, range);
   if (!open.file) {
-    if (!options.quiet) print_item("resume", fmt::format("every trial is in {} already", output));
+    if (!options.quiet) print_item("resume", fmt::format("{} already contains every trial", output));
     return 0;
   }
   SweepFile& file = *open.file;
@@ -84,24 +84,24 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
       file.flush();
     }
   } catch (const OutputFault& fault) {
-    throw OutputFault(fmt::format("{}; nothing before the last second is lost: make room, then {}", fault.what(),
+    throw OutputFault(fmt::format("{}; trials older than a second are safe; free some space, then {}", fault.what(),
                                   how_to_resume(options)));
   }
   if (too_many()) {  // threads were ahead of the trial that was one too many
     const EarlyEnd early = ended_early({file.part_path()}, *options.max_failures);
     file.drop_from(early.end);
-    throw SimulationFailure(fmt::format("{}; {} keeps them all", early.told, file.part_path()));
+    throw SimulationFailure(fmt::format("{}; {} contains all of them", early.told, file.part_path()));
   }
   if (made < wanted) {
-    fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, all of them in {}; {}\n", before + made,
+    fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, which are in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
     return 128 + Interruptible::signal();
   }
   keep_trajectories(output, options.command_line, options.quiet, options.replace);
   if (options.quiet) return 0;
-  print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} a second{}", made, seconds, threads,
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} per second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
-                                before > 0 ? fmt::format("; {} were there already", before) : ""));
+                                before > 0 ? fmt::format("; {} were already complete", before) : ""));
   print_cost(cost);
   print_failures(SweepReader(output).counted_reasons());
   print_verdicts(verdicts, study);
@@ -127,9 +127,9 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
   const bool good = looks_good(ranks, [&] {
     load_study(options.study);
-    refuse_to_overwrite(output, options.study);
+    reject_overwriting(output, options.study);
     if (ranks.count() > 1 && !options.shard.empty())
-      reject({"--shard " + options.shard}, "the ranks share all trials; leave it out");
+      reject({"--shard " + options.shard}, "the ranks share all trials; remove the option");
   });
   if (!good) return 2;
   const Study study = load_study(options.study);

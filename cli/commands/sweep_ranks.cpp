@@ -179,7 +179,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   const bool talks = ranks.first() && !options.quiet;
   if (talks) print_study(study, {0, study.trials()});
   if (plan.complete) {
-    if (talks) print_item("resume", fmt::format("every trial is in {} already", output));
+    if (talks) print_item("resume", fmt::format("{} already contains every trial", output));
     return 0;
   }
   const Missing missing(plan.missing);
@@ -195,14 +195,14 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   const std::uint64_t made = ranks.sum(sweep.made());
   const bool broken = ranks.sum(fault.empty() ? 0 : 1) > 0, too_many = sweep.too_many();
   const std::uint64_t there = study.trials() - missing.count() + made;
-  const std::string resume = fmt::format("go on with: mpirun -n {} {}", ranks.count(),
-                                         how_to_resume(options).substr(std::string("go on with: ").size()));
+  const std::string resume = fmt::format("continue with: mpirun -n {} {}", ranks.count(),
+                                         how_to_resume(options).substr(std::string("continue with: ").size()));
   if (broken || too_many || made < missing.count()) {
     if (ranks.first() && too_many)
-      fmt::print(stderr, "wormdrive: {}; {}.rank_* keep them all\n",
+      fmt::print(stderr, "wormdrive: {}; {}.rank_* contain all of them\n",
                  ended_early(rank_parts(output), *options.max_failures).told, output);
     else if (ranks.first())
-      fmt::print(stderr, "wormdrive: ended after {} of {} trials, all of them in {}.rank_*; {}\n", there,
+      fmt::print(stderr, "wormdrive: stopped after {} of {} trials, which are in {}.rank_*; {}\n", there,
                  study.trials(), output, resume);
     return too_many ? 3 : broken ? 4 : 128 + Interruptible::signal();
   }
@@ -214,9 +214,9 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   }
   if (!talks) return 0;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}{}, {:.0f} a second{}", made, seconds, ranks.count(),
-                                ranks.count() == 1 ? "" : "s", each, static_cast<double>(made) / seconds,
-                                there > made ? fmt::format("; {} were there already", there - made) : ""));
+  print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}{}, {:.0f} per second{}", made, seconds,
+                                ranks.count(), ranks.count() == 1 ? "" : "s", each, static_cast<double>(made) / seconds,
+                                there > made ? fmt::format("; {} were already complete", there - made) : ""));
   const SweepReader result(output);
   print_failures(result.counted_reasons());
   print_verdicts(result.verdicts(), study);

@@ -40,16 +40,16 @@ TrialRange range_of(const std::string& shard, std::uint64_t trials) {
   if (!slash || first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || part < 1 || part > parts)
     reject({"--shard " + shard}, "must be i/n with 1 <= i <= n, as in 3/7");
   if (parts > trials)
-    reject({"--shard " + shard}, fmt::format("the study has only {} trials; take at most as many shards", trials));
+    reject({"--shard " + shard}, fmt::format("the study has only {} trials; use at most as many shards", trials));
   const auto begin = [&](std::uint64_t k) { return trials / parts * k + std::min(k, trials % parts); };
   return {begin(part - 1), begin(part)};
 }
 
 std::string how_to_resume(const SweepOptions& options) {
   const std::string& typed = options.command_line;
-  if (options.resume) return "go on with: " + typed;
+  if (options.resume) return "continue with: " + typed;
   const std::size_t end = std::min(typed.find(" -- "), typed.size());  // behind it there are no options
-  return fmt::format("go on with: {} --resume{}", typed.substr(0, end), typed.substr(end));
+  return fmt::format("continue with: {} --resume{}", typed.substr(0, end), typed.substr(end));
 }
 
 EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures) {

@@ -28,7 +28,7 @@ class Interruptible {
 /// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.
 TrialRange range_of(const std::string& shard, std::uint64_t trials);
 
-/// "go on with: wormdrive sweep ... --resume"
+/// "continue with: wormdrive sweep ... --resume"
 std::string how_to_resume(const SweepOptions& options);
 
 /// How a sweep ends that is made one trial after the other until one more has failed than may.

@@ -22,18 +22,18 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   const Outcome outcome{run_scenario(again), lemma1_conditions(again)};
   std::string said;
   for (const Metric& m : study.metrics)
-    if (m.name == metric) said = fmt::format("with cvode {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));
+    if (m.name == metric) said = fmt::format("cvode: {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = cross_check(scenario);
-  return said + fmt::format("; under the same {} {} within {:.2g} {}", in_words_of(scenario.axis, "torque"),
+  return said + fmt::format("; under the same {}, {} agree within {:.2g} {}", in_words_of(scenario.axis, "torque"),
                             angles_on(scenario.axis), found.angle, units_on(scenario.axis, "rad"));
 }
 
 }  // namespace
 
 int worst_command(const WorstOptions& options) {
-  refuse_to_overwrite(options.output, options.sweep);
-  refuse_to_replace(followed(options.output), "run", options.replace);  // before the search, which takes its time
+  reject_overwriting(options.output, options.sweep);
+  reject_replacing(followed(options.output), "run", options.replace);  // before the search, which takes its time
   const SweepReader sweep(options.sweep);
   const Study& study = sweep.study();
   const WorstCase worst = find_worst(
@@ -41,17 +41,17 @@ int worst_command(const WorstOptions& options) {
   const std::string found = how_it_ended(study, worst.metric, worst.found),
                     before = fmt::format("trial {}", worst.before.index);
   if (worst.found.status == TrialStatus::refused)
-    reject({options.sweep}, fmt::format("{} is the worst, and cannot run: {}; --done-only looks among drives that do",
-                                        worst.evaluations == 0 ? before : "a drive that was found in the uncertain box",
-                                        worst.found.reason));
+    reject({options.sweep},
+           fmt::format("{} is the worst but cannot run: {}; --done-only considers only drives that can",
+                       worst.evaluations == 0 ? before : "a drive found in the uncertain box", worst.found.reason));
   Scenario scenario = worst.scenario;
   scenario.title = fmt::format("{}, worst case by {}", study.title, worst.metric);
   if (!options.quiet) {
     fmt::print("{}\n", scenario.title);
     print_item("worst", worst.evaluations == 0
                             ? fmt::format("{} of the sweep, {}; nothing can be worse", before, found)
-                            : fmt::format("{} in {} runs; the sweep's worst, {}, has {}", found, worst.evaluations,
-                                          before, how_it_ended(study, worst.metric, worst.before)));
+                            : fmt::format("{} after {} runs; the worst of the sweep is {} with {}", found,
+                                          worst.evaluations, before, how_it_ended(study, worst.metric, worst.before)));
     for (std::size_t k = 0; k < study.parameters.size(); ++k)
       print_item(k == 0 ? "with" : "", fmt::format("{} {:.6g}{}", study.parameters[k].name, worst.found.parameters[k],
                                                    in_unit(study.parameters[k].si_unit)));

@@ -101,13 +101,13 @@ void print_control(const ControlSummary& summary) {
   const Lemma1Monitor& lemma = *summary.lemma;
   const bool reached = !std::isnan(lemma.reached());
   std::string text = reached ? fmt::format("layer reached at {:.4g} s", lemma.reached())
-                             : "the layer is never reached; what is promised of the time after that cannot be judged";
-  if (reached && lemma.clean()) text += "; every promise kept";
+                             : "the layer is never reached; the promises for the time after that cannot be checked";
+  if (reached && lemma.clean()) text += "; all promises kept";
   print_item("Lemma 1", text);
   for (const Violation& v : lemma.violations())
     if (v.count > 0)
-      print_item("", fmt::format("broken: {} at {} sample{}, first at {:.6g} s; {:.4g} against {:.4g}", v.promise,
-                                 v.count, v.count == 1 ? "" : "s", v.first, v.worst, v.limit));
+      print_item("", fmt::format("broken: {} at {} sample{}, first at {:.6g} s; worst value {:.4g}, limit {:.4g}",
+                                 v.promise, v.count, v.count == 1 ? "" : "s", v.first, v.worst, v.limit));
 }
 
 nlohmann::json as_json(const ControlSummary& summary) {

@@ -36,10 +36,10 @@ std::string describe_mesh(const Scenario& scenario) {
   if (!mesh.has_teeth) return "";
   const double slope = scenario.effects.least_slope();
   const double surface = mesh.Jw * mesh.i * slope * slope / total_gear_inertia(scenario);
-  std::string motion = fmt::format("eq. 17 holds ({:.3g} times)", surface / -mesh.C1());
+  std::string motion = fmt::format("eq. 17 holds by a factor of {:.3g}", surface / -mesh.C1());
   if (mesh.C1() >= 0.0) motion = "eq. 17 holds (C1 >= 0)";
   if (mesh.C1() <= -surface)
-    motion = fmt::format("eq. 17 is violated: it {} jam", has_elastic_teeth(scenario.effects) ? "can" : "would");
+    motion = fmt::format("eq. 17 is violated: the drive {} jam", has_elastic_teeth(scenario.effects) ? "can" : "would");
   if (mesh.regime() == LockingRegime::worm_self_locking) motion = "no motion without load";
   return fmt::format("{}; C1 {:.4f}, C2 {:.4f}, H {:.4f}; {}", name(mesh.regime()), mesh.C1(), mesh.C2(), mesh.H(),
                      motion);
@@ -78,7 +78,8 @@ std::string describe_audit(const AuditReport& report, const Scenario& scenario) 
   text += fmt::format("; event times agree within {:.1e} s, segments within {:.1e} {}", report.largest_time_error,
                       report.largest_angle_error, linear ? "m" : "rad");
   if (report.work > 0.0 && std::abs(closing_error(make_mesh(scenario))) < 1e-9)
-    text += fmt::format("; energy closes within {:.1e} of the work done", std::abs(report.energy_error) / report.work);
+    text += fmt::format("; the energy balance closes within {:.1e} of the work done",
+                        std::abs(report.energy_error) / report.work);
   return text;
 }
 

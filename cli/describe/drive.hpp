@@ -15,7 +15,7 @@ namespace wormdrive {
 /// "gear self-locking"
 std::string name(LockingRegime regime);
 
-/// "gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds (44 times)"; empty without a mesh.
+/// "gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds by a factor of 44"; empty without a mesh.
 std::string describe_mesh(const Scenario& scenario);
 
 /// "12 events: 1 break-away, 6 flank changes, 5 reversals"

@@ -47,7 +47,7 @@ std::string how_it_ended(const Study& study, const std::string& metric_name, con
 void print_study(const Study& study, TrialRange range) {
   fmt::print("{}\n", study.title);
   const std::string part =
-      range.size() == study.trials() ? "" : fmt::format(", of these {} to {}", range.first, range.end - 1);
+      range.size() == study.trials() ? "" : fmt::format(", here {} to {}", range.first, range.end - 1);
   print_item("study", fmt::format("{} of {} parameter{}, {} trials{}, seed {}",
                                   std::visit([](const auto& design) { return design.kind; }, study.design),
                                   study.parameters.size(), study.parameters.size() == 1 ? "" : "s", study.trials(),
@@ -59,9 +59,9 @@ void print_failures(const ReasonTable& reasons) {
   constexpr std::size_t most = 5;
   const auto list = by_frequency(reasons);
   for (std::size_t k = 0; k < std::min(most, list.size()); ++k)
-    print_item("failed", fmt::format("{}: {}", list[k].count, list[k].example));
+    print_item("failed", fmt::format("{} trial{}: {}", list[k].count, list[k].count == 1 ? "" : "s", list[k].example));
   if (list.size() > most)
-    print_item("failed", fmt::format("... {} reasons, {} trials in all", list.size(), reasons.total()));
+    print_item("failed", fmt::format("{} reasons in total, for {} trials", list.size(), reasons.total()));
 }
 
 void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& study) {
@@ -85,30 +85,31 @@ void print_verdicts(const std::vector<RefereeVerdict>& verdicts, const Study& st
     if (!verdict.agrees(study.referee_tolerance)) others.push_back(verdict.trial);
   }
   std::sort(others.begin(), others.end());
-  print_item("referee", fmt::format("{} trials again with cvode under the recorded {}: {} within {:.2g} {}, "
-                                    "speeds within {:.2g} {}",
-                                    verdicts.size(), in_words_of(study.scenario.axis, "torque"), angles, replayed.angle,
-                                    rad, replayed.speed, rad_per_s));
+  const auto agreement = [&](const Disagreement& largest) {
+    return fmt::format("{} agree within {:.2g} {}, speeds within {:.2g} {}", angles, largest.angle, rad, largest.speed,
+                       rad_per_s);
+  };
+  print_item("referee", fmt::format("cvode repeated {} trial{} under the recorded {}: {}", verdicts.size(),
+                                    verdicts.size() == 1 ? "" : "s", in_words_of(study.scenario.axis, "torque"),
+                                    agreement(replayed)));
   if (in_loop > 0)
-    print_item("referee", fmt::format("{} of them with their own controller: {} within {:.2g} {}, speeds within "
-                                      "{:.2g} {}",
-                                      in_loop, angles, closed.angle, rad, closed.speed, rad_per_s));
+    print_item("referee", fmt::format("{} of them in closed loop as well: {}", in_loop, agreement(closed)));
   if (parted > 0)
     print_item("referee",
-               fmt::format("in {} of them, with their own controller, the sensor's counts part; first in trial "
-                           "{} at {:.6g} s",
+               fmt::format("in closed loop the sensor's counts differ from some time on in {} of them; first "
+                           "in trial {} at {:.6g} s",
                            parted, first_parted->trial, *first_parted->in_loop.parted));
   constexpr std::size_t most = 10;
   const std::vector<std::uint64_t> first(others.begin(), others.begin() + std::min(most, others.size()));
   if (!others.empty())
-    print_item("referee", fmt::format("disagrees by more than {:g} {}, or cannot go on, in {} of them: trial{} {}{}",
+    print_item("referee", fmt::format("cvode differs by more than {:g} {}, or fails, in {} of them: trial{} {}{}",
                                       study.referee_tolerance, rad, others.size(), others.size() == 1 ? "" : "s",
                                       fmt::join(first, ", "), others.size() > most ? ", ..." : ""));
 }
 
 std::string too_many_failed(const ReasonTable& reasons, std::uint64_t trials, std::uint64_t most) {
-  return fmt::format("{} of {} trials failed, more than --max-failures {}; most often: {}", reasons.total(), trials,
-                     most, by_frequency(reasons).front().example);
+  return fmt::format("{} of {} trials failed, more than --max-failures {}; most frequent reason: {}", reasons.total(),
+                     trials, most, by_frequency(reasons).front().example);
 }
 
 }  // namespace wormdrive

@@ -28,7 +28,7 @@ json read_findings(const ResultFile& file) {
   std::ifstream text(path);
   const ClassicLocale read_so;
   const json findings = json::parse(text, nullptr, false);
-  if (findings.is_discarded()) reject({path}, "cannot be read; wormdrive diagnose writes it beside diagnosis.h5");
+  if (findings.is_discarded()) reject({path}, "cannot be read; wormdrive diagnose writes it next to diagnosis.h5");
   return findings;
 }
 
@@ -53,10 +53,10 @@ std::string estimates(const json& effect) {
 /// What a verdict means, for those who have not read the documentation.
 std::string_view meaning(Verdict verdict) {
   switch (verdict) {
-    case Verdict::adequate: return "nothing that these data show is missing from the scenario";
-    case Verdict::named: return "the cause, or several, are known";
-    case Verdict::ambiguous: return "one of a class of causes that these data cannot tell apart";
-    case Verdict::unexplained: return "something is missing that no effect of the catalogue accounts for";
+    case Verdict::adequate: return "the scenario contains every effect that these data show";
+    case Verdict::named: return "the causes are known";
+    case Verdict::ambiguous: return "the cause is one of a class that these data cannot distinguish";
+    case Verdict::unexplained: return "something is missing that no effect of the catalogue explains";
   }
   return "";
 }
@@ -86,7 +86,7 @@ void add_evidence(ReportPage& page, const json& findings) {
     return std::vector<Cell>{words(text(c.at("effect"))), estimates(c)};
   });
   add(page,
-      {"Evidence: every effect that was tried",
+      {"Evidence: every effect that was examined",
        {{"effect"}, {"dBIC", true}, {"held-out gain [nats]", true}, {"estimate"}, {"outcome"}},
        {},
        "dBIC: how much the fit gains beyond what its parameters cost. Held-out gain: on data not used for the fit."},
@@ -104,7 +104,7 @@ void add_evidence(ReportPage& page, const json& findings) {
         {"noise floor", true},
         {"unit"}},
        {},
-       "Rms error at the end of predictions so far ahead; the noise floor is what no model can go below."},
+       "Rms error at the end of predictions over this horizon; no model can fall below the noise floor."},
       findings.at("gain"), [](const json& g) {
         return std::vector<Cell>{number(g.at("horizon_s")),
                                  number(g.at("before")),
@@ -117,11 +117,11 @@ void add_evidence(ReportPage& page, const json& findings) {
       findings.at("calibration"), [](const json& c) {
         return std::vector<Cell>{words(text(c.at("effect"))), estimates(c)};
       });
-  add(page, {"Constants that the data state", {{"constant"}}, {}}, findings.at("identified"),
+  add(page, {"Constants identified from the data", {{"constant"}}, {}}, findings.at("identified"),
       [](const json& c) { return std::vector<Cell>{estimate(c)}; });
   const bool linear = findings.at("noise").contains("force_N");
   add(page,
-      {"What is left",
+      {"What remains unexplained",
        {{"over"}, {"evidence [standard deviations]", true}, {linear ? "rms [N]" : "rms [N m]", true}},
        {}},
       findings.at("adequacy"), [&](const json& r) {
@@ -132,13 +132,13 @@ void add_evidence(ReportPage& page, const json& findings) {
       {"What these data can show",
        {{"effect"},
         {"parameter"},
-        {"seen from", true},
-        {"named from", true},
+        {"detectable from", true},
+        {"nameable from", true},
         {"unit"},
         {"nearest effect"},
         {"likeness", true}},
        {},
-       "An empty size: these data never show it."},
+       "No size: these data cannot show the effect at any size."},
       findings.at("certificate"), [](const json& v) {
         const std::string chosen = text(v.value("chosen", json()));
         return std::vector<Cell>{
@@ -279,7 +279,7 @@ ReportPage report_of_diagnosis(const ResultFile& file) {
   try {
     return page_of(file, findings);
   } catch (const json::exception&) {  // a key is missing, or of another type
-    reject({findings_of(file)}, "is not what wormdrive diagnose writes beside diagnosis.h5");
+    reject({findings_of(file)}, "was not written by wormdrive diagnose");
   }
 }
 

@@ -11,7 +11,7 @@ namespace wormdrive {
 
 ResultFile::ResultFile(const std::string& path) : path_(path) {
   if (const auto why = why_unreadable(path)) reject({path}, *why);
-  if (!is_hdf5(path)) reject({path}, "is no result file (HDF5); wormdrive run writes one");
+  if (!is_hdf5(path)) reject({path}, "is not a result file (HDF5); wormdrive run writes one");
   try {
     read_ahead(path);
     file_ = open_hdf5(path);

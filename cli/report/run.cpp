@@ -104,7 +104,7 @@ ReportTable control_table(const ResultFile& file) {
 }  // namespace
 
 ReportPage report_of_run(const ResultFile& file) {
-  if (file.column("trajectory/time").empty()) reject({file.path()}, "holds a run without a row");
+  if (file.column("trajectory/time").empty()) reject({file.path()}, "contains a run without rows");
   const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
   using enum ReportPanel::Style;
   ReportGroup group{"", "time", "s",

@@ -84,7 +84,7 @@ ReportTable record_table(const ResultFile& file) {
                      {"samples", true},
                      {"left out", true}},
                     {},
-                    "Left out: samples that no measurement can have given."};
+                    "Left out: physically impossible samples."};
   for (const std::size_t k : rising(speed))
     table.rows.push_back(
         {names.at(k), speed[k], measured[k], model[k], measured[k] - model[k], samples[k], left_out[k]});
@@ -106,7 +106,7 @@ ReportTable curve_table(const ReportPanel& curve, const std::string& speed_unit)
 }  // namespace
 
 ReportPage report_of_steady(const ResultFile& file) {
-  if (!file.has("model")) reject({file.path()}, "holds no curve");
+  if (!file.has("model")) reject({file.path()}, "contains no curve");
   ReportPage page;
   page.summary = describe_mesh(load_scenario(file.path(), {}, Purpose::show));
   ReportGroup group{
@@ -115,13 +115,14 @@ ReportPage report_of_steady(const ResultFile& file) {
     group.panels.push_back(sorted(curve(file)));
     page.tables.push_back(curve_table(group.panels.front(), group.units));
     page.verdict = fmt::format(
-        "The motor {} that keeps the drive at a speed; at standstill friction takes any within an interval.",
+        "The motor {} that keeps the drive at a constant speed; at standstill friction balances any value in an "
+        "interval.",
         group.units == "m/s" ? "force" : "torque");
   } else {
     group.panels = {measured_and_model(file), difference(file)};
     page.tables.push_back(record_table(file));
     page.verdict =
-        fmt::format("The model misses the mean torques of {} records, {:.3g} mN m rms, by {:.2g} mN m rms.",
+        fmt::format("The model differs from the mean torques of {} records ({:.3g} mN m rms) by {:.2g} mN m rms.",
                     page.tables.front().rows.size(), 1e3 * file.number("rms_torque"), 1e3 * file.number("rms_error"));
   }
   page.groups.push_back(std::move(group));

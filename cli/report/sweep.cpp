@@ -35,9 +35,13 @@ Values values_of(const ResultFile& file, const std::vector<double>& status, cons
 /// What can be drawn; else a gap.
 double drawable(double value) { return std::isfinite(value) ? value : NAN; }
 
+std::string title_of(const Metric& metric) {
+  return metric.condition ? in_words(*metric.condition) : words(metric.name);
+}
+
 /// "error max: largest error"
 std::string described(const Metric& metric) {
-  const std::string name = words(metric.name);
+  const std::string name = title_of(metric);
   return metric.meaning.empty() || metric.meaning == name ? name : fmt::format("{}: {}", name, metric.meaning);
 }
 
@@ -110,18 +114,18 @@ ReportTable metric_table(const SweepSummary& summary) {
                      {"greatest", true},
                      {"meaning"}},
                     {},
-                    "Drives without a value count as the worst below a share, and not in mean and greatest."};
-  if (summary.sample) table.note += " Intervals hold the true quantile with 95 % confidence.";
+                    "Drives without a value count as the worst in the quantiles; mean and greatest leave them out."};
+  if (summary.sample) table.note += " Intervals contain the true quantile with 95 % confidence.";
   for (const MetricSummary& m : summary.metrics)
     if (m.count > 0)
-      table.rows.push_back({words(m.metric.name), std::string(m.metric.unit.symbol), static_cast<double>(m.count),
+      table.rows.push_back({title_of(m.metric), std::string(m.metric.unit.symbol), static_cast<double>(m.count),
                             static_cast<double>(m.without), m.mean, m.quantiles[1].value, with_interval(m.quantiles[2]),
                             with_interval(m.quantiles[3]), m.greatest, m.metric.meaning});
   return table;
 }
 
 ReportTable influence_table(const SweepSummary& summary) {
-  ReportTable table{"What matters for " + words(summary.ranked_by), {{"parameter"}, {"rank correlation", true}}, {}};
+  ReportTable table{"Influence on " + words(summary.ranked_by), {{"parameter"}, {"rank correlation", true}}, {}};
   const bool sobol = !summary.influences.empty() && summary.influences.front().sobol;
   if (sobol) table.heads.insert(table.heads.end(), {{"Sobol index, total [interval]"}, {"first [interval]"}});
   for (const Influence& i : summary.influences) {
@@ -140,7 +144,7 @@ ReportTable worst_table(const SweepReader& sweep, const SweepSummary& summary) {
     table.rows.push_back({static_cast<double>(trial.index), how_it_ended(study, summary.ranked_by, trial)});
     for (const double value : trial.parameters) table.rows.back().push_back(value);
   }
-  table.note = "wormdrive replay makes one of them again, with its trajectory.";
+  table.note = "wormdrive replay runs one of them again and writes its trajectory.";
   return table;
 }
 
@@ -156,7 +160,7 @@ std::string verdict(const SweepSummary& summary) {
                         words(t.threshold.metric), t.threshold.above ? "above" : "below", t.threshold.limit,
                         t.unit.symbol, share(t.share));
     if (t.refused + t.halted > 0)
-      text += fmt::format(" {} more were refused and {} halted: {} do not keep it ({}).", t.refused, t.halted,
+      text += fmt::format(" {} more were refused and {} halted, so {} do not keep the limit ({}).", t.refused, t.halted,
                           t.of - t.kept(), share(t.not_kept));
   }
   return text;
@@ -176,7 +180,8 @@ ReportPage report_of_sweep(const ResultFile& file) {
   page.remarks = sweep.reasons();
   for (const ConditionSummary& c : summary.conditions)
     if (c.trials > 0)
-      page.remarks.push_back(fmt::format("Lemma 1 fails in {} of {} trials that are done: {}", c.trials, c.of, c.rule));
+      page.remarks.push_back(
+          fmt::format("A condition of Lemma 1 fails in {} of {} completed trials: {}", c.trials, c.of, c.rule));
 
   std::vector<const MetricSummary*> drawn;
   for (const MetricSummary& m : summary.metrics)
@@ -185,7 +190,7 @@ ReportPage report_of_sweep(const ResultFile& file) {
                         [&](const MetricSummary* m) { return m->metric.name == summary.ranked_by; });
   if (drawn.size() > most_metrics) drawn.resize(most_metrics);
   const std::vector<double> status = file.column("trials/status");
-  ReportGroup spread{"Spread: the value below which a share of the drives stays", "share of drives", "1", {}};
+  ReportGroup spread{"Distribution: the value that a share of the drives stays below", "share of drives", "1", {}};
   for (const MetricSummary* m : drawn)
     spread.panels.push_back(
         distribution(values_of(file, status, ranking_of(study, m->metric.name), m->metric.name), summary, *m));

@@ -15,7 +15,7 @@ namespace wormdrive {
 namespace {
 
 /// toml++ may read past a NUL byte, so it never sees one.
-void refuse_nul(std::string_view text, const std::string& name) {
+void reject_nul(std::string_view text, const std::string& name) {
   const std::size_t position = text.find('\0');
   if (position == std::string_view::npos) return;
   const std::string_view before = text.substr(0, position);
@@ -36,7 +36,7 @@ std::string_view hint(std::string_view text, const Location& where) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (is(where.column, comma) && is(where.column - 1, digit) && is(where.column + 1, digit))
-    return "; decimals take a point, as in 0.25";
+    return "; write decimals with a point, as in 0.25";
   return is(where.column, letter) ? "; a word needs quotes, as in kind = \"constant\"" : "";
 }
 
@@ -87,7 +87,7 @@ std::string read_text(const std::string& path) {
 }
 
 toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
-  refuse_nul(text, name);
+  reject_nul(text, name);
   toml::table root = parse(text, name);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
   return root;

@@ -89,7 +89,7 @@ class ScenarioReader {
           has_elastic_teeth(scenario_.effects))
         run.fault(
             "solver",
-            "run.solver = \"taylor\" follows rigid teeth only, and effect.tooth_compliance makes them elastic; set "
+            "run.solver = \"taylor\" supports rigid teeth only, but effect.tooth_compliance makes them elastic; set "
             "run.solver = \"cvode\"");
       scenario_.run.method =
           run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
@@ -136,7 +136,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
                         Purpose purpose) {
   const toml::table root = parse_document(text, name, overrides);
   if (root.contains("sweep") && !root.contains("mesh"))
-    reject({name}, "this is a study, which wormdrive sweep takes; the scenario is the file that it names");
+    reject({name}, "this is a study, for wormdrive sweep; the scenario is the file that it names");
   Diagnostics faults;
   Scenario scenario = ScenarioReader(root, name, faults).read(purpose);
   faults.raise();

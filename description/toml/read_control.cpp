@@ -38,7 +38,7 @@ class ControlReader {
       sensor.read_fields(control.sensor);
       require_whole(sensor, "counts", control.sensor.counts);
       require_whole(sensor, "seed", control.sensor.seed);
-      refuse_spoilt_speed(sensor, control.sensor);
+      reject_degraded_exact_speed(sensor, control.sensor);
     });
     if (root_.has("disturbance"))
       root_.section("disturbance", [&](TableReader& disturbance) {
@@ -50,12 +50,12 @@ class ControlReader {
 
  private:
   /// An exact speed is none that was made of counts, noise or a filtered difference.
-  static void refuse_spoilt_speed(TableReader& table, const SensorSettings& sensor) {
+  static void reject_degraded_exact_speed(TableReader& table, const SensorSettings& sensor) {
     if (!sensor.exact_speed) return;
     for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
                                      std::pair{"speed_filter_Hz", sensor.filter_cutoff}})
       if (value > 0.0)
-        table.fault(key, fmt::format("sensor.{} = {:g} has no part in speed = \"exact\"; leave it out, or take speed = "
+        table.fault(key, fmt::format("sensor.{} = {:g} has no effect with speed = \"exact\"; remove it, or use speed = "
                                      "\"difference\"",
                                      key, value));
   }
@@ -91,7 +91,7 @@ class ControlReader {
                   fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s", period, duration));
     else if (duration > most_samples * period)
       table.fault("sample_time_s",
-                  fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are taken",
+                  fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are allowed",
                               period, duration / period, most_samples));
     if (sampling.offset >= duration)
       table.fault("sample_offset_s",
@@ -132,7 +132,7 @@ void read_control(TableReader& root, Scenario& scenario, const std::string& fold
   for (const char* key : {"reference", "sensor", "disturbance", "metrics"})
     if (root.has(key)) {
       root.tables(key);
-      root.fault(key, fmt::format("[{}] belongs to a [controller], and there is none", key));
+      root.fault(key, fmt::format("[{}] needs a [controller], but there is none", key));
     }
 }
 

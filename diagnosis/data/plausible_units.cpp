@@ -79,10 +79,10 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
   if (product * product > 0.8 * square * other && factor > 0.8 && factor < 1.25) return;
   const auto is = [&](double expected) { return std::abs(factor / expected - 1.0) < 0.05; };
   std::string why = "is not the derivative of";
-  if (is(30.0 / std::numbers::pi)) why = "is in rpm beside";
-  if (is(180.0 / std::numbers::pi)) why = "is in degrees per second beside";
+  if (is(30.0 / std::numbers::pi)) why = "is in rpm, which does not match";
+  if (is(180.0 / std::numbers::pi)) why = "is in degrees per second, which does not match";
   if (const auto* worm = std::get_if<MeshParameters<double>>(&scenario.mesh))
-    if (is(worm->i)) why = "is the speed of the worm beside";
+    if (is(worm->i)) why = "is the speed of the worm, which does not match";
   reject(table.where(),
          fmt::format("{} {} {}: {:.3g} times its derivative", table.speed.name, why, table.angle.name, factor));
 }

@@ -156,15 +156,15 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
                                                               d.remainders.front().axis);
   if (d.causes.empty()) {
     d.verdict = d.remainders.empty() ? Verdict::adequate : Verdict::unexplained;
-    d.sentence = d.remainders.empty() ? "The simulation has all that these data show."
-                                      : "The simulation lacks something that no effect of the catalogue accounts for.";
+    d.sentence = d.remainders.empty() ? "The simulation contains every effect that these data show."
+                                      : "The simulation lacks something that no effect of the catalogue explains.";
     d.sentence += left;
     return;
   }
   constexpr double most_of_the_work = 3.0;
   if (!d.remainders.empty() && error.before < most_of_the_work * error.after) {
     d.verdict = Verdict::unexplained;
-    d.sentence = "The simulation lacks something that no effect of the catalogue accounts for." + left;
+    d.sentence = "The simulation lacks something that no effect of the catalogue explains." + left;
     for (RankedCandidate& c : d.ranking)
       if (std::exchange(c.named, false)) c.outcome = "leaves structure behind";
     d.causes.clear();

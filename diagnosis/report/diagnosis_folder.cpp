@@ -40,8 +40,8 @@ std::string extended_file(const Diagnosis& d) {
 DiagnosisFolder::DiagnosisFolder(const std::string& path, const std::vector<std::string>& inputs, Replace replace)
     : path_((std::filesystem::path(path) / "").parent_path().string()), replace_(replace) {
   for (const std::string& input : inputs)
-    for (const char* const name : file_names) refuse_to_overwrite(inside(name), input);
-  refuse_to_replace(followed(inside("diagnosis.h5")), "diagnosis", replace);
+    for (const char* const name : file_names) reject_overwriting(inside(name), input);
+  reject_replacing(followed(inside("diagnosis.h5")), "diagnosis", replace);
   if (replace == Replace::anything || std::filesystem::exists(inside("diagnosis.h5"))) return;
   for (const char* const name : file_names)
     if (std::filesystem::exists(inside(name)))

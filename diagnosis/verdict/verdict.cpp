@@ -58,8 +58,8 @@ std::string remainder_sentence(const Diagnosis& d, double torque) {
   const bool linear = d.extended.axis == Axis::linear;
   const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
   if (noise_dominated(d, torque))
-    return fmt::format(" {:.2g} {} rms, of {:.2g} {} of the motor, pass for noise.", d.noise_torque, unit, torque,
-                       unit);
+    return fmt::format(" Noise of {:.2g} {} rms remains, compared with {:.2g} {} of the motor.", d.noise_torque, unit,
+                       torque, unit);
   const Remainder& r = d.remainders.front();
   if (r.torque > 0.0)
     return fmt::format(" A {} of {:.2g} {} rms over {} remains unexplained.", linear ? "force" : "torque", r.torque,
@@ -116,16 +116,16 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
 
   if (selection.beyond_bound)
     d.remarks.push_back(
-        fmt::format("{} explains most of what is lacking, but only beyond what it can be: something else "
+        fmt::format("{} explains most of the difference, but only with a value outside its limits: something else "
                     "acts like it",
                     in_words(std::string(all[*selection.beyond_bound].effect))));
 
-  const std::string lacking = "The simulation lacks something that no effect of the catalogue accounts for.";
+  const std::string lacking = "The simulation lacks something that no effect of the catalogue explains.";
   if (d.causes.empty()) {
     const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);
     d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
-    d.sentence =
-        adequate ? "The simulation has all that these data show" : lacking + remainder_sentence(d, sizes.torque);
+    d.sentence = adequate ? "The simulation contains every effect that these data show"
+                          : lacking + remainder_sentence(d, sizes.torque);
     if (adequate) d.sentence += calibration_matters(d) ? calibration_clause(d, selection.base) + gain_sentence(d) : ".";
     return;
   }
@@ -165,7 +165,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   std::vector<std::string> phrases;
   for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause, d.extended.axis));
   d.verdict = d.classes.empty() ? Verdict::named : Verdict::ambiguous;
-  d.sentence = (d.remainders.empty() ? "What the simulation lacks is " : "What the simulation lacks is in part ") +
+  d.sentence = (d.remainders.empty() ? "The simulation lacks " : "The simulation lacks, among other things, ") +
                joined(phrases, "and") + ".";
   for (const std::vector<std::string>& members : d.classes) {
     std::vector<std::string> others;
@@ -174,10 +174,10 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   }
   d.sentence += gain_sentence(d);
   if (e && e->after > e->before)
-    d.remarks.push_back(
-        fmt::format("the error {} s ahead is no smaller: what is named stands on the likelihood of the single samples, "
-                    "{:.3g} nats{}",
-                    e->horizon, explained, impacts(d) ? "; teeth that bounce cannot be followed far" : ""));
+    d.remarks.push_back(fmt::format(
+        "the error {} s ahead is not smaller: the named causes rest on the likelihood of the single samples, "
+        "{:.3g} nats{}",
+        e->horizon, explained, impacts(d) ? "; teeth that bounce cannot be followed far" : ""));
   if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
 }
 

@@ -38,7 +38,7 @@ bool is_being_written(const std::string& path) {
   return taken;
 }
 
-void refuse_to_disturb_a_writer(const std::string& part_path) {
+void reject_if_being_written(const std::string& part_path) {
   const int descriptor = ::open(part_path.c_str(), O_RDONLY);
   if (descriptor < 0) return;
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -57,7 +57,7 @@ void synchronise(const std::string& path) {
 
 PartFile::PartFile(const std::string& path, std::string_view kind, Replace replace)
     : path_(followed(path)), part_path_(path_ + ".part") {
-  refuse_what_is_no_file(path_);
+  reject_unless_plain_file(path_);
   lock_ = OutputLock(path_);
   create(kind, replace);
 }
@@ -68,8 +68,8 @@ PartFile::PartFile(const std::string& path, OutputLock lock, std::string_view ki
 }
 
 void PartFile::create(std::string_view kind, Replace replace) {
-  refuse_to_disturb_a_writer(part_path_);
-  refuse_to_replace(path_, kind, replace);
+  reject_if_being_written(part_path_);
+  reject_replacing(path_, kind, replace);
   try {
     file_ = create_hdf5(part_path_);
   } catch (const OutputFault&) {
@@ -80,8 +80,8 @@ void PartFile::create(std::string_view kind, Replace replace) {
 
 PartFile::PartFile(const std::string& path, std::string_view kind, Replace replace, Left)
     : path_(followed(path)), part_path_(path_ + ".part"), stays_(true) {
-  refuse_to_disturb_a_writer(part_path_);
-  refuse_to_replace(path_, kind, replace);
+  reject_if_being_written(part_path_);
+  reject_replacing(path_, kind, replace);
   file_ = reopen_hdf5(part_path_);
 }
 

@@ -55,7 +55,7 @@ bool is_being_written(const std::string& path);
 
 /// HDF5 locks a file that it writes, but empties it before it asks for the lock. Throws OutputFault where a program has
 /// it.
-void refuse_to_disturb_a_writer(const std::string& part_path);
+void reject_if_being_written(const std::string& part_path);
 
 /// Waits until a file is on disk: a rename may otherwise outlive its data in a power cut. Throws OutputFault.
 void synchronise(const std::string& path);

@@ -61,8 +61,7 @@ Hdf5Handle open_object(hid_t file, const std::string& path) {
     const std::string part = path.substr(0, end);
     H5L_info_t link;
     if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) reject(fmt::format("it has no '{}'", part));
-    if (link.type != H5L_TYPE_HARD)
-      reject(fmt::format("its '{}' is a link to something else, which no result has", part));
+    if (link.type != H5L_TYPE_HARD) reject(fmt::format("its '{}' is a link, which no result contains", part));
     if (end == std::string::npos) break;
   }
   const hid_t object = H5Oopen(file, path.c_str(), H5P_DEFAULT);

@@ -34,7 +34,7 @@ void StoredColumn::reject(const std::string& what) const {
 
 StoredColumn::StoredColumn(hid_t file, std::string path)
     : file_(file_of(file)), path_(std::move(path)), dataset_(open_object(file, path_)) {
-  if (H5Iget_type(dataset_) != H5I_DATASET) reject("is no column but a group or a type");
+  if (H5Iget_type(dataset_) != H5I_DATASET) reject("is a group or a type instead of a column");
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, cannot), type(H5Dget_type(dataset_), H5Tclose, cannot),
       properties(H5Dget_create_plist(dataset_), H5Pclose, cannot), whole(H5Iget_file_id(file), H5Fclose, cannot);
   if (const int rank = H5Sget_simple_extent_ndims(space); H5Sis_simple(space) <= 0 || rank != 1)
@@ -42,7 +42,7 @@ StoredColumn::StoredColumn(hid_t file, std::string path)
   const std::optional<Type> known = type_of(type);
   if (!known) reject("holds neither numbers of 64 bits nor flags of 8 bits nor texts");
   type_ = *known;
-  if (!is_plain(properties)) reject("is compressed or lies outside the file, which no result does");
+  if (!is_plain(properties)) reject("is compressed or outside the file, unlike any result");
   hsize_t rows = 0, bytes = 0;
   if (H5Sget_simple_extent_dims(space, &rows, nullptr) != 1 || H5Fget_filesize(whole, &bytes) < 0) reject(cannot);
   rows_ = rows;
@@ -50,13 +50,13 @@ StoredColumn::StoredColumn(hid_t file, std::string path)
   // All rows of a result are written, and none is compressed: a file that states more than it holds is none.
   const hsize_t size = H5Tget_size(type), stored = std::min<hsize_t>(H5Dget_storage_size(dataset_), bytes);
   if (size == 0 || rows > stored / size)
-    reject(fmt::format("states {} rows of {} bytes, of which the file holds {} bytes", rows, size, stored));
+    reject(fmt::format("states {} rows of {} bytes, but the file contains only {} bytes", rows, size, stored));
 }
 
 std::vector<double> StoredColumn::values(std::uint64_t first, std::uint64_t count) const {
   if (type_ != Type::number && type_ != Type::flag) reject("holds texts instead of numbers");
   if (first > rows_ || count > rows_ - first)
-    reject(fmt::format("has {} rows, and {} are needed", rows_, first + count));
+    reject(fmt::format("has {} rows, but {} are needed", rows_, first + count));
   std::vector<double> values(count);
   if (count == 0) return values;
   const hsize_t begin = first, size = count;

@@ -39,14 +39,15 @@ void check_numbers(const StoredColumn& column, Range range) {
 
 std::vector<std::string> members_of(hid_t file, const std::string& group_path) {
   const Hdf5Handle group = open_object(file, group_path);
-  if (H5Iget_type(group) != H5I_GROUP) throw ReadFault(file_of(file), fmt::format("its '{}' is no table", group_path));
+  if (H5Iget_type(group) != H5I_GROUP)
+    throw ReadFault(file_of(file), fmt::format("its '{}' is not a table", group_path));
   std::vector<std::string> names;
   const auto take = [](hid_t, const char* name, const H5L_info_t*, void* list) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return herr_t{0};
   };
   if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names) < 0)
-    throw ReadFault(file_of(group), "what is in it cannot be read");
+    throw ReadFault(file_of(group), "its contents cannot be read");
   return names;
 }
 

@@ -38,7 +38,7 @@ void for_each_row(const StoredTable& trials, const std::string& name, TrialRange
 /// The texts are read after the rows that mean them: a running sweep writes them before.
 void check_reasons(hid_t file, const StoredTable& trials, TrialRange range) {
   const auto reject = [&](std::uint64_t trial, double value) {
-    trials.column("reason").reject(fmt::format("holds {} for trial {}, and there are {} reasons", value, trial,
+    trials.column("reason").reject(fmt::format("contains {} for trial {}, but there are only {} reasons", value, trial,
                                                read_fixed_texts(file, "reasons").size()));
   };
   double last = 0.0;
@@ -59,11 +59,11 @@ void check_referee(const StoredTable& referee, TrialRange range) {
   const std::vector<double> states = judged.values(), trials = trial.values();
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (states[k] != 0.0 && states[k] != 1.0 && states[k] != 2.0)
-      judged.reject(fmt::format("holds {}, which is none of 0, 1, 2", states[k]));
+      judged.reject(fmt::format("contains {} instead of 0, 1 or 2", states[k]));
     const bool whole = trials[k] >= 0.0 && trials[k] < 0x1p53 && std::trunc(trials[k]) == trials[k];
     const auto at = whole ? static_cast<std::uint64_t>(trials[k]) : range.end;
     if (states[k] != 0.0 && (at < range.first || at >= range.end))
-      trial.reject(fmt::format("holds {}, which is no trial of the file", trials[k]));
+      trial.reject(fmt::format("contains {}, which is not a trial of the file", trials[k]));
   }
 }
 
@@ -78,10 +78,10 @@ TrialRange check_sweep(hid_t file, const Study& study) {
   }
   if (trials.rows() != range.size())
     trials.column("status").reject(
-        fmt::format("has {} rows, and the file is of {} trials", trials.rows(), range.size()));
+        fmt::format("has {} rows, but the file is of {} trials", trials.rows(), range.size()));
   for_each_row(trials, "index", range, [&](std::uint64_t trial, double value, bool there) {
     if (there && value != static_cast<double>(trial))
-      trials.column("index").reject(fmt::format("holds {} where trial {} stands", value, trial));
+      trials.column("index").reject(fmt::format("contains {} in the row of trial {}", value, trial));
   });
   check_reasons(file, trials, range);
   for (const UncertainParameter& p : study.parameters)

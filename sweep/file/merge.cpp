@@ -26,7 +26,7 @@ std::string trials(TrialRange range) {
                            : fmt::format("trials {} to {}", range.first, range.end - 1);
 }
 
-void refuse_what_does_not_belong_together(const Shards& shards) {
+void reject_unrelated_shards(const Shards& shards) {
   Diagnostics faults;
   const SweepReader& first = *shards.front();
   for (const auto& shard : shards)
@@ -43,10 +43,10 @@ void tell_missing(const Shards& shards, const SweepReader& beside, std::string_v
   };
   const auto owner = std::find_if(shards.begin(), shards.end(), has_room);
   if (std::count_if(shards.begin(), shards.end(), has_room) == 1)
-    faults.add({(*owner)->path()}, fmt::format("holds {} of {} trials; finish it with --resume", (*owner)->trials(),
-                                               (*owner)->range().size()));
+    faults.add({(*owner)->path()}, fmt::format("contains only {} of {} trials; finish it with --resume",
+                                               (*owner)->trials(), (*owner)->range().size()));
   else
-    faults.add({beside.path()}, fmt::format("{} {} it stand in no shard", trials(range), side));
+    faults.add({beside.path()}, fmt::format("no shard contains {} {} it", trials(range), side));
 }
 
 /// Whether an older merge of the same sweep is there: nothing that it holds would be lost.
@@ -71,7 +71,7 @@ std::vector<Stretch> in_order(const Shards& shards) {
   for (const auto& [shard, range] : stretches) {
     if (range.first < next)
       faults.add({shard->path()},
-                 fmt::format("{} stand in another shard too", trials({range.first, std::min(next, range.end)})));
+                 fmt::format("another shard also contains {}", trials({range.first, std::min(next, range.end)})));
     if (range.first > next) tell_missing(shards, *shard, "before", {next, range.first}, faults);
     next = std::max(next, range.end);
   }
@@ -88,7 +88,7 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
                            const std::string& command_line, Replace replace) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
-  refuse_what_does_not_belong_together(shards);
+  reject_unrelated_shards(shards);
   const std::vector<Stretch> stretches = in_order(shards);
   const Study& study = shards.front()->study();
   if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;

@@ -17,9 +17,9 @@ struct OpenSweep {
 
 /// Throws InputFault if trials of a file cannot stand beside those of a study, naming what differs, or if it is made
 /// for other trials than those of the range.
-void refuse_another(const SweepReader& there, const Study& study, TrialRange range);
+void reject_another_sweep(const SweepReader& there, const Study& study, TrialRange range);
 /// Throws InputFault: a file of an interrupted sweep is neither gone on with nor overwritten.
-[[noreturn]] void refuse_to_begin_anew(const SweepReader& there);
+[[noreturn]] void reject_restart(const SweepReader& there);
 
 /// Opens the file of a sweep for the trials that are missing. With resume it keeps what NAME.part has of the same study
 /// and program, and leaves a NAME that is complete as it is; without, a NAME.part with trials is refused, for it may

@@ -58,7 +58,7 @@ std::vector<ColumnDescription> verdict_columns(Axis axis) {
 
 void SweepFile::create(const std::string& path, const Study& study, TrialRange range, const std::string& command_line,
                        Replace replace) {
-  refuse_to_replace(path, "sweep", replace);
+  reject_replacing(path, "sweep", replace);
   // so that NAME.part is whole from its first moment on
   PartFile file(path + ".part", OutputLock(), "sweep", Replace::anything);
   write_provenance(file.file(), {"sweep", study.title, to_toml(study.scenario), command_line});

@@ -45,7 +45,7 @@ std::string SweepReader::why_not(const std::string& study, const std::string& sc
                                  const std::string& build) const {
   if (const auto other = difference(study_.text, study)) return "the study differs in " + *other;
   if (const auto other = difference(scenario_, scenario)) return "the scenario differs in " + *other;
-  return build_ == build ? "" : fmt::format("it was made by {}, and this is {}", build_, build);
+  return build_ == build ? "" : fmt::format("it was made by {}, but this program is {}", build_, build);
 }
 std::string SweepReader::why_not_of(const Study& study) const {
   return why_not(study.text, to_toml(study.scenario), program_identity());

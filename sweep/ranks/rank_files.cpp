@@ -49,14 +49,14 @@ RankPlan plan_ranks(const std::string& name, const Study& study, bool resume, Re
   if (std::filesystem::exists(name + ".part")) parts.push_back(name + ".part");
   std::vector<TrialRange> present;
   for (const std::string& part : parts) {
-    refuse_to_disturb_a_writer(part);
+    reject_if_being_written(part);
     const SweepReader there(part);
     if (there.trials() == 0) {
       std::filesystem::remove(part);
       continue;
     }
-    if (!resume) refuse_to_begin_anew(there);
-    refuse_another(there, study, all);
+    if (!resume) reject_restart(there);
+    reject_another_sweep(there, study, all);
     plan.failed += there.counted_reasons().total();
     present.insert(present.end(), there.present().begin(), there.present().end());
   }
@@ -64,11 +64,11 @@ RankPlan plan_ranks(const std::string& name, const Study& study, bool resume, Re
     std::filesystem::rename(name + ".part", rank_file(name, ++plan.generation, 0) + ".part");
   ++plan.generation;
   if (resume && present.empty() && std::filesystem::exists(name)) {
-    refuse_another(SweepReader(name), study, all);
+    reject_another_sweep(SweepReader(name), study, all);
     plan.complete = true;
     return plan;
   }
-  refuse_to_replace(name, "sweep", replace);
+  reject_replacing(name, "sweep", replace);
   std::sort(present.begin(), present.end(), ranges_rise);
   plan.missing = outside(present, all);
   return plan;

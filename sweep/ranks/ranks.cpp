@@ -16,10 +16,10 @@
 namespace wormdrive {
 namespace {
 
-constexpr const char* each_its_shard = "give every process a --shard of its own";
+constexpr const char* each_its_shard = "give every process its own --shard";
 
 /// Throws InputFault in the first process; in the others one that tells nothing.
-[[noreturn]] void refuse_launch(const Launch& launch, const std::string& what) {
+[[noreturn]] void reject_launch(const Launch& launch, const std::string& what) {
   if (launch.rank == 0) reject({launch.by}, what);
   throw InputFault(std::vector<Fault>{});
 }
@@ -94,7 +94,7 @@ Ranks::Ranks(bool apart) {
   if (launched.size == 1) return;  // joining takes time, and a single process needs nobody
   if (apart && launched.by == "srun") return;
   if (!launched.can_meet)
-    refuse_launch(launched, fmt::format("has started {} processes that cannot find each other; start them with srun "
+    reject_launch(launched, fmt::format("has started {} processes that cannot find each other; start them with srun "
                                         "--mpi=pmix or with mpirun, or {}",
                                         launched.size, each_its_shard));
   int level = 0;
@@ -108,18 +108,18 @@ Ranks::Ranks(bool apart) {
     MPI_Get_library_version(library, &length);
     const std::string name(library, static_cast<std::size_t>(length));
     fault = fmt::format(
-        "has started {} processes, of which MPI finds {}: it is not of the MPI with which wormdrive was "
-        "built, {}; start them with its mpirun, or {}",
+        "has started {} processes, but MPI finds {}: it belongs to another MPI than the one wormdrive was "
+        "built with, {}; start them with the mpirun of that MPI, or {}",
         launched.size, count_, name.substr(0, name.find_first_of(",\n")), each_its_shard);
   } else if (level < MPI_THREAD_SERIALIZED) {
     fault = fmt::format(
-        "has started {} processes with an MPI that no second thread may call; build it with threads, or "
+        "has started {} processes with an MPI without support for threads; build it with threads, or "
         "{}",
         count_, each_its_shard);
   }
   if (!fault.empty()) {
     MPI_Finalize();
-    refuse_launch(launched, fault);
+    reject_launch(launched, fault);
   }
   if (count_ == 1) {
     MPI_Finalize();
@@ -170,7 +170,7 @@ struct Ranks::Link {};
 Ranks::Ranks(bool apart) {
   const Launch launched = launch();
   if (launched.size <= 1 || (apart && launched.by == "srun")) return;
-  refuse_launch(launched,
+  reject_launch(launched,
                 fmt::format("this wormdrive was built without MPI; install libopenmpi-dev and build it again, "
                             "or {}",
                             each_its_shard));

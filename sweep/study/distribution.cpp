@@ -21,7 +21,7 @@ std::string TruncatedNormal::refusal() const {
   const double a = (low - mean) / deviation, b = (high - mean) / deviation;
   const double nearest = a > 0.0 ? a : b < 0.0 ? -b : 0.0;
   if (nearest <= 30.0) return "";
-  return fmt::format("low to high lies {:.3g} deviations away from the mean; at most 30 are followed", nearest);
+  return fmt::format("low to high lies {:.3g} deviations away from the mean; at most 30 are allowed", nearest);
 }
 
 double TruncatedNormal::quantile(double u) const {
@@ -39,7 +39,8 @@ double Lognormal::quantile(double u) const { return median * portable::exp(log_d
 
 std::string Triangular::refusal() const {
   if (low < high && low <= mode && mode <= high) return "";
-  return fmt::format("low = {}, mode = {}, high = {} must not fall, and low must be less than high", low, mode, high);
+  return fmt::format("low = {}, mode = {}, high = {} must not decrease, and low must be less than high", low, mode,
+                     high);
 }
 
 double Triangular::quantile(double u) const {
@@ -51,9 +52,9 @@ std::string Discrete::refusal() const {
   if (values.empty()) return "values must hold at least one number";
   if (weights.empty()) return "";
   if (weights.size() != values.size())
-    return fmt::format("weights has {} numbers and values {}; state as many", weights.size(), values.size());
+    return fmt::format("weights has {} numbers but values has {}; state equally many", weights.size(), values.size());
   for (const double weight : weights)
-    if (!(weight >= 0.0)) return fmt::format("weights must not be negative, and {} is", weight);
+    if (!(weight >= 0.0)) return fmt::format("weights must not be negative, but {} is", weight);
   return std::accumulate(weights.begin(), weights.end(), 0.0) > 0.0 ? "" : "one of the weights must be greater than 0";
 }
 
@@ -82,16 +83,16 @@ Discrete Discrete::each_once() const {
 
 std::string QuantileTable::refusal() const {
   if (values.size() < 2 || values.size() != probabilities.size())
-    return fmt::format("values has {} numbers and probabilities {}; state as many, at least 2", values.size(),
+    return fmt::format("values has {} numbers but probabilities has {}; state equally many, at least 2", values.size(),
                        probabilities.size());
   if (probabilities.front() != 0.0 || probabilities.back() != 1.0)
     return fmt::format("probabilities run from {} to {}; they must run from 0 to 1", probabilities.front(),
                        probabilities.back());
   for (std::size_t k = 1; k < values.size(); ++k) {
     if (!(probabilities[k] > probabilities[k - 1]))
-      return fmt::format("probabilities must rise, and {} follows {}", probabilities[k], probabilities[k - 1]);
+      return fmt::format("probabilities must increase, but {} follows {}", probabilities[k], probabilities[k - 1]);
     if (values[k] < values[k - 1])
-      return fmt::format("values must not fall, and {} follows {}", values[k], values[k - 1]);
+      return fmt::format("values must not decrease, but {} follows {}", values[k], values[k - 1]);
   }
   return "";
 }

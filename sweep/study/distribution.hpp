@@ -49,8 +49,8 @@ struct TruncatedNormal {
     using P = TruncatedNormal;
     constexpr Presence o = Presence::optional;
     return std::tuple{
-        Field{&P::mean, "mean", unit::none, bounds::any, "mean of the uncut bell"},
-        Field{&P::deviation, "deviation", unit::none, bounds::positive, "standard deviation of the uncut bell"},
+        Field{&P::mean, "mean", unit::none, bounds::any, "mean before truncation"},
+        Field{&P::deviation, "deviation", unit::none, bounds::positive, "standard deviation before truncation"},
         Field{&P::low, "low", unit::none, bounds::any, "lowest value; none if not stated", o},
         Field{&P::high, "high", unit::none, bounds::any, "highest value; none if not stated", o}};
   }

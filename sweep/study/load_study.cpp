@@ -38,7 +38,8 @@ class StudyReader {
   Study read(const ScenarioSource& source) {
     study_.title = root_.line("title").value_or(one_line(std::filesystem::path(name_).stem().string()));
     root_.text("scenario");
-    if (!root_.has("scenario")) root_.lacks("'scenario' (the file of the scenario, beside the study)");
+    if (!root_.has("scenario"))
+      root_.lacks("'scenario' (the file of the scenario, relative to the folder of the study)");
     for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});
     stated_ = read_parameters(root_);
     std::vector<std::optional<double>> levels;
@@ -89,13 +90,13 @@ class StudyReader {
           faults_.add(stated_[k].where,
                       fmt::format("'{}' is the same number as '{}'; keep one of them", parameter.path, path));
       taken.emplace_back(found->place, parameter.path);
-      refuse_broken_numbers(source, stated_[k]);
+      reject_broken_numbers(source, stated_[k]);
     }
     faults_.raise();
   }
 
   /// Some numbers have to be whole: they are refused when they are moved by a hair, and nothing else is.
-  void refuse_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
+  void reject_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
     if (const auto* const discrete = std::get_if<Discrete>(&stated.parameter.distribution))
       if (std::all_of(discrete->values.begin(), discrete->values.end(), [](double v) { return v == std::round(v); }))
         return;
@@ -104,7 +105,7 @@ class StudyReader {
     try {
       source(settings);
     } catch (const InputFault& fault) {
-      for (const Fault& f : fault.faults) faults_.add(f.where, f.what + "; let it be \"discrete\" with whole values");
+      for (const Fault& f : fault.faults) faults_.add(f.where, f.what + "; use \"discrete\" with whole values");
     }
   }
 
@@ -179,7 +180,7 @@ Study read(const std::string& text, const std::string& name,
   const toml::table root = parse_document(text, name, {});
   if (root.contains("mesh") && !root.contains("sweep"))
     reject({name},
-           "this is a scenario, which wormdrive run takes; a sweep takes a study, which names the scenario: "
+           "this is a scenario, for wormdrive run; a sweep needs a study, which names the scenario: "
            "scenario = \"FILE.toml\", [sweep], [[parameter]]");
   Diagnostics faults;
   const std::string scenario = root["scenario"].value_or(std::string());

@@ -42,9 +42,10 @@ void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
   const std::vector<Condition> conditions = lemma1_conditions(scenario);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
     list.push_back({fmt::format("condition_{}", k + 1), unit::none,
-                    fmt::format("margin of {}, negative where it fails", conditions[k].rule),
+                    fmt::format("margin of {}, negative if it fails", conditions[k].rule),
                     [k](const Outcome& o) { return o.conditions[k].margin(); }});
     list.back().least_is_worst = true;
+    list.back().condition = conditions[k];
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Metric {
   /// nothing can be said.
   double missing = std::numeric_limits<double>::quiet_NaN();
   bool least_is_worst = false;  ///< unless a threshold says otherwise
+  /// Of Lemma 1, whose margin the metric is; its values are those of the scenario itself.
+  std::optional<Condition> condition = std::nullopt;
 };
 
 /// All that runs of a scenario come to, whatever the values of its numbers are.

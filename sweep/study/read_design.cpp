@@ -57,8 +57,8 @@ class DesignReader {
         const std::vector<double>& values = discrete->values;
         if (levels_[k].value_or(static_cast<double>(values.size())) != static_cast<double>(values.size()))
           table_.fault("design",
-                       fmt::format("sweep.design = \"{}\" takes every value of a discrete parameter once, and "
-                                   "'{}' has {} values and states levels = {}; leave them out",
+                       fmt::format("sweep.design = \"{}\" takes every value of a discrete parameter once, but "
+                                   "'{}' has {} values but states levels = {}; remove them",
                                    Levelled::kind, parameter.path, values.size(), levels));
         levels = static_cast<double>(values.size());
         const auto place = std::find(values.begin(), values.end(), at_median) - values.begin();
@@ -70,7 +70,7 @@ class DesignReader {
     }
     if (std::is_same_v<Levelled, Grid> && combinations > most_trials)
       table_.fault("design",
-                   fmt::format("sweep.design = \"grid\" would have {:.3g} trials; at most {:g} are made. Take "
+                   fmt::format("sweep.design = \"grid\" would have {:.3g} trials; at most {:g} are allowed. Use "
                                "fewer levels or \"latin_hypercube\"",
                                combinations, most_trials));
   }
@@ -87,8 +87,8 @@ void read_kept(TableReader& table, Study& study) {
       study.kept.trials.push_back(static_cast<std::uint64_t>(trial));
       continue;
     }
-    table.fault("keep",
-                fmt::format("sweep.keep names {}, which is no trial; there are 0 to {}", trial, study.trials() - 1));
+    table.fault("keep", fmt::format("sweep.keep names trial {}, which does not exist; the trials are 0 to {}", trial,
+                                    study.trials() - 1));
   }
   const double worst =
       table.number("keep_worst", unit::none, bounds::between(0, 1e4), Presence::optional, "worst trials to be kept")
@@ -117,20 +117,20 @@ void read_design(TableReader& table, Study& study, const std::vector<std::option
   const bool by_levels = !is_sample(study.design);
   for (std::size_t k = 0; k < levels.size(); ++k)
     if (levels[k] && !by_levels)
-      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels, and parameter '{}' states some", *kind,
+      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels, but parameter '{}' states some", *kind,
                                         study.parameters[k].path));
   if (!study.copula.independent() && !allows_correlation(study.design))
     table.fault(
         "design",
-        fmt::format("sweep.design = \"{}\" needs independent parameters, and there is a [[correlation]]; {}", *kind,
-                    by_levels ? "leave it out or take \"monte_carlo\", \"latin_hypercube\" or \"sobol\""
+        fmt::format("sweep.design = \"{}\" needs independent parameters, but there is a [[correlation]]; {}", *kind,
+                    by_levels ? "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""
                               : "Sobol indices of dependent parameters do not add up to the variance"));
   const auto* const latin = std::get_if<LatinHypercube>(&study.design);
   if (!latin || study.copula.independent() || !table.faults().empty()) return;
   if (latin->trials > CorrelatedStrata::most_trials)
     table.fault("trials",
                 fmt::format("sweep.trials = {} is too many for a Latin hypercube with a [[correlation]], which "
-                            "is laid out in memory; at most {}, or take \"sobol\" or \"monte_carlo\"",
+                            "is held in memory; at most {} are allowed, or use \"sobol\" or \"monte_carlo\"",
                             latin->trials, CorrelatedStrata::most_trials));
   study.strata = std::make_shared<CorrelatedStrata>(latin->trials, study.copula, study.seed);
 }

@@ -87,7 +87,9 @@ Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& 
       const auto found = std::find_if(parameters.begin(), parameters.end(),
                                       [&](const StatedParameter& p) { return p.parameter.path == path; });
       if (found == parameters.end())
-        table.fault("between", fmt::format("correlation[{}].between names '{}', which is no [[parameter]]", k, path));
+        table.fault(
+            "between",
+            fmt::format("correlation[{}].between names '{}', which is not the path of a [[parameter]]", k, path));
       else
         pair.push_back(found - parameters.begin());
     }

@@ -139,9 +139,9 @@ class Summariser {
         thresholds.emplace_back().threshold = threshold;
         thresholds.back().unit = metric.unit;
       }
-    const bool is_condition = metric.name.starts_with("condition_");
+    const bool is_condition = metric.condition.has_value();
     if (thresholds.empty() && !is_condition) return;
-    ConditionSummary condition{metric.meaning, 0, 0};
+    ConditionSummary condition{is_condition ? in_words(*metric.condition) : "", 0, 0};
     std::uint64_t refused = 0, halted = 0;
     sweep_.for_each_block({metric.name}, [&](const Block& block) {
       for (std::size_t row = 0; row < block.status.size(); ++row) {

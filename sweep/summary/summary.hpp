@@ -28,6 +28,9 @@ struct MetricSummary {
   std::uint64_t count{}, without{};  ///< trials with a finite value; others, which count as their ranking says
   double mean{}, deviation{}, least{}, greatest{};  ///< of the finite values
   std::vector<SampleEstimate> quantiles;            ///< of summary_quantiles, over all trials
+
+  /// Whether several trials all have the same value.
+  bool is_constant() const { return count > 1 && without == 0 && least == greatest; }
 };
 
 /// How often a threshold is missed.
@@ -53,7 +56,7 @@ struct Influence {
 
 /// For the values of how many trials that are done a condition of Lemma 1 does not hold.
 struct ConditionSummary {
-  std::string rule;
+  std::string rule;  ///< in words
   std::uint64_t trials{}, of{};
 };
 

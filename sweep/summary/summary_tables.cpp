@@ -32,7 +32,7 @@ void append(std::vector<double>& row, const SampleEstimate& e) { row.insert(row.
 
 std::uint64_t conditions_of(const Study& study) {
   return static_cast<std::uint64_t>(std::count_if(study.metrics.begin(), study.metrics.end(),
-                                                  [](const Metric& m) { return m.name.starts_with("condition_"); }));
+                                                  [](const Metric& m) { return m.condition.has_value(); }));
 }
 
 SummaryTable status_table() {
@@ -106,7 +106,7 @@ SummaryTable condition_table(const Study& study) {
           {{"index", "1", "number of the condition of Lemma 1, counted from 0"},
            {"failed", "1", "trials for whose values it does not hold"},
            {"of", "1", "trials that are done"}},
-          {{"rule", "what does not hold"}}};
+          {{"rule", "the condition in words"}}};
 }
 
 /// Writes rows that are given one after the other.

@@ -51,8 +51,7 @@ std::string random_effects(Axis axis, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("what check accepts of random effects on a linear axis, run and fmu accept, and what it refuses, they refuse",
-          "[slow]") {
+TEST_CASE("check, run and fmu accept the same random effects on a linear axis", "[slow]") {
   std::mt19937 random(7);
   const Folder folder;
   int accepted = 0, refused = 0;
@@ -72,7 +71,7 @@ TEST_CASE("what check accepts of random effects on a linear axis, run and fmu ac
   CHECK(refused >= 10);
 }
 
-TEST_CASE("without teeth inertias count against all that moves, wherever an effect puts them") {
+TEST_CASE("without teeth inertias of either side count against the whole moving inertia") {
   const Folder folder;
   const auto with = [](const std::string& on_worm, const std::string& on_gear) {
     return sledge + "[effect.worm_inertia]\nmass_kg = " + on_worm + "\n[effect.gear_inertia]\nmass_kg = " + on_gear +
@@ -88,20 +87,20 @@ TEST_CASE("without teeth inertias count against all that moves, wherever an effe
     CHECK(std::abs(read_column(file, "trajectory/gear_acceleration").back() - 3.5 / mass) <= 1e-12);
   }
   std::filesystem::remove(folder / "s.h5");
-  refuse_all(folder, {
-                         {"all of it", with("-2", "0"),
-                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 2 + -2 kg"},
-                         {"more than all", with("1", "-3"),
-                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 3 + -3 kg"},
-                         {"both", with("-1.5", "-1"),
-                          "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 1 + -1.5 kg\n"
-                          "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 0.5 + -1 kg"},
-                         {"a wheel", wheel + "[effect.worm_inertia]\ninertia_kgm2 = -2.5\n",
-                          "s.toml:10:1: error: effect.worm_inertia leaves no inertia that moves: 2 + -2.5 kg m^2"},
-                     });
+  check_rejected(folder, {
+                             {"all of it", with("-2", "0"),
+                              "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 2 + -2 kg"},
+                             {"more than all", with("1", "-3"),
+                              "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 3 + -3 kg"},
+                             {"both", with("-1.5", "-1"),
+                              "s.toml:11:1: error: effect.worm_inertia leaves no mass that moves: 1 + -1.5 kg\n"
+                              "s.toml:13:1: error: effect.gear_inertia leaves no mass that moves: 0.5 + -1 kg"},
+                             {"a wheel", wheel + "[effect.worm_inertia]\ninertia_kgm2 = -2.5\n",
+                              "s.toml:10:1: error: effect.worm_inertia leaves no inertia that moves: 2 + -2.5 kg m^2"},
+                         });
 }
 
-TEST_CASE("on the gear the load's own inertia counts along with what the mesh states") {
+TEST_CASE("the inertia of the load counts on the gear side") {
   const Folder folder;
   const std::string arm = edited(good_scenario, "kind = \"constant\"\ntorque_Nm = 0.02",
                                  "kind = \"gravity_arm\"\nmass_kg = 0.5\narm_m = 0.1");
@@ -109,13 +108,13 @@ TEST_CASE("on the gear the load's own inertia counts along with what the mesh st
   for (const char* const command : {"check", "run", "steady", "statics"})
     CHECK(folder.run({command, "s.toml", "-q"}).exit == 0);
   std::filesystem::remove(folder / "s.h5");
-  refuse_all(folder,
-             {{"more than load and gear", arm + "[effect.gear_inertia]\ninertia_kgm2 = -6e-3\n",
-               "s.toml:20:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.005739 + -0.006 kg "
-               "m^2"}});
+  check_rejected(folder,
+                 {{"more than load and gear", arm + "[effect.gear_inertia]\ninertia_kgm2 = -6e-3\n",
+                   "s.toml:20:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.005739 + -0.006 kg "
+                   "m^2"}});
 }
 
-TEST_CASE("an effect that cannot be is refused by every command that reads the scenario") {
+TEST_CASE("every command that reads a scenario rejects an impossible effect") {
   const Folder folder;
   folder.write("s.toml", good_scenario + "[effect.backlash]\ngap_deg = 0.1\n");
   folder.write("b.csv", "load_torque_Nm,motor_torque_Nm\n0.2,0.01\n");

@@ -20,8 +20,8 @@ void write_hdf5(const std::string& path, const std::string& attribute, const std
 
 }  // namespace
 
-TEST_CASE("an override that cannot be applied is told with its own words") {
-  refuse_all(Folder(), {
+TEST_CASE("an override that cannot be applied is quoted in its message") {
+  check_rejected(Folder(), {
       set("no =", "mesh.ratio", "mesh.ratio: error: no '='; write table.key=value"),
       set("no key", "=3", "=3: error: an empty key; write table.key=value"),
       set("no last key", "mesh.=3", "mesh.=3: error: an empty key; write table.key=value"),
@@ -47,16 +47,16 @@ TEST_CASE("an override that cannot be applied is told with its own words") {
       set("invalid UTF-8", "title=\xff", "title=\xff: error: neither a TOML value nor plain text: *")});
 }
 
-TEST_CASE("an override of an array is told how many elements it has") {
+TEST_CASE("the message on a bad index gives the number of elements") {
   const std::string two = good_but("[motor.torque]", "[[motor.torque]]\nkind = \"ramp\"\nrate_Nm_per_s = 1\n[[motor.torque]]");
-  refuse_all(Folder(), {
+  check_rejected(Folder(), {
       {"no such element", two, "--set motor.torque[2].torque_Nm=3: error: motor.torque has no element [2], counted from 0; it has 2",
        {"--set", "motor.torque[2].torque_Nm=3"}},
       {"no index", two, "--set motor.torque.torque_Nm=3: error: motor.torque is an array; name one of its elements, as in motor.torque[0]",
        {"--set", "motor.torque.torque_Nm=3"}}});
 }
 
-TEST_CASE("a file that is no scenario is told by name") {
+TEST_CASE("a file that is not a scenario is reported by name") {
   const Folder folder;
   std::filesystem::create_directory(folder / "folder");
   write_hdf5(folder / "other.h5", "author", "somebody");
@@ -64,7 +64,7 @@ TEST_CASE("a file that is no scenario is told by name") {
   folder.write("cut.h5", "\x89HDF\r\n\x1a\n and no more");
   const std::string long_name(300, 'a');
   for (const std::string command : {"run", "check", "statics", "steady"})
-    refuse_all(folder, {
+    check_rejected(folder, {
         {"missing", "", "no.toml: error: cannot be read: No such file or directory", {command, "no.toml"}, true},
         {"folder", "", "folder: error: cannot be read: it is a directory", {command, "folder"}, true},
         {"a device without end", "", "/dev/zero:1:1: error: a NUL byte; a scenario is plain text or a result file (.h5)", {command, "/dev/zero"}, true},
@@ -74,7 +74,7 @@ TEST_CASE("a file that is no scenario is told by name") {
         {"HDF5 with a faulty scenario", "", "fault.h5:3:9: error: mesh.ratio = 0 must be greater than 0", {command, "fault.h5"}, true}});
 }
 
-TEST_CASE("an HDF5 attribute that is no single text is no scenario") {
+TEST_CASE("an HDF5 attribute that is not a single text is not a scenario") {
   const Folder folder;
   {
     const wormdrive::Hdf5Handle numbers = wormdrive::create_hdf5(folder / "number.h5");
@@ -88,26 +88,26 @@ TEST_CASE("an HDF5 attribute that is no single text is no scenario") {
     H5Awrite(attribute, type, texts);
   }
   for (const std::string file : {"number.h5", "list.h5"})
-    refuse_all(folder, {{file, "", file + ": error: it is not a wormdrive result: its attribute 'scenario' is not a text", {"check", file}, true}});
+    check_rejected(folder, {{file, "", file + ": error: it is not a wormdrive result: its attribute 'scenario' is not a text", {"check", file}, true}});
 }
 
-TEST_CASE("a command that does not exist, and words that do not belong, end with exit code 2") {
+TEST_CASE("unknown commands and unexpected arguments end with exit code 2") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  refuse_all(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are run, check, statics, steady, diagnose, plot, sweep, merge, replay, summary, worst, fmu, schema, new, diff, report, list",
+  check_rejected(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are new, list, check, schema, run, statics, steady, fmu, plot, report, diff, sweep, summary, worst, replay, merge, diagnose",
                        {"simulate", "s.toml"}, true},
                       {"misspelled command", "", "wormdrive: error: unknown command 'rum'; did you mean 'run'?", {"rum", "s.toml"}, true},
-                      {"no command", "", "wormdrive: error: A subcommand is required; see wormdrive --help", {}, true},
+                      {"no command", "", "wormdrive: error: a command is required; see wormdrive --help", {}, true},
                       {"no scenario", "", "wormdrive run: error: scenario is required; see wormdrive run --help", {"run"}, true},
                       {"unknown option", "", "wormdrive run: error: The following argument was not expected: --fast; see wormdrive run --help",
                        {"run", "s.toml", "--fast"}, true},
                       {"a study", "[sweep]\ntrials = 3\n",
-                       "s.toml: error: this is a study, which wormdrive sweep takes; the scenario is the file that it names", {"run", "s.toml"}, true},
+                       "s.toml: error: this is a study, for wormdrive sweep; the scenario is the file that it names", {"run", "s.toml"}, true},
                       {"no study", good_scenario,
-                       "s.toml: error: this is a scenario, which wormdrive run takes; a sweep takes a study, which names the scenario: scenario = \"FILE.toml\", [sweep], [[parameter]]",
+                       "s.toml: error: this is a scenario, for wormdrive run; a sweep needs a study, which names the scenario: scenario = \"FILE.toml\", [sweep], [[parameter]]",
                        {"sweep", "s.toml"}, true},
                       {"statics without teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n",
-                       "s.toml: error: mesh.kind = \"none\" has no statics; only teeth lock", {"statics", "s.toml"}, true}});
+                       "s.toml: error: statics needs teeth, but mesh.kind is \"none\"", {"statics", "s.toml"}, true}});
   struct Misuse {
     std::vector<std::string> words;
     std::string named;
@@ -126,12 +126,12 @@ TEST_CASE("a command that does not exist, and words that do not belong, end with
   }
 }
 
-TEST_CASE("a picture of what is no result is refused") {
+TEST_CASE("plot rejects files that are not results") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   std::filesystem::create_directory(folder / "folder");
   write_hdf5(folder / "other.h5", "author", "somebody");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"missing", "", "no.h5: error: cannot be read: No such file or directory", {"plot", "no.h5"}, true},
       {"no HDF5", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"plot", "s.toml"}, true},
       {"folder", "", "folder: error: cannot be read: it is a directory", {"plot", "folder"}, true}});

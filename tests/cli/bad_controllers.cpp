@@ -30,19 +30,19 @@ std::string but(const std::string& part, const std::string& by) { return edited(
 
 }  // namespace
 
-TEST_CASE("the scenario with a controller that the others spoil is a good one") {
+TEST_CASE("the controlled scenario on which the bad ones are based is valid") {
   const Folder folder;
   folder.write("s.toml", controlled);
   REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);
 }
 
-TEST_CASE("controller tables in the wrong company are told what to keep") {
-  refuse_all(Folder(), {
+TEST_CASE("controller tables that exclude other tables are rejected with the choice to make") {
+  check_rejected(Folder(), {
       {"a motor torque too", good_scenario + controlled.substr(controlled.find("[controller]"), controlled.find("[load]") - controlled.find("[controller]")),
        "s.toml:11:1: error: [motor.torque] is stated along with [controller]; keep one: kind = \"open_loop\" holds a torque over time between samples"},
-      {"a sensor alone", good_scenario + "[sensor]\ncounts = 16\n", "s.toml:19:1: error: [sensor] belongs to a [controller], and there is none"},
+      {"a sensor alone", good_scenario + "[sensor]\ncounts = 16\n", "s.toml:19:1: error: [sensor] needs a [controller], but there is none"},
       {"a reference alone", good_scenario + "[[reference]]\nkind = \"step\"\n",
-       "s.toml:19:1: error: [reference] belongs to a [controller], and there is none"},
+       "s.toml:19:1: error: [reference] needs a [controller], but there is none"},
       {"no reference", but("[reference]\n" + reference, ""), "s.toml:11:1: error: [controller] lacks a [reference] to follow"},
       {"no torque to hold", but(sliding, "kind = \"open_loop\"\nsample_time_s = 1e-3\n"),
        "s.toml:11:1: error: [controller] lacks 'torque' (the torque over time that is to be held)"},
@@ -51,8 +51,8 @@ TEST_CASE("controller tables in the wrong company are told what to keep") {
        "s.toml:8:1: error: [controller] needs a rotary axis; mesh.axis is \"linear\""}});
 }
 
-TEST_CASE("keys of a controller that are unknown, missing or out of their limits are told") {
-  refuse_all(Folder(), {
+TEST_CASE("unknown, missing and out-of-range keys of a controller are reported") {
+  check_rejected(Folder(), {
       {"no kind", but("kind = \"sliding\"\n", ""),
        "s.toml:11:1: error: [controller] lacks 'kind' (one of \"sliding\", \"pid\", \"open_loop\")"},
       {"unknown kind", but("\"sliding\"", "\"smc\""),
@@ -80,19 +80,19 @@ TEST_CASE("keys of a controller that are unknown, missing or out of their limits
        "s.toml:11:1: error: [controller] lacks 'speed_weight' (weight of e' squared)"}});
 }
 
-TEST_CASE("sample times that do not fit the run are told") {
-  refuse_all(Folder(), {
+TEST_CASE("sample times that do not fit the run are reported") {
+  check_rejected(Folder(), {
       {"longer than the run", but("sample_time_s = 1e-3", "sample_time_s = 1"),
        "s.toml:13:17: error: controller.sample_time_s = 1 s must be at most the duration, 0.01 s"},
       {"too many", but("sample_time_s = 1e-3", "sample_time_s = 1e-12"),
-       "s.toml:13:17: error: controller.sample_time_s = 1e-12 s would give 1e+10 samples; at most 1e+09 are taken"},
+       "s.toml:13:17: error: controller.sample_time_s = 1e-12 s would give 1e+10 samples; at most 1e+09 are allowed"},
       {"zero", but("sample_time_s = 1e-3", "sample_time_s = 0"), "s.toml:13:17: error: controller.sample_time_s = 0 s must be greater than 0 s"},
       {"starting too late", but("sample_time_s = 1e-3", "sample_time_s = 1e-3\nsample_offset_s = 0.01"),
        "s.toml:14:19: error: controller.sample_offset_s = 0.01 s must be less than the duration, 0.01 s"}});
 }
 
-TEST_CASE("faults of references, sensors, disturbances and windows are told") {
-  refuse_all(Folder(), {
+TEST_CASE("faults of references, sensors, disturbances and windows are reported") {
+  check_rejected(Folder(), {
       {"unknown reference", but("\"sinusoid\"", "\"sine\""),
        "s.toml:18:8: error: reference.kind = \"sine\" must be one of \"sinusoid\", \"step\", \"trapezoid\", \"chirp\", \"multisine\", "
        "\"random_steps\", \"table\""},
@@ -107,11 +107,11 @@ TEST_CASE("faults of references, sensors, disturbances and windows are told") {
       {"unknown speed", but("[sensor]", "[sensor]\nspeed = \"true\""),
        "s.toml:22:9: error: sensor.speed = \"true\" must be one of \"difference\", \"exact\""},
       {"an exact speed with counts", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\ncounts = 4096"),
-       "s.toml:23:10: error: sensor.counts = 4096 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
+       "s.toml:23:10: error: sensor.counts = 4096 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
       {"an exact speed with noise", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\nnoise_rad = 1e-5"),
-       "s.toml:23:13: error: sensor.noise_rad = 1e-05 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
+       "s.toml:23:13: error: sensor.noise_rad = 1e-05 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
       {"an exact speed with a filter", but("[sensor]\nspeed_filter_Hz", "[sensor]\nspeed = \"exact\"\nspeed_filter_Hz"),
-       "s.toml:23:19: error: sensor.speed_filter_Hz = 200 has no part in speed = \"exact\"; leave it out, or take speed = \"difference\""},
+       "s.toml:23:19: error: sensor.speed_filter_Hz = 200 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
       {"half a count", but("[sensor]", "[sensor]\ncounts = 16.5"), "s.toml:22:10: error: sensor.counts = 16.5 must be a whole number"},
       {"no deviation", but("[sensor]", "[disturbance]\nseed = 3\n[sensor]"), "s.toml:21:1: error: [disturbance] lacks 'deviation_Nm' (standard deviation)"},
       {"a window beyond the end", but("[sensor]", "[metrics]\nfrom_s = 1\n[sensor]"),

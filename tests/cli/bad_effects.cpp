@@ -12,8 +12,8 @@ std::string with(const std::string& effect) { return good_scenario + effect; }
 
 }  // namespace
 
-TEST_CASE("an effect out of its bounds is told with the rule") {
-  refuse_all(Folder(), {
+TEST_CASE("an effect outside its limits is rejected with the limit") {
+  check_rejected(Folder(), {
       {"no Stribeck speed", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0\n"),
        "s.toml:21:17: error: effect.stribeck.speed_m_per_s = 0 m/s must be greater than 0 m/s"},
       {"half an exponent", with("[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\nexponent = 1.5\n"),
@@ -30,10 +30,10 @@ TEST_CASE("an effect out of its bounds is told with the rule") {
        "s.toml:20:13: error: effect.position_friction.amplitude = 1.1 must be at least -1 and at most 1"}});
 }
 
-TEST_CASE("an effect that contradicts the drive is told with what it would come to") {
-  refuse_all(Folder(), {
+TEST_CASE("an effect that contradicts the drive is rejected with the resulting value") {
+  check_rejected(Folder(), {
       {"no teeth", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n[run]\nduration_s = 1\n[effect.mesh_friction]\nchange = 0.1\n",
-       "s.toml:6:1: error: effect.mesh_friction needs teeth, and mesh.kind is \"none\""},
+       "s.toml:6:1: error: effect.mesh_friction needs teeth, but mesh.kind is \"none\""},
       {"no worm", with("[effect.worm_inertia]\ninertia_kgm2 = -2.53e-5\n"),
        "s.toml:19:1: error: effect.worm_inertia leaves no inertia on the worm side: 2.53e-05 + -2.53e-05 kg m^2"},
       {"no gear", with("[effect.gear_inertia]\ninertia_kgm2 = -1e-3\n"),
@@ -42,8 +42,8 @@ TEST_CASE("an effect that contradicts the drive is told with what it would come 
        "s.toml:19:1: error: effect.bearing_asymmetry is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm"}});
 }
 
-TEST_CASE("two effects that say the same, or of which one leaves out the other, are told with the reason") {
-  refuse_all(Folder(), {
+TEST_CASE("two effects that exclude each other are rejected with the reason") {
+  check_rejected(Folder(), {
       {"two curves", with("[effect.agma]\n[effect.stribeck]\ndrop = 0.1\nspeed_m_per_s = 0.1\n"),
        "s.toml:19:1: error: effect.agma excludes effect.stribeck: both say how friction falls with the sliding speed; keep one of them"},
       {"rest on elastic teeth", with("[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n[effect.static_friction]\nrise = 0.05\n"),
@@ -52,12 +52,12 @@ TEST_CASE("two effects that say the same, or of which one leaves out the other, 
        "s.toml:22:1: error: effect.transmission_error excludes effect.tooth_compliance: elastic teeth run at an even pitch; keep one of them"}});
 }
 
-TEST_CASE("friction that its effects carry below zero, to mu_g or beyond eq. 17 is told with how far it goes") {
-  refuse_all(Folder(), {
+TEST_CASE("friction whose effects carry it below zero, to mu_g or beyond eq. 17 is rejected with the value") {
+  check_rejected(Folder(), {
       {"below zero", with("[effect.stribeck]\ndrop = 0.3\nspeed_m_per_s = 0.1\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 may fall to -0.05 with its effects; friction must be at least 0"},
       {"drifts to mu_g", with("[effect.friction_drift]\nshare = 60\ntime_s = 0.01\n"),
-       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], can follow it"},
+       "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 15.25 with its effects, is not below mu_g = 13.4382 (cos(phi_n)/tan(lambda)): the worm would lock itself; only elastic teeth, [effect.tooth_compliance], allow it"},
       {"eq. 17 by inertia", with("[effect.gear_inertia]\ninertia_kgm2 = 0.999261\n"),
        "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.001518 with Jg = 1 kg m^2; *"},
       {"eq. 17 by pitch", edited(with("[effect.transmission_error]\namplitude_deg = 28\nphase_deg = 0\n"), "7.39e-4", "0.02"),

@@ -50,7 +50,7 @@ inline void list_cases(const std::string& file, const Folder& folder, const std:
 }
 
 /// Runs every case in the folder and checks message, exit code, and that no file came or went.
-inline void refuse_all(const Folder& folder, const std::vector<BadInput>& cases) {
+inline void check_rejected(const Folder& folder, const std::vector<BadInput>& cases) {
   if (const char* file = std::getenv("WORMDRIVE_LIST_CASES")) return list_cases(file, folder, cases);
   for (const BadInput& bad : cases) {
     if (!bad.scenario.empty()) folder.write("s.toml", bad.scenario);

@@ -23,7 +23,7 @@ BadInput into(const std::vector<std::string>& writer, const std::string& output,
 
 }  // namespace
 
-TEST_CASE("a place where no result can be written is told, and nothing else there is touched") {
+TEST_CASE("a place where no result can be written is reported, and nothing there is touched") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   folder.write("notes.csv", "a,b\n1,2\n");
@@ -31,7 +31,7 @@ TEST_CASE("a place where no result can be written is told, and nothing else ther
   std::filesystem::create_directory(folder / "taken.h5.part");
   const std::string long_name(300, 'a');
   for (const auto& writer : writers)
-    refuse_all(folder, {
+    check_rejected(folder, {
         into(writer, "no/r.h5", "wormdrive: cannot create no/r.h5.part: No such file or directory", 4),
         into(writer, "folder", "wormdrive: cannot write folder: it is not a plain file", 4),
         into(writer, "/dev/full", "wormdrive: cannot write /dev/full: it is not a plain file", 4),
@@ -43,30 +43,30 @@ TEST_CASE("a place where no result can be written is told, and nothing else ther
   CHECK(folder.read("notes.csv") == "a,b\n1,2\n");
 }
 
-TEST_CASE("a run is not written over the result from which it is read, nor over its part") {
+TEST_CASE("a run does not overwrite the result that it is read from, nor its part") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);
   std::filesystem::copy(folder / "s.h5", folder / "t.h5.part");
   const std::string result = folder.read("s.h5");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"result", "", "s.h5: error: the result would overwrite s.h5; choose another --output", {"run", "s.h5", "-o", "s.h5"}, true},
       {"part", "", "t.h5: error: the result would overwrite t.h5.part; choose another --output", {"run", "t.h5.part", "-o", "t.h5"}, true}});
   CHECK(folder.read("s.h5") == result);
   CHECK(folder.read("t.h5.part") == result);
 }
 
-TEST_CASE("steady is not written over the data that it reads") {
+TEST_CASE("steady does not overwrite its data") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   const std::string data = "record,worm_speed_rad_per_s,motor_torque_Nm\na,1,0.01\n";
   folder.write("d.csv", data);
-  refuse_all(folder, {{"data", "", "d.csv: error: the result would overwrite d.csv; choose another --output",
+  check_rejected(folder, {{"data", "", "d.csv: error: the result would overwrite d.csv; choose another --output",
                        {"steady", "s.toml", "--data", "d.csv", "-o", "d.csv"}, true}});
   CHECK(folder.read("d.csv") == data);
 }
 
-TEST_CASE("a result that another program is writing is left to it") {
+TEST_CASE("a result that another program is writing is not touched") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);
@@ -74,7 +74,7 @@ TEST_CASE("a result that another program is writing is left to it") {
   const std::string part = folder.read("r.h5.part");
   const int other = open((folder / "r.h5.part").c_str(), O_RDWR);
   REQUIRE(flock(other, LOCK_EX) == 0);
-  refuse_all(folder, {{"locked", "", "wormdrive: cannot write r.h5.part: another program is writing it", {"run", "s.toml", "-q", "-o", "r.h5"}, true, 4}});
+  check_rejected(folder, {{"locked", "", "wormdrive: cannot write r.h5.part: another program is writing it", {"run", "s.toml", "-q", "-o", "r.h5"}, true, 4}});
   CHECK(folder.read("r.h5.part") == part);
   close(other);
   CHECK(folder.run({"run", "s.toml", "-q", "-o", "r.h5"}).exit == 0);  // a part that nobody writes is from a run that died
@@ -93,7 +93,7 @@ TEST_CASE("an older result stays until a new one is complete") {
 
 // A file may not grow beyond a limit, which HDF5 meets like the end of the disk: while it creates the file and its
 // tables, while it appends rows, and when it closes the file.
-TEST_CASE("a full disk at any moment is told in one line, and nothing is left behind", "[slow]") {
+TEST_CASE("a full disk at any moment is reported in one line, and nothing is left behind", "[slow]") {
   const Folder folder;
   folder.write("s.toml", edited(good_scenario, "duration_s = 0.01", "duration_s = 1\nreport_interval_s = 5e-5"));
   for (const auto& writer : writers) {

@@ -17,8 +17,8 @@ const std::string reads_csv = samples("file = \"t.csv\"");
 
 }  // namespace
 
-TEST_CASE("arrays that make no table are told with what is wrong") {
-  refuse_all(Folder(), {
+TEST_CASE("arrays that do not form a table are rejected with the reason") {
+  check_rejected(Folder(), {
       {"none", good_but(motor, "kind = \"samples\""), "s.toml:11:1: error: [motor.torque] lacks 'file' (a CSV file), or 'times_s' and 'torques_Nm'"},
       {"one of two", samples("times_s = [0, 1]"), "s.toml:11:1: error: [motor.torque] lacks 'file' (a CSV file), or 'times_s' and 'torques_Nm'"},
       {"different length", samples("times_s = [0, 1, 2]\ntorques_Nm = [1, 2]"),
@@ -45,11 +45,11 @@ TEST_CASE("arrays that make no table are told with what is wrong") {
        "s.toml:17:14: error: load.angles_rad is stated twice, also as angles_deg; keep one"}});
 }
 
-TEST_CASE("a CSV file that cannot be read is told where the scenario names it") {
+TEST_CASE("an unreadable CSV file is reported at the line of the scenario that names it") {
   const Folder folder;
   std::filesystem::create_directory(folder / "folder");
   folder.write("short.csv", "time_s,motor_torque_Nm\n0,1\n");
-  refuse_all(folder, {
+  check_rejected(folder, {
       {"missing", samples("file = \"no.csv\""), "s.toml:13:8: error: motor.torque.file = \"no.csv\" cannot be read: No such file or directory"},
       {"folder", samples("file = \"folder\""), "s.toml:13:8: error: motor.torque.file = \"folder\" cannot be read: it is a directory"},
       {"no text", samples("file = 3"), "s.toml:13:8: error: motor.torque.file must be a string, not a number"},
@@ -60,7 +60,7 @@ TEST_CASE("a CSV file that cannot be read is told where the scenario names it") 
        "s.toml:14:1: error: unknown key 'x_colum' in [motor.torque]; did you mean 'x_column'?"}});
 }
 
-TEST_CASE("what is wrong inside a CSV file is told with the line of that file") {
+TEST_CASE("faults inside a CSV file are reported with the line of that file") {
   struct BadCsv {
     std::string name, text, message;
   };
@@ -81,11 +81,11 @@ TEST_CASE("what is wrong inside a CSV file is told with the line of that file") 
            {"time stands still", header + "0,1\n0.5,2\n0.5,3\n", "t.csv:4: error: time_s = 0.5 does not increase after 0.5"},
            {"a NUL byte", header + "0,1\n1," + std::string(1, '\0') + "\n", "t.csv:3: error: a NUL byte; a CSV file is plain text"}}) {
     folder.write("t.csv", bad.text);
-    refuse_all(folder, {{bad.name, reads_csv, bad.message + " (motor.torque.file at s.toml:13:8)"}});
+    check_rejected(folder, {{bad.name, reads_csv, bad.message + " (motor.torque.file at s.toml:13:8)"}});
   }
 }
 
-TEST_CASE("a CSV file is read as spreadsheets and printf write it") {
+TEST_CASE("CSV files of spreadsheets and of printf are read") {
   const Folder folder;
   folder.write("t.csv", "\xEF\xBB\xBF\"time_s\" , motor_torque_Nm,note\r\n0,+1e-3,a\r\n  0.5 ,-0.002,b\r\n\r\n");
   folder.write("s.toml", reads_csv);
@@ -97,7 +97,7 @@ TEST_CASE("a CSV file is read as spreadsheets and printf write it") {
   REQUIRE(scenario.find("times_s = [0.0, 0.5]\ntorques_Nm = [0.001, -0.002]\n") != std::string::npos);
 }
 
-TEST_CASE("a load reads the column of its own name, and any column that the scenario names") {
+TEST_CASE("a load reads the column with its own name or the one that the scenario names") {
   const Folder folder;
   folder.write("t.csv", "time_s,load_torque_Nm,motor_torque_Nm,t,tau\n0,1,2,0,3\n1,1,2,2,3\n");
   const auto stored = [&](const std::string& lines) {

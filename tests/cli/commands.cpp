@@ -39,7 +39,7 @@ json run_with(const Folder& folder, const std::vector<std::string>& overrides, c
 
 }  // namespace
 
-TEST_CASE("run --json carries the numbers of the file that it writes") {
+TEST_CASE("run --json contains the numbers of the file that it writes") {
   const Folder folder;
   const json said = json::parse(printed(folder, {"run", fig9, "--json", "--audit", "-o", "r.h5"}));
   const Hdf5Handle file = open_hdf5(folder / "r.h5");
@@ -58,7 +58,7 @@ TEST_CASE("run --json carries the numbers of the file that it writes") {
   CHECK(said.at("warnings").size() == 1);
 }
 
-TEST_CASE("statics --json carries the numbers of the file that it writes") {
+TEST_CASE("statics --json contains the numbers of the file that it writes") {
   const Folder folder;
   const json said =
       json::parse(printed(folder, {"statics", fig9, "--json", "-o", "s.h5", "--points", "7", "--max-load", "2"}));
@@ -73,7 +73,7 @@ TEST_CASE("statics --json carries the numbers of the file that it writes") {
   CHECK(said.at("load_torque_Nm").back() == 2.0);
 }
 
-TEST_CASE("steady --json carries the numbers of the file that it writes") {
+TEST_CASE("steady --json contains the numbers of the file that it writes") {
   const Folder folder;
   folder.write("d.csv", "record,worm_speed_rad_per_s,motor_torque_Nm\nup,10,0.001\nup,12,0.003\ndown,-10,-0.002\n");
   const json said = json::parse(printed(folder, {"steady", shipped("measured_worm_drive.toml"), "--json", "--data",
@@ -119,14 +119,14 @@ TEST_CASE("check --json states parameters with units, and a scenario that can be
   CHECK(json::parse(printed(folder, {"check", "mass.toml", "--json"})).at("derived") == json::object());
 }
 
-TEST_CASE("statics tells at which torques the drive rests, bearings included") {
+TEST_CASE("statics prints at which torques the drive rests, bearings included") {
   const Folder folder;
   folder.write("s.toml", good_scenario);  // C1 -0.0470643, C2 0.0836831, load 0.02 N m
   for (const auto& [coulomb, told] : {std::pair{"0", "at rest from -0.00167366 to 0.000941286 N m\n"},
                                       {"0.01", "at rest from -0.0116737 to 0.0109413 N m\n"}})
     CHECK(printed(folder, {"statics", "s.toml", "--set", std::string("effect.worm_coulomb.torque_Nm=") + coulomb})
-              .ends_with(std::string("  start    at the initial angle, load 0.02 N m, all effects included: ") + told));
-  CHECK(printed(folder, {"steady", "s.toml"}).find("  load     0.02 N m, that of the initial angle at time 0\n") !=
+              .ends_with(std::string("  start    with all effects, at the initial angle (load 0.02 N m): ") + told));
+  CHECK(printed(folder, {"steady", "s.toml"}).find("  load     0.02 N m, at the initial angle and time 0\n") !=
         std::string::npos);
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("JSON is valid whatever bytes a file name has") {
   CHECK(folder.names() == std::set<std::string>{"\xff.h5"});
 }
 
-TEST_CASE("nothing is printed when quiet is asked for") {
+TEST_CASE("--quiet prints nothing") {
   const Folder folder;
   for (const std::vector<std::string>& words : {std::vector<std::string>{"run", fig9, "-q"},
                                                 {"run", fig9, "--quiet", "--audit"},
@@ -149,7 +149,7 @@ TEST_CASE("nothing is printed when quiet is asked for") {
   CHECK(folder.names() == std::set<std::string>{"a.h5", "b.h5", "fig09_switching.h5"});
 }
 
-TEST_CASE("a result is named after its scenario and written where one works") {
+TEST_CASE("a result is named after its scenario and written to the current folder") {
   const Folder folder;
   std::filesystem::create_directory(folder / "scenarios");
   folder.write("scenarios/my arm.toml", good_scenario);
@@ -165,7 +165,7 @@ TEST_CASE("the terminal names the file, the events and how to see them") {
   const std::string out = printed(folder, {"run", fig9, "--audit"});
   for (const std::string words :
        {"Fig. 9: engagement switching under a sinusoidal motor torque\n",
-        "  regime   gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds (43.6 times)\n",
+        "  regime   gear self-locking; C1 -0.0471, C2 0.0837, H 3.4957; eq. 17 holds by a factor of 43.6\n",
         "  warning  geometry does not close: lg/(lw tan lambda) = 58.50 but ratio = 60; lead_angle_deg = 3.9005 would "
         "close it\n",
         " evaluations, 12 events: 1 break-away, 6 flank changes, 5 reversals\n", "12 guard events, 0 missed",
@@ -175,7 +175,7 @@ TEST_CASE("the terminal names the file, the events and how to see them") {
   }
 }
 
-TEST_CASE("overrides reach nested keys, elements of arrays, and tables that are not there yet") {
+TEST_CASE("overrides reach nested keys, elements of arrays and new tables") {
   const Folder folder;
   const std::string arm = shipped("measured_worm_drive.toml");
   const json p =
@@ -194,7 +194,7 @@ TEST_CASE("overrides reach nested keys, elements of arrays, and tables that are 
   CHECK(!p.contains("effect.gear_coulomb.torque_Nm"));
 }
 
-TEST_CASE("a run names the solver that the scenario asks for and counts what it did") {
+TEST_CASE("a run names the solver of the scenario and counts its evaluations") {
   const Folder folder;
   const std::string text = printed(folder, {"run", fig9, "--set", "run.solver=taylor"});
   CHECK(text.find("2 s with taylor (rtol 1e-12)") != std::string::npos);
@@ -221,7 +221,7 @@ TEST_CASE("overrides take words without quotes, quotes, arrays and elements of a
   CHECK(has(scenario({"mesh.friction=0.1", "mesh.friction=0.2"}), "friction = 0.2\n"));  // the last one counts
 }
 
-TEST_CASE("list names what there is") {
+TEST_CASE("list prints effects, torques, loads and scenarios") {
   const Folder folder;
   for (const auto& [what, words] :
        {std::pair<std::string, std::vector<std::string>>{
@@ -249,7 +249,25 @@ TEST_CASE("help and version end with exit code 0") {
   CHECK(folder.names().empty());
 }
 
-TEST_CASE("what cannot be printed is not told as a success") {
+TEST_CASE("help groups the commands by what the user wants to do") {
+  const std::string help = printed(Folder(), {"--help"});
+  INFO(help);
+  CHECK(help.starts_with(
+      "wormdrive: simulate, sweep and diagnose worm-gear drives\nUsage: wormdrive [OPTIONS] COMMAND\n"));
+  std::size_t at = 0;
+  for (const std::string words :
+       {"\nDescribe a drive:\n  new ", "\n  list ", "\n  check ", "\n  schema ", "\nSimulate it:\n  run ",
+        "\n  statics ", "\n  steady ", "\n  fmu ", "\nLook at results:\n  plot ", "\n  report ", "\n  diff ",
+        "\nVary uncertain parameters:\n  sweep ", "\n  summary ", "\n  worst ", "\n  replay ", "\n  merge ",
+        "\nExplain measured data:\n  diagnose ", "\nwormdrive COMMAND --help explains a command."}) {
+    INFO(words);
+    const std::size_t found = help.find(words, at);
+    REQUIRE(found != std::string::npos);
+    at = found;
+  }
+}
+
+TEST_CASE("a full standard output ends with exit code 4") {
   const Folder folder;
   const Outcome outcome =
       Process({"/bin/sh", "-c", "'" WORMDRIVE_PROGRAM "' check '" + fig9 + "' --json > /dev/full"}, folder.path())
@@ -258,14 +276,14 @@ TEST_CASE("what cannot be printed is not told as a success") {
   CHECK(outcome.err.find("No space left on device") != std::string::npos);
 }
 
-TEST_CASE("of an array of one table, as results hold it, the index may be left out") {
+TEST_CASE("the index of an array with a single table may be omitted") {
   const Folder folder;
   printed(folder, {"run", fig9, "-q"});
   const json p = run_with(folder, {"motor.torque.amplitude_Nm=0.06"}, "fig09_switching.h5");
   CHECK(p.at("motor.torque.amplitude_Nm").at("value") == 0.06);
 }
 
-TEST_CASE("a part that runs again is named after the run") {
+TEST_CASE("the result of a part that runs again is named after the run") {
   const Folder folder;
   printed(folder, {"run", fig9, "-q"});
   std::filesystem::rename(folder / "fig09_switching.h5", folder / "cut.h5.part");

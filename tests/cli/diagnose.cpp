@@ -51,7 +51,7 @@ TEST_CASE("a diagnosis writes its folder, names the friction, and its extended s
   CHECK(folder.run({"run", "out/extended.toml", "-q"}).exit == 0);
 }
 
-TEST_CASE("the report holds every key with its type, and null for what is no number") {
+TEST_CASE("the JSON of a diagnosis has every key with its type, and null instead of NaN") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   const Outcome outcome =
@@ -126,7 +126,7 @@ TEST_CASE("the same data give the same report, whatever the threads", "[slow]") 
   CHECK(reports[0] == reports[1]);
 }
 
-TEST_CASE("data of no kind, of two kinds and too few are told, and nothing is written") {
+TEST_CASE("data of no kind, of two kinds and too few data are rejected, and nothing is written") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   folder.write("few.csv", "load_torque_Nm,motor_torque_Nm\n0.2,0.01\n0.2,-0.02\n");
@@ -135,7 +135,7 @@ TEST_CASE("data of no kind, of two kinds and too few are told, and nothing is wr
   const auto words = [](const std::string& data) {
     return std::vector<std::string>{"diagnose", scenario, data, "-o", "out"};
   };
-  refuse_all(
+  check_rejected(
       folder,
       {
           {"few", "", "few.csv: error: 2 break-in torques; at least 6 are needed, in both directions", words("few.csv"),
@@ -169,7 +169,7 @@ TEST_CASE("data of no kind, of two kinds and too few are told, and nothing is wr
       });
 }
 
-TEST_CASE("an output folder that cannot be made ends with exit code 4") {
+TEST_CASE("an output folder that cannot be created ends with exit code 4") {
   const Folder folder;
   folder.write("b.csv", break_in_csv(0.25, 0.03, 3));
   folder.write("out", "a file");
@@ -190,9 +190,9 @@ TEST_CASE("a diagnosis never writes over what it reads") {
         "out/extended.toml: error: the result would overwrite out/extended.toml; choose another --output\n");
 }
 
-TEST_CASE("tolerances and column names that cannot be are told") {
+TEST_CASE("impossible tolerances and column names are rejected") {
   const auto with = [](const std::string& tables) { return good_scenario + tables; };
-  refuse_all(
+  check_rejected(
       Folder(),
       {
           {"unit", with("[tolerance]\nfriction = 1\n"),

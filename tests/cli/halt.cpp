@@ -37,7 +37,7 @@ Outcome h5py(const Folder& folder, const std::vector<std::string>& files) {
 
 }  // namespace
 
-TEST_CASE("a run that cannot go on says when, in which mode, after what and why, and keeps what there is") {
+TEST_CASE("a simulation failure states time, mode, events and reason, and keeps the run up to there") {
   const Folder folder;
   folder.write("s.toml", good_but("[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05",
                                   "[[motor.torque]]\nkind = \"ramp\"\nrate_Nm_per_s = 1\n"

@@ -82,7 +82,7 @@ std::string units_of(const std::string& path, const std::string& column) {
 
 }  // namespace
 
-TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], speaks of forces and positions throughout",
+TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], prints forces and positions throughout",
           "[slow]") {
   const Folder folder;
   folder.write("s.toml", sledge);
@@ -128,7 +128,7 @@ TEST_CASE("torque at constant speed is a force on a linear axis, in the result a
   CHECK(folder.run({"check", "s.toml"}).out.find("the motor force is 0 throughout") != std::string::npos);
 }
 
-TEST_CASE("a sweep of a linear axis speaks of forces and positions: its referee, its summary and its worst drive") {
+TEST_CASE("a sweep of a linear axis prints forces and positions: referee, summary and worst drive") {
   const Folder folder;
   folder.write("s.toml", sledge +
                              "[effect.worm_coulomb]\nforce_N = 1\n"
@@ -155,34 +155,34 @@ below_m_per_s = 0.1
     INFO(words.front() << ": " << outcome.out << outcome.err);
     CHECK(outcome.exit == 0);
     CHECK(turning(outcome.out) == "");
-    CHECK(outcome.out.find("positions within") != std::string::npos);
+    CHECK(outcome.out.find("positions agree within") != std::string::npos);
   }
   CHECK(units_of(folder / "sweep.h5", "referee/angle_difference") == "m");
   CHECK(units_of(folder / "sweep.h5", "referee/closed_speed_difference") == "m/s");
 }
 
-TEST_CASE("what is refused of a recording on a linear axis is refused in its units") {
+TEST_CASE("faults of a recording on a linear axis are reported in its units") {
   const Folder folder;
   folder.write("s.toml", sledge);
   folder.write("small.csv", edited(recorded("time_s,motor_force_N,position_m"), "position_m", "y"));
   folder.write("none.csv", "a,b\n1,2\n");
-  refuse_all(folder,
-             {{"other name",
-               "",
-               "small.csv:1: error: no column 'position_m'; the header line names time_s, motor_force_N, y; [data] "
-               "position_m = \"...\" in the scenario would say which it is",
-               {"diagnose", "s.toml", "small.csv", "-o", "out"},
-               true},
-              {"no kind",
-               "",
-               "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_force_N, position_m) "
-               "nor records at constant speed (record, worm_speed_m_per_s, motor_force_N) nor a break-in table "
-               "(load_force_N, motor_force_N); [data] in the scenario tells other names",
-               {"diagnose", "s.toml", "none.csv", "-o", "out"},
-               true}});
+  check_rejected(folder,
+                 {{"other name",
+                   "",
+                   "small.csv:1: error: no column 'position_m'; the header line names time_s, motor_force_N, y; [data] "
+                   "position_m = \"...\" in the scenario would say which it is",
+                   {"diagnose", "s.toml", "small.csv", "-o", "out"},
+                   true},
+                  {"no kind",
+                   "",
+                   "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_force_N, position_m) "
+                   "nor records at constant speed (record, worm_speed_m_per_s, motor_force_N) nor a break-in table "
+                   "(load_force_N, motor_force_N); [data] in the scenario tells other names",
+                   {"diagnose", "s.toml", "none.csv", "-o", "out"},
+                   true}});
 }
 
-TEST_CASE("[data] tells the names of records at constant speed and of break-in tables too", "[slow]") {
+TEST_CASE("[data] also gives the column names of records at constant speed and of break-in tables", "[slow]") {
   const Folder folder;
   std::string usual = "record,worm_speed_rad_per_s,motor_torque_Nm\n", own = "run,w,u\n";
   for (int k = 1; k <= 6; ++k)
@@ -211,12 +211,12 @@ TEST_CASE("[data] tells the names of records at constant speed and of break-in t
     return found;
   };
   CHECK(diagnosed("s.toml", "usual.csv") == diagnosed("named.toml", "own.csv"));
-  refuse_all(folder, {{"the usual name where another is told",
-                       "",
-                       "usual.csv:1: error: no column 'run'; the header line names record, worm_speed_rad_per_s, "
-                       "motor_torque_Nm",
-                       {"steady", "named.toml", "--data", "usual.csv"},
-                       true}});
+  check_rejected(folder, {{"the usual name where another is told",
+                           "",
+                           "usual.csv:1: error: no column 'run'; the header line names record, worm_speed_rad_per_s, "
+                           "motor_torque_Nm",
+                           {"steady", "named.toml", "--data", "usual.csv"},
+                           true}});
 }
 
 }  // namespace wormdrive::test::cli_linear_diagnosis

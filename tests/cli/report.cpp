@@ -29,7 +29,7 @@ nlohmann::json table_in(const nlohmann::json& data, const std::string& title) {
 
 }  // namespace
 
-TEST_CASE("a report holds its run, and itself only") {
+TEST_CASE("a report contains its run and loads nothing from elsewhere") {
   const Folder folder;
   REQUIRE(folder.run({"run", shipped("fig09_switching.toml"), "-q", "--set", "title=\"</script> & <b>\""}).exit == 0);
   REQUIRE(folder.run({"report", "fig09_switching.h5"}).exit == 0);
@@ -85,7 +85,7 @@ TEST_CASE("a report of statics shows the region of rest") {
   CHECK(table_in(data, "Break-in torques").at("rows").size() == 11);
 }
 
-TEST_CASE("a report of steady motion shows the model, and what was measured beside it") {
+TEST_CASE("a report of steady motion shows the model and the measurements") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"steady", "s.toml", "-q", "-o", "curve.h5"}).exit == 0);
@@ -175,36 +175,36 @@ TEST_CASE("a report of a diagnosis has the verdict and its evidence", "[slow]") 
   CHECK(data.at("verdict") == findings.at("sentence"));
   CHECK(data.at("summary").get<std::string>().starts_with("Diagnosis of a break-in table, b.csv. Verdict " +
                                                           findings.at("verdict").get<std::string>() + ": "));
-  CHECK(table_in(data, "Evidence: every effect that was tried").at("rows").size() == findings.at("ranking").size());
+  CHECK(table_in(data, "Evidence: every effect that was examined").at("rows").size() == findings.at("ranking").size());
   CHECK(table_in(data, "What these data can show").at("rows").size() == findings.at("certificate").size());
   CHECK(data.at("groups")[0].at("panels")[0].at("series").size() == 3);
   std::filesystem::remove(folder / "out/diagnosis.json");
   const Outcome alone = folder.run({"report", "out"});
   CHECK(alone.exit == 2);
-  CHECK(alone.err == "out/diagnosis.json: error: cannot be read; wormdrive diagnose writes it beside diagnosis.h5\n");
+  CHECK(alone.err == "out/diagnosis.json: error: cannot be read; wormdrive diagnose writes it next to diagnosis.h5\n");
 }
 
-TEST_CASE("what is no result, or no longer whole, gets no report") {
+TEST_CASE("files that are not results, or damaged ones, get no report") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   write_attribute(create_hdf5(folder / "other.h5"), "kind", "something");
-  refuse_all(folder,
-             {{"a result of another kind",
-               "",
-               "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
-               {"report", "other.h5"},
-               true},
-              {"a scenario",
-               "",
-               "s.toml: error: is no result file (HDF5); wormdrive run writes one",
-               {"report", "s.toml"},
-               true},
-              {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
-              {"a folder of something else",
-               "",
-               ".: error: holds no diagnosis.h5; wormdrive diagnose -o writes one",
-               {"report", "."},
-               true}});
+  check_rejected(folder,
+                 {{"a result of another kind",
+                   "",
+                   "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
+                   {"report", "other.h5"},
+                   true},
+                  {"a scenario",
+                   "",
+                   "s.toml: error: is not a result file (HDF5); wormdrive run writes one",
+                   {"report", "s.toml"},
+                   true},
+                  {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
+                  {"a folder of something else",
+                   "",
+                   ".: error: contains no diagnosis.h5; wormdrive diagnose -o writes one",
+                   {"report", "."},
+                   true}});
 }
 
 }  // namespace wormdrive::test::cli_report

@@ -35,7 +35,7 @@ std::string nonsense(const std::string& scenario) { return scenario + "zzzzzzzzz
 
 }  // namespace
 
-TEST_CASE("the schema has the keys that the reader knows, in every table", "[slow]") {
+TEST_CASE("the schema has the keys of the reader in every table", "[slow]") {
   const nlohmann::json all = schema(), rotary = all.at("else").at("properties"),
                        linear = all.at("then").at("properties");
   const Folder folder;
@@ -96,7 +96,7 @@ TEST_CASE("the schema states units, bounds and defaults of the fields") {
   CHECK(properties.at("run").at("properties").at("relative_tolerance").at("default") == 1e-10);
 }
 
-TEST_CASE("every kind of new scenario runs as it is written") {
+TEST_CASE("every kind of new scenario runs unchanged") {
   for (const std::string kind : {"open_loop", "controlled", "elastic_teeth", "linear_axis"}) {
     INFO(kind);
     const Folder folder;
@@ -108,7 +108,7 @@ TEST_CASE("every kind of new scenario runs as it is written") {
   }
 }
 
-TEST_CASE("a new study sweeps the new scenario that it names") {
+TEST_CASE("a new study sweeps the new scenario") {
   const Folder folder;
   CHECK(folder.run({"new", "study.toml", "--kind", "study"}).out ==
         "  wrote    study.toml    run it: wormdrive sweep study.toml\n");
@@ -120,38 +120,39 @@ TEST_CASE("a new study sweeps the new scenario that it names") {
   CHECK(folder.run({"summary", "study.h5"}).out.find("  trials   100 of 100\n") != std::string::npos);
 }
 
-TEST_CASE("the controller of a new scenario keeps what Lemma 1 promises") {
+TEST_CASE("the controller of a new scenario keeps the promises of Lemma 1") {
   const Folder folder;
   REQUIRE(folder.run({"new", "mine.toml", "--kind", "controlled"}).exit == 0);
   const Outcome run = folder.run({"run", "mine.toml"});
   INFO(run.out << run.err);
-  CHECK(run.out.find("every promise kept") != std::string::npos);
+  CHECK(run.out.find("all promises kept") != std::string::npos);
 }
 
-TEST_CASE("what new and diff cannot do is told") {
+TEST_CASE("new and diff reject bad input in one line") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  refuse_all(folder, {{"over something", "", "s.toml: error: it exists; choose another name", {"new", "s.toml"}, true},
-                      {"nowhere",
-                       "",
-                       "wormdrive: cannot write nowhere/s.toml: No such file or directory",
-                       {"new", "nowhere/s.toml"},
-                       true,
-                       4},
-                      {"no result",
-                       "",
-                       "s.toml: error: is no result file (HDF5); wormdrive run writes one",
-                       {"diff", "s.toml", "s.toml"},
-                       true},
-                      {"no two results",
-                       "",
-                       "a.h5: error: cannot be read: No such file or directory\n"
-                       "b.h5: error: cannot be read: No such file or directory",
-                       {"diff", "a.h5", "b.h5"},
-                       true}});
+  check_rejected(folder,
+                 {{"over something", "", "s.toml: error: it exists; choose another name", {"new", "s.toml"}, true},
+                  {"nowhere",
+                   "",
+                   "wormdrive: cannot write nowhere/s.toml: No such file or directory",
+                   {"new", "nowhere/s.toml"},
+                   true,
+                   4},
+                  {"no result",
+                   "",
+                   "s.toml: error: is not a result file (HDF5); wormdrive run writes one",
+                   {"diff", "s.toml", "s.toml"},
+                   true},
+                  {"no two results",
+                   "",
+                   "a.h5: error: cannot be read: No such file or directory\n"
+                   "b.h5: error: cannot be read: No such file or directory",
+                   {"diff", "a.h5", "b.h5"},
+                   true}});
 }
 
-TEST_CASE("diff tells by its exit code whether two runs agree, and by its words where they do not", "[slow]") {
+TEST_CASE("the exit code of diff says whether two runs agree, and its output where they differ", "[slow]") {
   const Folder folder;
   const std::string scenario = shipped("fig09_switching.toml");
   REQUIRE(folder.run({"run", scenario, "-o", "a.h5"}).exit == 0);
@@ -174,7 +175,7 @@ TEST_CASE("diff tells by its exit code whether two runs agree, and by its words 
   CHECK(diff({"other.h5", "--relative", "0.1", "--time", "0.01"}).exit == 0);
   const Outcome fewer = diff({"short.h5"});
   CHECK(fewer.exit == 1);
-  CHECK(fewer.out.find("events: 12 against 6") != std::string::npos);
+  CHECK(fewer.out.find("events: 12 in the first result, 6 in the second") != std::string::npos);
   CHECK(diff({"other.h5", "--quiet"}).out.empty());
   CHECK(nlohmann::json::parse(diff({"same.h5", "--json"}).out).at("agree") == true);
 }

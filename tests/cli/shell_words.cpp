@@ -44,7 +44,7 @@ TEST_CASE("the way to see a result can be pasted, whatever the result is called"
   }
 }
 
-TEST_CASE("a file that is called like an option is drawn when it stands behind --, and its picture too", "[slow]") {
+TEST_CASE("a file named like an option is drawn after --, and so is its picture", "[slow]") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.run({"run", "s.toml", "-q", "--output=-x.h5"}).exit == 0);
@@ -57,7 +57,7 @@ TEST_CASE("a file that is called like an option is drawn when it stands behind -
   CHECK(folder.run({"report", "--", "-x.h5"}).exit == 0);
 }
 
-TEST_CASE("the way to go on with a sweep can be pasted, whatever its files are called") {
+TEST_CASE("the command that continues a sweep can be pasted, whatever its files are called") {
   for (const std::string name : {"it's two words", "a\"b;c", "-x"}) {
     const Folder folder;
     folder.write("s.toml", good_scenario);
@@ -72,7 +72,7 @@ TEST_CASE("the way to go on with a sweep can be pasted, whatever its files are c
     sweep.kill(SIGINT);
     const Outcome stopped = sweep.wait();
     INFO(stopped.err);
-    const std::string again = behind("go on with: wormdrive ", stopped.err);
+    const std::string again = behind("continue with: wormdrive ", stopped.err);
     REQUIRE(!again.empty());
     CHECK(Process({"/bin/sh", "-c", "printf '%s\\n' " + again}, folder.path()).wait().out ==
           "sweep\n--output=" + name + ".h5\n--resume\n--\n" + name + ".toml\n");

@@ -51,7 +51,7 @@ SpeedTorqueRecord record_of(const std::vector<double>& torques, const std::strin
 
 }  // namespace
 
-TEST_CASE("of the measured records the three overwritten samples are left out and no other", "[reference]") {
+TEST_CASE("only the three overwritten samples of the measured records are left out", "[reference]") {
   const auto path = measured();
   if (!path) return;
   REQUIRE(left_out(*path) == overwritten);
@@ -105,7 +105,7 @@ TEST_CASE("the published Stribeck term makes the model of the measured drive wor
   CHECK(std::abs(nlohmann::json::parse(outcome.out).at("rms_error_Nm").get<double>() - 0.1052e-3) <= 0.0005e-3);
 }
 
-TEST_CASE("samples that a test overwrites in the measured records are found wherever they stand", "[reference]") {
+TEST_CASE("overwritten samples are found anywhere in the measured records", "[reference]") {
   const auto path = measured();
   if (!path) return;
   std::vector<std::string> lines;
@@ -148,7 +148,7 @@ TEST_CASE("a record of coarse steps, most of them equal, keeps every sample") {
   }
 }
 
-TEST_CASE("a last digit that is rounded now up, now down is no step") {
+TEST_CASE("rounding in the last digit is not a step") {
   std::vector<double> torques(300, 0.00100000);
   for (const double other : {0.00100001, 0.00101968, 0.00101969, 0.00098032, 0.00098031, 0.00103936})
     torques.insert(torques.end(), 3, other);
@@ -162,7 +162,7 @@ TEST_CASE("records of one, two and equal samples keep them") {
   CHECK(record_of(std::vector<double>(50, 0.25)).motor_torque == 0.25);
 }
 
-TEST_CASE("a wild sample among noise is left out with its line and its distance, and the means do not know it") {
+TEST_CASE("an outlier is left out with its line and its distance, and does not change the means") {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(1e-3, 1e-4);
   std::vector<double> torques(200);
@@ -178,7 +178,7 @@ TEST_CASE("a wild sample among noise is left out with its line and its distance,
   CHECK(record.samples == 200);
 }
 
-TEST_CASE("records are told by name in the order of the file, though their lines are mixed") {
+TEST_CASE("records are listed in the order of the file even if their lines are mixed") {
   const Folder folder;
   folder.write("d.csv", header + "b,2,0.2\na,1,0.1\nb,4,0.4\n");
   const std::vector<SpeedTorqueRecord> records = read_speed_torque_records(folder / "d.csv");
@@ -188,7 +188,7 @@ TEST_CASE("records are told by name in the order of the file, though their lines
   CHECK(records[1].samples == 1);
 }
 
-TEST_CASE("data that are no records are told with file and line") {
+TEST_CASE("data that are not records are rejected with file and line") {
   const Folder folder;
   for (const auto& [text, message] :
        {std::pair<std::string, std::string>{header, "d.csv: error: there are no samples below the header line\n"},

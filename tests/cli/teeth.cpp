@@ -32,16 +32,16 @@ void contains(const std::string& out, const std::vector<std::string>& all) {
 
 }  // namespace
 
-TEST_CASE("the terminal says that worm and gear are two inertias, what impacts are like, and audits them") {
+TEST_CASE("a run with elastic teeth says so, describes impacts and audits them") {
   const Folder folder;
   contains(
       printed(folder, {"run", fig9, "--audit"}),
       {"  teeth    elastic: worm and gear are two inertias (compliant drive); 1e+06 N/m, contact at 248 Hz; gap 0.02 "
        "deg or 14.72 um; restitution 0.033 at 0.1 m/s\n",
-       "lead_angle_deg = 3.9005 would close it; the flanks move as the ratio says\n",
+       "lead_angle_deg = 3.9005 would close it; the flanks follow the ratio\n",
        "78 events: 1 break-away, 5 reversals, 36 impacts, 36 openings\n", "78 guard events, 0 missed"});
   const std::string closed = printed(folder, {"run", fig9, "--audit", "--set", "mesh.lead_angle_deg=3.900493742381"});
-  contains(closed, {"0 missed", "; energy closes within "});
+  contains(closed, {"0 missed", "; the energy balance closes within "});
   CHECK(closed.find("not confirmed") == std::string::npos);
   // a worm without torque in the gap has margins to break-in that stay at zero without being events
   contains(printed(folder, {"run", jam, "--audit"}), {" 49 guard events, 0 missed; closest graze "});
@@ -62,7 +62,7 @@ TEST_CASE("check prints the frequency of the contact, the gap along the normal a
              .contains("gap"));
 }
 
-TEST_CASE("the result of elastic teeth has columns of its own, and names what happened") {
+TEST_CASE("the result of elastic teeth has its own columns and event kinds") {
   const Folder folder;
   const json said = json::parse(printed(folder, {"run", fig9, "--json", "-o", "r.h5"}));
   const Hdf5Handle file = open_hdf5(folder / "r.h5");

@@ -45,7 +45,7 @@ TEST_CASE("a recording of the drive as stated is adequate, and the certificate k
   REQUIRE(d.verdict == Verdict::adequate);
   REQUIRE(d.causes.empty());
   REQUIRE(d.remainders.empty());
-  REQUIRE(d.sentence == "The simulation has all that these data show.");
+  REQUIRE(d.sentence == "The simulation contains every effect that these data show.");
   for (const PredictionError& e : d.prediction) {
     CAPTURE(e.horizon, e.after, e.floor);
     const double spread = e.horizon > 0.5 ? 1.7 : 1.3;  // 12 s have few stretches of 1 s

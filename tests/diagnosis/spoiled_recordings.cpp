@@ -149,10 +149,10 @@ const std::vector<Spoiled> spoiled{
      "r.csv: error: 799 of 8000 samples are such that no measurement can have given them"},
     {"speed in rpm",
      [](Sheet& s) { add_speed(s, 30 / std::numbers::pi); },
-     "r.csv: error: gear_speed_rad_per_s is in rpm beside gear_angle_rad: 9.56 times its derivative"},
+     "r.csv: error: gear_speed_rad_per_s is in rpm, which does not match gear_angle_rad: 9.56 times its derivative"},
     {"speed of the worm",
      [](Sheet& s) { add_speed(s, 60); },
-     "r.csv: error: gear_speed_rad_per_s is the speed of the worm beside gear_angle_rad: 60.1 times its derivative"}};
+     "r.csv: error: gear_speed_rad_per_s is the speed of the worm, which does not match gear_angle_rad: 60.1 times its derivative"}};
 // clang-format on
 
 }  // namespace

@@ -100,7 +100,7 @@ TEST_CASE("records of the scenario's own drive are adequate, whatever the noise"
     INFO("seed " << seed << ": " << d.sentence);
     CHECK(d.verdict == Verdict::adequate);
     CHECK(d.causes.empty());
-    CHECK(d.sentence == "The simulation has all that these data show.");
+    CHECK(d.sentence == "The simulation contains every effect that these data show.");
   }
 }
 

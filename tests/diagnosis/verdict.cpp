@@ -31,12 +31,14 @@ Diagnosis named(const char* effect, double before, double after) {
 
 TEST_CASE("a name that makes the error ahead no smaller says on what it stands") {
   CHECK(named("cogging", 2e-3, 1e-3).remarks.empty());
-  CHECK(named("cogging", 1e-3, 2e-3).remarks ==
-        std::vector<std::string>{"the error 0.25 s ahead is no smaller: what is named stands on the likelihood of the "
-                                 "single samples, 312 nats"});
-  CHECK(named("backlash", 1e-3, 2e-3).remarks ==
-        std::vector<std::string>{"the error 0.25 s ahead is no smaller: what is named stands on the likelihood of the "
-                                 "single samples, 312 nats; teeth that bounce cannot be followed far"});
+  CHECK(
+      named("cogging", 1e-3, 2e-3).remarks ==
+      std::vector<std::string>{"the error 0.25 s ahead is not smaller: the named causes rest on the likelihood of the "
+                               "single samples, 312 nats"});
+  CHECK(
+      named("backlash", 1e-3, 2e-3).remarks ==
+      std::vector<std::string>{"the error 0.25 s ahead is not smaller: the named causes rest on the likelihood of the "
+                               "single samples, 312 nats; teeth that bounce cannot be followed far"});
 }
 
 }  // namespace wormdrive::test::diagnosis_verdict

@@ -7,7 +7,7 @@
 
 namespace wormdrive::test::output_hdf5 {
 
-TEST_CASE("a file that cannot be opened is told with the system's reason, and without one where HDF5 refuses it") {
+TEST_CASE("a file that cannot be opened is reported with the system's reason, or without one if HDF5 rejects it") {
   const Folder folder;
   folder.write("text.h5", "no HDF5\n");
   folder.write("errno = 13", "no HDF5\n");

@@ -55,7 +55,7 @@ const std::vector<Writer> others{
 
 }  // namespace
 
-TEST_CASE("no result takes the place of somebody else's file, nor of a result of another kind", "[slow]") {
+TEST_CASE("no result replaces a foreign file or a result of another kind", "[slow]") {
   const Bench bench;
   const std::string theirs = bench.read("theirs.h5"), map = "map.h5";
   REQUIRE(bench.run({"statics", "s.toml", "-q", "-o", map}).exit == 0);
@@ -71,7 +71,7 @@ TEST_CASE("no result takes the place of somebody else's file, nor of a result of
       CHECK(bench.names() == names);
     };
     INFO(writer.words.front());
-    refused("theirs.h5", "it exists and is no result of wormdrive");
+    refused("theirs.h5", "it exists and is not a wormdrive result");
     refused("notes.txt", "it exists and is not an HDF5 file");
     if (writer.name != "statics") refused(map, "it holds a result of statics");
     if (writer.name != "steady") refused("curve.h5", "it holds a result of steady");
@@ -79,7 +79,7 @@ TEST_CASE("no result takes the place of somebody else's file, nor of a result of
   }
 }
 
-TEST_CASE("an older result of the same kind is replaced, and anything where it is forced", "[slow]") {
+TEST_CASE("an older result of the same kind is replaced, and with --force anything", "[slow]") {
   const Bench bench;
   for (const Writer& writer : results) {
     INFO(writer.words.front());
@@ -97,7 +97,7 @@ TEST_CASE("an older result of the same kind is replaced, and anything where it i
   }
 }
 
-TEST_CASE("pages, pictures and FMUs take the place of their like only", "[slow]") {
+TEST_CASE("pages, pictures and FMUs replace only their like", "[slow]") {
   const Bench bench;
   for (const Writer& writer : others) {
     INFO(writer.words.front());
@@ -120,7 +120,7 @@ TEST_CASE("pages, pictures and FMUs take the place of their like only", "[slow]"
   for (const std::string& name : bench.names()) CHECK_FALSE(name.ends_with(".part"));
 }
 
-TEST_CASE("a diagnosis does not take the place of files in a folder that none has filled") {
+TEST_CASE("a diagnosis does not replace foreign files in its folder") {
   const Bench bench;
   std::filesystem::create_directory(bench / "found");
   bench.write("found/extended.toml", "# of somebody else\n");
@@ -134,7 +134,7 @@ TEST_CASE("a diagnosis does not take the place of files in a folder that none ha
   CHECK(bench.read("found/extended.toml") == "# of somebody else\n");
 }
 
-TEST_CASE("what is left of another command's result is not begun anew") {
+TEST_CASE("the part of another command's result is not overwritten") {
   const Bench bench;
   std::filesystem::copy(bench / "swept.h5", bench / "r.h5.part");
   const std::string part = bench.read("r.h5.part");
@@ -151,7 +151,7 @@ TEST_CASE("what is left of another command's result is not begun anew") {
   CHECK_FALSE(bench.names().contains("r.h5.part"));
 }
 
-TEST_CASE("an output that is a symbolic link stays one: what it leads to is written", "[slow]") {
+TEST_CASE("an output that is a symbolic link remains one; its target is written", "[slow]") {
   const Bench bench;
   std::filesystem::create_directory(bench / "there");
   auto writers = others;
@@ -173,7 +173,7 @@ TEST_CASE("an output that is a symbolic link stays one: what it leads to is writ
   }
 }
 
-TEST_CASE("a part that is a symbolic link is not followed, and links in a circle are told") {
+TEST_CASE("a part that is a symbolic link is not followed, and circular links are reported") {
   const Bench bench;
   std::filesystem::create_symlink(bench / "notes.txt", bench / "r.h5.part");
   std::filesystem::create_symlink(bench / "round.h5", bench / "round.h5");
@@ -185,7 +185,7 @@ TEST_CASE("a part that is a symbolic link is not followed, and links in a circle
   CHECK(bench.read("notes.txt") == "of somebody else\n");
 }
 
-TEST_CASE("a finished sweep is kept, gone on with or forced, as its user says") {
+TEST_CASE("a finished sweep is kept, resumed or replaced, as the options say") {
   const StudyFolder folder;
   REQUIRE(folder.sweep({"-q", "-o", "o.h5"}).exit == 0);
   const auto rows = folder.rows("o.h5");

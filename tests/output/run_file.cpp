@@ -109,7 +109,7 @@ TEST_CASE("times increase strictly and hold every report, both ends and every ev
   for (const double t : at) REQUIRE(std::binary_search(time.begin(), time.end(), t));
 }
 
-TEST_CASE("rows are right-continuous at events, and the left limits stand in the events") {
+TEST_CASE("rows are right-continuous at events, and the events hold the left limits") {
   const Fig9 run;
   const std::vector<double> time = run["trajectory/time"], at = run["events/time"];
   int jumps = 0;
@@ -152,7 +152,7 @@ TEST_CASE("h5py finds every column with its units and its time axis") {
   }
 }
 
-TEST_CASE("a scenario of more than 64 KB is carried whole") {
+TEST_CASE("a scenario of more than 64 KB is stored whole") {
   const Folder folder;
   std::string times, torques;
   for (int k = 0; k < 6000; ++k) {
@@ -170,7 +170,7 @@ TEST_CASE("a scenario of more than 64 KB is carried whole") {
   REQUIRE(read_text_attribute(open_hdf5(folder / "again.h5"), "scenario") == scenario);
 }
 
-TEST_CASE("a result of many portions is the same rows as one of few, in chunks") {
+TEST_CASE("a result written in many portions has the same rows as one written in few") {
   const Folder folder;
   folder.write("s.toml", edited(good_scenario, "duration_s = 0.01", "duration_s = 1\nreport_interval_s = 4e-5"));
   REQUIRE(folder.run({"run", "s.toml", "-q"}).exit == 0);

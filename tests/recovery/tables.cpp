@@ -117,8 +117,8 @@ std::string tables(const Plan& plan, const std::vector<Outcome>& outcomes) {
     const auto honest = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) {
       return o.score == Score::exact || (o.flagged && o.score != Score::crash);
     });
-    text += fmt::format("\nSaid to be more than the catalogue has, or named `static_friction` for `dwell`: {} of {}.\n",
-                        honest, outcomes.size());
+    text += fmt::format("\nReported as unexplained, or `dwell` named as `static_friction`: {} of {}.\n", honest,
+                        outcomes.size());
   }
   std::map<std::string, std::map<std::string, long>> confusion;
   for (const Outcome& o : outcomes)

@@ -169,8 +169,10 @@ TEST_CASE("check shows gains and Lemma 1, and names what fails with the value th
   REQUIRE(bad.exit == 0);
   REQUIRE(bad.out.find("FAILS by 0.2867; controller.eta_rad_per_s2 = 1.28672 would satisfy it") != std::string::npos);
   REQUIRE(bad.out.find("FAILS by 0.5; controller.beta1 = 2 would satisfy it") != std::string::npos);
-  REQUIRE(bad.out.find("warning  Lemma 1 does not hold (wormdrive check says why): beta1 >= 2; eta >= M b_hat/2 - E") !=
-          std::string::npos);
+  REQUIRE(
+      bad.out.find(
+          "warning  Lemma 1 does not hold (wormdrive check prints the details): beta1 >= 2; eta >= M b_hat/2 - E") !=
+      std::string::npos);
   const Outcome rough =
       folder.run({"check", sliding, "--set", "controller.variation.C1=0", "--set", "controller.variation.C2=0", "--set",
                   "controller.variation.friction=0.1", "--set", "effect.mesh_friction.change=0.05"});
@@ -190,7 +192,8 @@ TEST_CASE("a run reports what it broke of Lemma 1 with its time and is no failur
   REQUIRE(run.exit == 0);
   REQUIRE(run.out.find("broken: |s| <= Phi after reaching at ") != std::string::npos);
   REQUIRE(
-      run.out.find("warning  Lemma 1 does not hold (wormdrive check says why): |tau_l - tau_l_hat| / |tau_l_hat|") !=
+      run.out.find(
+          "warning  Lemma 1 does not hold (wormdrive check prints the details): |tau_l - tau_l_hat| / |tau_l_hat|") !=
       std::string::npos);
   const Hdf5Handle file = open_hdf5(folder / "r.h5");
   REQUIRE(!read_column(file, "controller/sliding_variable").empty());

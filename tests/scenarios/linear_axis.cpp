@@ -98,25 +98,26 @@ TEST_CASE("every kind of force and load is stated in the units of a linear axis"
 
 TEST_CASE("what turns has no place on a linear axis, and is told in its words") {
   const std::string load = "kind = \"constant\"\nforce_N = -0.5";
-  refuse_all(Folder(), {{"torque", edited(sledge, load, "kind = \"constant\"\ntorque_Nm = 1"),
-                         "s.toml:9:1: error: [load] lacks 'force_N' (force)\n"
-                         "s.toml:11:1: error: unknown key 'torque_Nm' in [load]; valid keys: kind, force_N"},
-                        {"inertia", edited(sledge, "mass_kg = 2", "inertia_kgm2 = 2"),
-                         "s.toml:2:1: error: [mesh] lacks 'mass_kg' (mass that moves)\n"
-                         "s.toml:5:1: error: unknown key 'inertia_kgm2' in [mesh]; valid keys: kind, axis, mass_kg"},
-                        {"mass", edited(sledge, "mass_kg = 2", "mass_kg = 0"),
-                         "s.toml:5:11: error: mesh.mass_kg = 0 kg must be greater than 0 kg"},
-                        {"gravity arm", edited(sledge, load, "kind = \"gravity_arm\"\nforce_N = 1"),
-                         "s.toml:10:8: error: load.kind = \"gravity_arm\" must be one of \"constant\", \"sinusoid\", "
-                         "\"ramp\", \"step\", \"staircase\", "
-                         "\"samples\", \"angle_table\""},
-                        {"axis", edited(sledge, "axis = \"linear\"", "axis = \"straight\""),
-                         "s.toml:4:8: error: mesh.axis = \"straight\" must be one of \"rotary\", \"linear\""},
-                        {"axis of a worm gear", good_but("[mesh]", "[mesh]\naxis = \"linear\""),
-                         "s.toml:3:1: error: unknown key 'axis' in [mesh]; valid keys: kind, ratio, lead_angle_deg, "
-                         "lead_angle_rad, pressure_angle_deg, "
-                         "pressure_angle_rad, worm_pitch_radius_m, gear_pitch_radius_m, friction, worm_inertia_kgm2, "
-                         "gear_inertia_kgm2"}});
+  check_rejected(Folder(),
+                 {{"torque", edited(sledge, load, "kind = \"constant\"\ntorque_Nm = 1"),
+                   "s.toml:9:1: error: [load] lacks 'force_N' (force)\n"
+                   "s.toml:11:1: error: unknown key 'torque_Nm' in [load]; valid keys: kind, force_N"},
+                  {"inertia", edited(sledge, "mass_kg = 2", "inertia_kgm2 = 2"),
+                   "s.toml:2:1: error: [mesh] lacks 'mass_kg' (mass that moves)\n"
+                   "s.toml:5:1: error: unknown key 'inertia_kgm2' in [mesh]; valid keys: kind, axis, mass_kg"},
+                  {"mass", edited(sledge, "mass_kg = 2", "mass_kg = 0"),
+                   "s.toml:5:11: error: mesh.mass_kg = 0 kg must be greater than 0 kg"},
+                  {"gravity arm", edited(sledge, load, "kind = \"gravity_arm\"\nforce_N = 1"),
+                   "s.toml:10:8: error: load.kind = \"gravity_arm\" must be one of \"constant\", \"sinusoid\", "
+                   "\"ramp\", \"step\", \"staircase\", "
+                   "\"samples\", \"angle_table\""},
+                  {"axis", edited(sledge, "axis = \"linear\"", "axis = \"straight\""),
+                   "s.toml:4:8: error: mesh.axis = \"straight\" must be one of \"rotary\", \"linear\""},
+                  {"axis of a worm gear", good_but("[mesh]", "[mesh]\naxis = \"linear\""),
+                   "s.toml:3:1: error: unknown key 'axis' in [mesh]; valid keys: kind, ratio, lead_angle_deg, "
+                   "lead_angle_rad, pressure_angle_deg, "
+                   "pressure_angle_rad, worm_pitch_radius_m, gear_pitch_radius_m, friction, worm_inertia_kgm2, "
+                   "gear_inertia_kgm2"}});
 }
 
 TEST_CASE("the statement of a linear axis survives check, and statics says that only teeth lock") {

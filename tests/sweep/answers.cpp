@@ -42,7 +42,7 @@ TEST_CASE("without a threshold trials are ranked by the first metric with a unit
   CHECK(nlohmann::json::parse(told.out)["ranked_by"] == "final_gear_angle");
 }
 
-TEST_CASE("/summary holds what the command tells", "[sweep]") {
+TEST_CASE("/summary holds the numbers that the command prints", "[sweep]") {
   const StudyFolder folder(study_but("= -2.5", "= -0.3"));
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const Outcome told = folder.run({"summary", "o.h5", "--worst", "10", "--json"});
@@ -74,7 +74,31 @@ TEST_CASE("/summary holds what the command tells", "[sweep]") {
   CHECK(summary_texts(folder, "o.h5", "influences/parameter").size() == 2);
 }
 
-TEST_CASE("trajectories are kept of the trials that a study names and of the worst, and of no other", "[sweep]") {
+TEST_CASE("the summary starts with the limits of the study and names Lemma 1's conditions in words", "[sweep]") {
+  const Folder folder;
+  REQUIRE(folder.run({"sweep", shipped("studies/fig10_sliding.toml"), "-o", "o.h5", "--referee", "1", "-q"}).exit == 0);
+  const std::string out = folder.run({"summary", "o.h5"}).out;
+  INFO(out);
+  std::size_t at = 0;
+  for (const std::string words :
+       {"bare gear\n  limit    error_max at most 0.00637 rad: missed in 0 of 200 trials, 0 [0, 1.828] % (95 % "
+        "interval, ",
+        "\n  limit    error_peak_to_peak at most 0.00087 rad: ", "\n  trials   200 of 200\n", "\n  metric  ",
+        "\n  the same in all trials: 0 for time_outside_layer, layer_reached, layer_violations, precision_violations, ",
+        "\n  Lemma 1: margin of each condition, negative if it fails\n",
+        " of 200   C1 within its variation: |C1/C1_hat - 1| <= controller.variation.C1 (condition_10)\n",
+        "\n  the same margin in all trials: 0 for beta1 >= 2, D1 >= |d - d_hat|, ",
+        "\n  influence on error_max, the largest first\n", "\n  worst trials\n",
+        "\n  referee  cvode repeated 1 trial under the recorded torque: "}) {
+    INFO(words);
+    const std::size_t found = out.find(words, at);
+    REQUIRE(found != std::string::npos);
+    at = found;
+  }
+  CHECK(out.find("\n  condition_") == std::string::npos);
+}
+
+TEST_CASE("only the trajectories of named and of the worst trials are kept", "[sweep]") {
   const StudyFolder folder(study_but("seed = 3", "seed = 3\nkeep = [7, 123]\nkeep_worst = 2"));
   const Outcome outcome = folder.sweep({"-o", "o.h5"});
   REQUIRE(outcome.exit == 0);
@@ -88,22 +112,22 @@ TEST_CASE("trajectories are kept of the trials that a study names and of the wor
 
   folder.write("study.toml", study_but("seed = 3", "seed = 3\nkeep = [200]"));
   CHECK(folder.sweep({"-o", "p.h5"}).err ==
-        "study.toml:8:8: error: sweep.keep names 200, which is no trial; there are 0 to 199\n");
+        "study.toml:8:8: error: sweep.keep names trial 200, which does not exist; the trials are 0 to 199\n");
   folder.write("study.toml", study_but("seed = 3", "seed = 3\nkeep_worst = 1\nkeep_worst_by = \"final_gear_anle\""));
   CHECK(folder.sweep({"-o", "p.h5"}).err ==
         "study.toml: error: sweep.keep_worst_by = \"final_gear_anle\": this study has no such metric; did you mean "
         "'final_gear_angle'?\n");
 }
 
-TEST_CASE("the referee agrees with the fast path, and says so where it does not", "[sweep][slow]") {
+TEST_CASE("the referee agrees with the fast path, and reports where it does not", "[sweep][slow]") {
   const StudyFolder folder(closed);
   const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "5"});
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.exit == 0);
-  CHECK(outcome.out.find("  referee  5 trials again with cvode under the recorded torque: angles within ") !=
+  CHECK(outcome.out.find("  referee  cvode repeated 5 trials under the recorded torque: angles agree within ") !=
         std::string::npos);
-  CHECK(outcome.out.find("  referee  2 of them with their own controller: angles within ") != std::string::npos);
-  CHECK(outcome.out.find("disagrees") == std::string::npos);
+  CHECK(outcome.out.find("  referee  2 of them in closed loop as well: angles agree within ") != std::string::npos);
+  CHECK(outcome.out.find("differs") == std::string::npos);
   const auto verdicts = [&](const std::string& file, const std::string& column) {
     return read_column(open_hdf5(folder / file), "referee/" + column);
   };
@@ -120,12 +144,12 @@ TEST_CASE("the referee agrees with the fast path, and says so where it does not"
   const Outcome strict = folder.sweep({"-o", "strict.h5", "--referee", "5", "--threads", "1"});
   CHECK(verdicts("strict.h5", "trial") == verdicts("o.h5", "trial"));
   CHECK(verdicts("strict.h5", "angle_difference") == angle);
-  CHECK(strict.out.find("  referee  disagrees by more than 1e-300 rad, or cannot go on, in 5 of them: trials ") !=
+  CHECK(strict.out.find("  referee  cvode differs by more than 1e-300 rad, or fails, in 5 of them: trials ") !=
         std::string::npos);
-  CHECK(folder.run({"summary", "strict.h5"}).out.find("disagrees by more than 1e-300 rad") != std::string::npos);
+  CHECK(folder.run({"summary", "strict.h5"}).out.find("differs by more than 1e-300 rad") != std::string::npos);
 }
 
-TEST_CASE("where a sensor rounds to counts the referee tells when they part", "[sweep]") {
+TEST_CASE("with a sensor that rounds to counts the referee reports when the counts first differ", "[sweep]") {
   const StudyFolder folder(edited(closed, "run.solver=taylor", "run.solver=taylor\", \"sensor.counts=100000000"));
   const Outcome outcome = folder.sweep({"-o", "o.h5", "--referee", "5"});
   INFO(outcome.out << outcome.err);
@@ -146,13 +170,13 @@ TEST_CASE("where a sensor rounds to counts the referee tells when they part", "[
   REQUIRE(count > 0);
   CHECK(first > 0.0);
   CHECK(outcome.out.find(fmt::format(
-            "in {} of them, with their own controller, the sensor's counts part; first in trial ", count)) !=
+            "in closed loop the sensor's counts differ from some time on in {} of them; first in trial ", count)) !=
         std::string::npos);
   CHECK(outcome.out.find(fmt::format(" at {:.6g} s\n", first)) != std::string::npos);
-  CHECK(outcome.out.find("disagrees") == std::string::npos);
+  CHECK(outcome.out.find("differs") == std::string::npos);
 }
 
-TEST_CASE("the worst case is the corner of the box where it has to be", "[sweep]") {
+TEST_CASE("the worst case is the expected corner of the box", "[sweep]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 50"));
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const Outcome outcome = folder.run({"worst", "o.h5", "-o", "worst.h5", "--tail", "0.01", "--evaluations", "800"});
@@ -171,10 +195,10 @@ TEST_CASE("the worst case is the corner of the box where it has to be", "[sweep]
   REQUIRE(corner.exit == 0);
   const double there = read_column(open_hdf5(folder / "corner.h5"), "trajectory/gear_speed").back();
   CHECK(std::abs(speed - there) <= 1e-5 * std::abs(there));
-  CHECK(outcome.out.find("  referee  with cvode final_gear_speed ") != std::string::npos);
+  CHECK(outcome.out.find("  referee  cvode: final_gear_speed ") != std::string::npos);
 }
 
-TEST_CASE("a sweep has its picture, and runs of its trials are drawn one over the other", "[sweep][slow]") {
+TEST_CASE("a sweep is drawn, alone and with runs of its trials", "[sweep][slow]") {
   const StudyFolder folder(closed);
   REQUIRE(folder.sweep({"-o", "o.h5", "-q"}).exit == 0);
   for (const char* trial : {"3", "4"})

@@ -18,7 +18,7 @@ struct BadStudy {
 
 }  // namespace
 
-TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
+TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
   const std::vector<BadStudy> cases{
       {"path = \"mesh.friction\"", "path = \"mesh.frction\"",
        "study.toml:9:8: error: unknown key 'frction' in [mesh]; did you mean 'friction'?"},
@@ -52,7 +52,7 @@ TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
        "study.toml:3:7: error: run.solver = \"tailor\" must be one of \"cvode\", \"taylor\""},
       {"[[threshold]]",
        "[[correlation]]\nbetween = [\"mesh.friction\", \"mesh.ratio\"]\ncoefficient = 0.5\n[[threshold]]",
-       "study.toml:20:11: error: correlation[0].between names 'mesh.ratio', which is no [[parameter]]"},
+       "study.toml:20:11: error: correlation[0].between names 'mesh.ratio', which is not the path of a [[parameter]]"},
       {"[[threshold]]",
        "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
        "[[correlation]]\nbetween = [\"effect.worm_coulomb.torque_Nm\", \"mesh.friction\"]\ncoefficient = -0.9\n"
@@ -72,13 +72,13 @@ TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
        "[sweep]\ndesign = \"latin_hypercube\"\ntrials = 10000001",
        "study.toml:9:10: error: sweep.trials = 10000001 is too many for a Latin hypercube with a [[correlation]], "
        "which is "
-       "laid out in memory; at most 10000000, or take \"sobol\" or \"monte_carlo\""},
+       "held in memory; at most 10000000 are allowed, or use \"sobol\" or \"monte_carlo\""},
       {"design = \"monte_carlo\"\ntrials = 200\nseed = 3\n[[parameter]]\npath = \"mesh.friction\"\n"
        "distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1",
        "design = \"grid\"\nlevels = 7\n[[parameter]]\npath = \"mesh.friction\"\n"
        "distribution = \"discrete\"\nvalues = [0.2, 0.3]\nlevels = 3",
-       "study.toml:5:10: error: sweep.design = \"grid\" takes every value of a discrete parameter once, and "
-       "'mesh.friction' has 2 values and states levels = 3; leave them out"}};
+       "study.toml:5:10: error: sweep.design = \"grid\" takes every value of a discrete parameter once, but "
+       "'mesh.friction' has 2 values but states levels = 3; remove them"}};
   for (const BadStudy& bad : cases) {
     const StudyFolder folder(study_but(bad.part, bad.by));
     const std::set<std::string> before = folder.names();
@@ -90,16 +90,16 @@ TEST_CASE("a bad study is refused with one line for each fault", "[sweep]") {
   }
 }
 
-TEST_CASE("Sobol indices of correlated parameters are refused", "[sweep]") {
+TEST_CASE("Sobol indices of correlated parameters are rejected", "[sweep]") {
   const StudyFolder folder(study_but("design = \"monte_carlo\"\ntrials = 200", "design = \"saltelli\"\nsamples = 20") +
                            "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\n"
                            "coefficient = 0.5\n");
   CHECK(folder.sweep({}).err ==
-        "study.toml:5:10: error: sweep.design = \"saltelli\" needs independent parameters, and there is a "
+        "study.toml:5:10: error: sweep.design = \"saltelli\" needs independent parameters, but there is a "
         "[[correlation]]; Sobol indices of dependent parameters do not add up to the variance\n");
 }
 
-TEST_CASE("a number that has to be whole is not drawn from a continuous distribution", "[sweep]") {
+TEST_CASE("a whole number cannot have a continuous distribution", "[sweep]") {
   const StudyFolder folder(R"(scenario = ")" + shipped("fig10_sliding_014deg_bare.toml") + R"("
 [sweep]
 design = "monte_carlo"
@@ -117,7 +117,7 @@ high = 2000
         "whole values\n");
 }
 
-TEST_CASE("trials that cannot run become rows with their reason, and the sweep is done", "[sweep]") {
+TEST_CASE("trials that cannot run become rows with their reason, and the sweep completes", "[sweep]") {
   const std::string failing = study_but("distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1",
                                         "distribution = \"discrete\"\nvalues = [0.25, -0.1, 20]\nweights = [95, 3, 2]");
   const StudyFolder folder(edited(failing, "trials = 200", "trials = 2000"));
@@ -145,7 +145,7 @@ TEST_CASE("trials that cannot run become rows with their reason, and the sweep i
   CHECK(folder
             .run({"replay", "out.h5", "--trial",
                   std::to_string(std::find(friction.begin(), friction.end(), -0.1) - friction.begin()), "-o", "r.h5"})
-            .err.ends_with("was not run: mesh.friction = -0.1 must be at least 0\n"));
+            .err.ends_with("was refused and has no trajectory: mesh.friction = -0.1 must be at least 0\n"));
 
   // the eleventh failure is the last row, however many threads were ahead of it
   std::size_t rows = 0;
@@ -157,9 +157,9 @@ TEST_CASE("trials that cannot run become rows with their reason, and the sweep i
   for (const char* threads : {"1", "8"}) {
     const Outcome stopped = folder.sweep({"-o", "few.h5", "--max-failures", "10", "--resume", "--threads", threads});
     CHECK(stopped.exit == 3);
-    CHECK(stopped.err.starts_with(
-        fmt::format("wormdrive: 11 of {} trials failed, more than --max-failures 10; most often: {}", rows, most)));
-    CHECK(stopped.err.ends_with("; few.h5.part keeps them all\n"));
+    CHECK(stopped.err.starts_with(fmt::format(
+        "wormdrive: 11 of {} trials failed, more than --max-failures 10; most frequent reason: {}", rows, most)));
+    CHECK(stopped.err.ends_with("; few.h5.part contains all of them\n"));
     CHECK(folder.present("few.h5.part") == rows);
     // once more as it is, then anew
     CHECK(folder.sweep({"-o", "few.h5", "--max-failures", "10", "--resume"}).err == stopped.err);
@@ -167,7 +167,7 @@ TEST_CASE("trials that cannot run become rows with their reason, and the sweep i
   }
 }
 
-TEST_CASE("trials whose controller does not hold the drive end as rows too", "[sweep]") {
+TEST_CASE("trials whose controller loses the drive become rows as well", "[sweep]") {
   for (const char* scenario : {"fig10_pid_014rad_bare.toml", "fig10_sliding_014rad_bare.toml"}) {
     const StudyFolder folder(R"(scenario = ")" + shipped(scenario) + R"("
 set = ["run.solver=taylor", "run.duration_s=3", "run.report_interval_s=3"]
@@ -192,7 +192,8 @@ weights = [95, 5]
       halted += status[k] == 3.0;
     }
     CHECK(halted > 0);
-    CHECK(outcome.out.find(fmt::format("  failed   {}: cannot go on at t = ", halted)) != std::string::npos);
+    CHECK(outcome.out.find(fmt::format("  failed   {} trial{}: cannot go on at t = ", halted,
+                                       halted == 1 ? "" : "s")) != std::string::npos);
     CHECK(outcome.out.find("more than 100000 steps to the next sample or report; the controller does not hold the "
                            "drive, or reports are too far apart") != std::string::npos);
   }
@@ -210,24 +211,22 @@ TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[swe
   };
   const std::size_t rows = folder.present("o.h5.part");
   refused({"-o", "o.h5"},
-          fmt::format("o.h5.part: error: holds {} of 500000 trials of an interrupted sweep; add --resume to "
-                      "go on, or delete it to begin anew\n",
+          fmt::format("o.h5.part: error: contains {} of 500000 trials of an interrupted sweep; add --resume to "
+                      "continue it, or delete it to start again\n",
                       rows));
-  refused(
-      {"-o", "o.h5", "--resume", "--shard", "1/2"},
-      "o.h5.part: error: cannot be resumed: it holds trials 0 to 499999, and 0 to 249999 are wanted; give its --shard "
-      "again\n");
+  refused({"-o", "o.h5", "--resume", "--shard", "1/2"},
+          "o.h5.part: error: cannot be resumed: it contains trials 0 to 499999, not 0 to 249999; repeat its --shard\n");
   folder.write("study.toml", study_but("trials = 200", "trials = 400000"));
   refused({"-o", "o.h5", "--resume"},
           "o.h5.part: error: cannot be resumed: the study differs in sweep.trials: 500000, then 400000; undo the "
           "change, or "
-          "delete the file to begin anew\n");
+          "delete the file to start again\n");
   folder.write("study.toml", study_but("trials = 200", "trials = 500000  # a comment is no difference"));
   folder.write("s.toml", good_but("ratio = 60", "ratio = 61"));
   refused(
       {"-o", "o.h5", "--resume"},
       "o.h5.part: error: cannot be resumed: the scenario differs in mesh.ratio: 60.0, then 61.0; undo the change, or "
-      "delete the file to begin anew\n");
+      "delete the file to start again\n");
   folder.write("s.toml", good_scenario);
   {
     const Hdf5Handle part = reopen_hdf5(folder / "o.h5.part");
@@ -237,11 +236,11 @@ TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[swe
   const Outcome other = folder.sweep({"-o", "o.h5", "--resume"});
   CHECK(other.exit == 2);
   CHECK(other.err == fmt::format("o.h5.part: error: cannot be resumed: it was made by wormdrive 0.0.1 (abc), and this "
-                                 "is {}; undo the change, or delete the file to begin anew\n",
+                                 "is {}; undo the change, or delete the file to start again\n",
                                  program_identity()));
   folder.write("o.h5.part", "no HDF5");
   CHECK(folder.sweep({"-o", "o.h5", "--resume"}).err ==
-        "o.h5.part: error: cannot be resumed: it cannot be opened as HDF5; delete the file to begin anew\n");
+        "o.h5.part: error: cannot be resumed: it cannot be opened as HDF5; delete the file to start again\n");
 }
 
 TEST_CASE("shards that do not make one sweep are not merged", "[sweep][slow]") {
@@ -256,9 +255,9 @@ TEST_CASE("shards that do not make one sweep are not merged", "[sweep][slow]") {
     CHECK(outcome.err == message + "\n");
     CHECK_FALSE(folder.names().contains("m.h5"));
   };
-  says({"1.h5", "3.h5"}, "3.h5: error: trials 67 to 133 before it stand in no shard");
-  says({"1.h5", "2.h5"}, "2.h5: error: trials 134 to 199 after it stand in no shard");
-  says({"1.h5", "2.h5", "2.h5", "3.h5"}, "2.h5: error: trials 67 to 133 stand in another shard too");
+  says({"1.h5", "3.h5"}, "3.h5: error: no shard contains trials 67 to 133 before it");
+  says({"1.h5", "2.h5"}, "2.h5: error: no shard contains trials 134 to 199 after it");
+  says({"1.h5", "2.h5", "2.h5", "3.h5"}, "2.h5: error: another shard also contains trials 67 to 133");
   says({"1.h5", "s.toml"}, "s.toml: error: it cannot be opened as HDF5");
   folder.write("study.toml", study_but("seed = 3", "seed = 4"));
   REQUIRE(folder.sweep({"-o", "other.h5", "--shard", "2/3"}).exit == 0);

@@ -69,8 +69,7 @@ TEST_CASE("a Latin hypercube uses every stratum of every parameter once", "[swee
   }
 }
 
-TEST_CASE("a correlated Latin hypercube uses every stratum once and has the correlations that were asked for",
-          "[sweep]") {
+TEST_CASE("a correlated Latin hypercube uses every stratum once and has the stated correlations", "[sweep]") {
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Identity(5, 5);  // the fourth is free
   const auto state = [&](int j, int k, double coefficient) { wanted(j, k) = wanted(k, j) = coefficient; };
   state(0, 2, 0.9);
@@ -110,7 +109,7 @@ TEST_CASE("a correlated Latin hypercube uses every stratum once and has the corr
   }
 }
 
-TEST_CASE("a correlated Latin hypercube is the same for all who share it, and less its correlations the same point",
+TEST_CASE("a correlated Latin hypercube is the same in every process, and without correlations the same points",
           "[sweep]") {
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Identity(2, 2);
   wanted(0, 1) = wanted(1, 0) = 0.7;
@@ -136,7 +135,7 @@ TEST_CASE("a correlated Latin hypercube is the same for all who share it, and le
   }
 }
 
-TEST_CASE("of a shifted Sobol sequence the first 2^m points lie one in each 2^-m, the origin included", "[sweep]") {
+TEST_CASE("the first 2^m points of a shifted Sobol sequence lie one in each interval of 2^-m", "[sweep]") {
   const auto all = points(SobolSequence{256}, 5, 9);
   for (std::size_t k = 0; k < 5; ++k) {
     std::set<int> strata;
@@ -176,7 +175,7 @@ TEST_CASE("a grid has every combination, one at a time every parameter alone", "
   CHECK(alone == std::vector<std::vector<double>>{{0.5, 0.5}, {0.25, 0.5}, {0.75, 0.5}, {0.5, 0.5}});
 }
 
-TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
+TEST_CASE("a point does not depend on the order in which points are computed", "[sweep]") {
   const DesignSettings designs[] = {MonteCarlo{100}, LatinHypercube{100}, SobolSequence{100},
                                     Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}, {0.5, 0.5, 0.5}}};
   for (const DesignSettings& settings : designs) {
@@ -188,7 +187,7 @@ TEST_CASE("a point is the same whoever asks, in whatever order", "[sweep]") {
   }
 }
 
-TEST_CASE("by levels a discrete parameter takes each of its values once, whatever it weighs", "[sweep]") {
+TEST_CASE("in a design by levels a discrete parameter takes each value once, whatever its weight", "[sweep]") {
   const std::string text =
       edited(edited(good_study, "distribution = \"truncated_normal\"\nmean = 0.25\ndeviation = 0.05\nlow = 0.1\n",
                     "distribution = \"discrete\"\nvalues = [0.2, 0.3, 0.3, 0.25]\nweights = [0.99, 0, 0.01, 1e-30]\n"),

@@ -39,7 +39,7 @@ TEST_CASE("diff of two sweeps names the columns and the trials that differ", "[s
   const Outcome same = folder.run({"diff", "a.h5", "same.h5", "--relative", "0"});
   INFO(same.out << same.err);
   CHECK(same.exit == 0);
-  CHECK(same.out.ends_with("they agree: 200 trials compared\n"));
+  CHECK(same.out.ends_with("the results agree: 200 trials compared\n"));
 
   const std::vector<double> speed = folder.column("a.h5", "final_gear_speed");
   change(folder, "other.h5", "final_gear_speed", {{7, speed[7] + 0.5}, {150, speed[150] - 0.25}});
@@ -48,7 +48,7 @@ TEST_CASE("diff of two sweeps names the columns and the trials that differ", "[s
   CHECK(line_with(other.out, "trials/final_gear_speed").find(" 0.5 in trial 7 ") != std::string::npos);
   CHECK(line_with(other.out, "trials/final_gear_speed").ends_with("DIFFERS in 2 trials: 7, 150"));
   CHECK(line_with(other.out, "trials/mesh.friction").find("DIFFERS") == std::string::npos);
-  CHECK(other.out.ends_with("they differ: 200 trials compared\n"));
+  CHECK(other.out.ends_with("the results differ: 200 trials compared\n"));
   CHECK(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.5000001"}).exit == 0);
   CHECK(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.3", "-q"}).out.empty());
   const auto json = nlohmann::json::parse(folder.run({"diff", "a.h5", "other.h5", "--absolute", "0.3", "--json"}).out);
@@ -67,10 +67,12 @@ TEST_CASE("diff of two sweeps names the columns and the trials that differ", "[s
   change(folder, "failed.h5", "status", {{3, 2.0}, {4, 3.0}});
   const Outcome failed = folder.run({"diff", "a.h5", "failed.h5"});
   CHECK(failed.exit == 1);
-  CHECK(failed.out.find("  another end of 2 trials: 3, 4; 3 done, then refused\n") != std::string::npos);
+  CHECK(failed.out.find(
+            "  2 trials ended differently: 3, 4; trial 3: done in the first result, refused in the second\n") !=
+        std::string::npos);
 }
 
-TEST_CASE("diff of two sweeps tells trials and columns that one of them lacks, and what else is another", "[sweep]") {
+TEST_CASE("diff of two sweeps names trials and columns that one of them lacks, and other differences", "[sweep]") {
   const StudyFolder folder;
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   REQUIRE(folder.sweep({"-o", "shard.h5", "--shard", "2/4"}).exit == 0);
@@ -78,7 +80,7 @@ TEST_CASE("diff of two sweeps tells trials and columns that one of them lacks, a
   INFO(shard.out << shard.err);
   CHECK(shard.exit == 1);
   CHECK(shard.out.find("  150 trials in whole.h5 only: 0 to 49, 100 to 199\n") != std::string::npos);
-  CHECK(shard.out.ends_with("they differ: 50 trials compared\n"));
+  CHECK(shard.out.ends_with("the results differ: 50 trials compared\n"));
 
   // another order of the kinds of reasons is no difference
   const StudyFolder failures(R"(scenario = "s.toml"
@@ -96,7 +98,7 @@ weights = [60, 20, 20]
   REQUIRE(failures.sweep({"-o", "a.h5"}).exit == 0);
   REQUIRE(failures.sweep({"-o", "second.h5", "--shard", "2/2"}).exit == 0);
   const Outcome half = failures.run({"diff", "second.h5", "a.h5"});
-  CHECK(half.out.find("another reason") == std::string::npos);
+  CHECK(half.out.find("failed for another reason") == std::string::npos);
   CHECK(half.out.find("  20 trials in a.h5 only: 0 to 19\n") != std::string::npos);
 
   folder.write("study.toml", study_but("seed = 3", "seed = 4"));

@@ -29,7 +29,7 @@ struct Moments {
 
 }  // namespace
 
-TEST_CASE("log and exp of our own are those of the C library", "[sweep]") {
+TEST_CASE("the program's log and exp equal those of the C library", "[sweep]") {
   Deviation log_error, exp_error;
   for (int k = 1; k < 20000; ++k) {
     const double u = to_unit_interval(random_bits(1, SweepStream::draws, k, 0)[0]);
@@ -43,7 +43,7 @@ TEST_CASE("log and exp of our own are those of the C library", "[sweep]") {
   CHECK(exp_error <= 4.5e-16);
 }
 
-TEST_CASE("the normal quantile and its inverse are those of boost.math", "[sweep]") {
+TEST_CASE("the normal quantile and its inverse equal those of boost.math", "[sweep]") {
   const boost::math::normal_distribution<double> normal;
   Deviation forth, back;
   for (const double u : {1e-300, 1e-20, 1e-9, 1e-3, 0.02, 0.074, 0.076, 0.2, 0.4999, 0.7, 0.926, 0.99, 1.0 - 1e-12}) {
@@ -76,8 +76,7 @@ TEST_CASE("distributions have the moments of their closed forms", "[sweep]") {
   CHECK(close(table.mean, 1.75, 1e-6));
 }
 
-TEST_CASE("a cut normal distribution is that of the closed form, in its middle and far out in its tails",
-          "[sweep][slow]") {
+TEST_CASE("a truncated normal distribution follows the closed form, also far out in its tails", "[sweep][slow]") {
   const boost::math::normal_distribution<double> unit;
   const auto [low, high] = std::pair{-0.5, 2.0};
   const Moments cut(TruncatedNormal{0.0, 1.0, low, high});
@@ -94,7 +93,7 @@ TEST_CASE("a cut normal distribution is that of the closed form, in its middle a
   }
 }
 
-TEST_CASE("quantiles stand where the definitions put them", "[sweep]") {
+TEST_CASE("quantiles follow their definitions", "[sweep]") {
   CHECK(Uniform{-1.0, 3.0}.quantile(0.25) == 0.0);
   CHECK(Lognormal{0.25, 0.3}.quantile(0.5) == 0.25);
   CHECK(Triangular{1.0, 2.0, 6.0}.quantile(0.2) == 2.0);

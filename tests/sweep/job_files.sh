@@ -72,7 +72,7 @@ grep -q "^usage: sbatch --array=1-SHARDS slurm_array.sh STUDY RESULT SHARDS$" us
 rc=0
 until_time_is_over shards/long_1_of_3.h5 "$jobs/slurm_array.sh" long.toml long.h5 3 || rc=$?
 [[ $rc == 143 ]] || fail "the array's task ended with $rc: $(cat job.err)"
-grep -q "^wormdrive: interrupted after [1-9][0-9]* of 1000000 trials, all of them in shards/long_1_of_3.h5.part;" job.err \
+grep -q "^wormdrive: interrupted after [1-9][0-9]* of 1000000 trials, which are in shards/long_1_of_3.h5.part;" job.err \
   || fail "$(cat job.err)"
 
 if command -v parallel > /dev/null; then
@@ -90,7 +90,7 @@ if command -v mpirun > /dev/null && [[ $(ldd "$program") == *libmpi* ]]; then
   is_whole mpi.h5
   rc=0
   until_time_is_over ranks.h5 "$jobs/slurm_mpi.sh" long.toml ranks.h5 || rc=$?
-  grep -q "^wormdrive: ended after [1-9][0-9]* of 3000000 trials, all of them in ranks.h5.rank_\*;" job.err \
+  grep -q "^wormdrive: stopped after [1-9][0-9]* of 3000000 trials, which are in ranks.h5.rank_\*;" job.err \
     || fail "the ranks ended with $rc: $(cat job.err)"
 else
   echo "skipped: no mpirun, or built without MPI"

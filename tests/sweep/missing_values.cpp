@@ -55,7 +55,7 @@ std::vector<double> summary_column(const StudyFolder& folder, const std::string&
 
 }  // namespace
 
-TEST_CASE("what never happened misses an upper limit, keeps a lower one, and is the worst", "[sweep]") {
+TEST_CASE("an event that never happened misses an upper limit, keeps a lower one and is the worst", "[sweep]") {
   const StudyFolder folder(weak_motors);
   REQUIRE(folder.sweep({"-o", "o.h5", "--referee", "0"}).exit == 0);
   const std::vector<double> reached = folder.column("o.h5", "layer_reached"),
@@ -89,17 +89,17 @@ TEST_CASE("what never happened misses an upper limit, keeps a lower one, and is 
   CHECK(std::isinf(summary_column(folder, "metrics/quantile_99")[static_cast<std::size_t>(place)]));
 }
 
-TEST_CASE("a run that never reaches the layer is not said to keep what is promised within it", "[sweep]") {
+TEST_CASE("a run that never reaches the layer does not claim to keep the promises within it", "[sweep]") {
   const Folder folder;
   const Outcome told = folder.run({"run", shipped("fig10_sliding_014deg_bare.toml"), "-o", "o.h5", "--set",
                                    "run.duration_s=1", "--set", "metrics.from_s=0.3", "--set",
                                    "initial.gear_angle_deg=20", "--set", "effect.torque_saturation.limit_Nm=0.0001"});
   REQUIRE(told.exit == 0);
-  CHECK(told.out.find("  Lemma 1  the layer is never reached; what is promised of the time after that cannot be "
-                      "judged\n") != std::string::npos);
+  CHECK(told.out.find("  Lemma 1  the layer is never reached; the promises for the time after that cannot be "
+                      "checked\n") != std::string::npos);
 }
 
-TEST_CASE("trials that were refused stay among all, are told apart and are the worst", "[sweep]") {
+TEST_CASE("refused trials are counted among all, listed separately and ranked as the worst", "[sweep]") {
   const StudyFolder folder(some_refused);
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const std::vector<double> status = folder.column("o.h5", "status"), speed = folder.column("o.h5", "final_gear_speed"),
@@ -117,7 +117,7 @@ TEST_CASE("trials that were refused stay among all, are told apart and are the w
   CHECK(threshold["of"] == 200);
   CHECK(threshold["not_kept"]["high"] == probability(missed + refused, 200).high);
   const Outcome told = folder.run({"summary", "o.h5"});
-  CHECK(told.out.find(fmt::format("           {} refused, 0 halted, {} kept; not kept in ", refused,
+  CHECK(told.out.find(fmt::format("           {} refused, 0 halted, {} kept; missed, refused or halted: ", refused,
                                   200 - refused - missed)) != std::string::npos);
   CHECK(told.out.find("refused: mesh.friction = -0.1 must be at least 0, mesh.friction -0.1") != std::string::npos);
   for (const auto& trial : json["worst"]) {
@@ -137,15 +137,15 @@ TEST_CASE("trials that were refused stay among all, are told apart and are the w
 
   const Outcome worst = folder.run({"worst", "o.h5", "-o", "worst.h5"});
   CHECK(worst.exit == 2);
-  CHECK(worst.err == fmt::format("o.h5: error: trial {} is the worst, and cannot run: mesh.friction = -0.1 must be at "
-                                 "least 0; --done-only looks among drives that do\n",
+  CHECK(worst.err == fmt::format("o.h5: error: trial {} is the worst but cannot run: mesh.friction = -0.1 must be at "
+                                 "least 0; --done-only considers only drives that can\n",
                                  std::find(status.begin(), status.end(), 2.0) - status.begin()));
   CHECK(folder.run({"worst", "o.h5", "-o", "worst.h5", "--done-only", "--evaluations", "40"}).exit == 0);
   CHECK(folder.run({"report", "o.h5"}).exit == 0);
   CHECK(folder.read("o.html").find("more were refused and 0 halted") != std::string::npos);
 }
 
-TEST_CASE("a quantile among values that are missing is the worst there is, not a number that nobody had", "[sweep]") {
+TEST_CASE("a quantile among missing values is the worst value, not an invented number", "[sweep]") {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const auto quantile = [](const std::vector<double>& rising, double p) {
     return sample_quantile(quantile_ranks(rising.size(), p), [&](std::uint64_t rank) { return rising.at(rank); }).value;
@@ -157,7 +157,7 @@ TEST_CASE("a quantile among values that are missing is the worst there is, not a
   CHECK(quantile({-infinite, 1.0}, 0.5) == -infinite);
 }
 
-TEST_CASE("a limit is missed by whatever is not known to keep it", "[sweep]") {
+TEST_CASE("a missing value misses every limit", "[sweep]") {
   const Threshold above{"error_max", 1.0, true}, below{"error_max", 1.0, false};
   for (const Threshold& threshold : {above, below}) {
     CHECK(threshold.missed_by(std::nan("")));
@@ -167,7 +167,7 @@ TEST_CASE("a limit is missed by whatever is not known to keep it", "[sweep]") {
   CHECK_FALSE(below.missed_by(1.5));
 }
 
-TEST_CASE("a design that is no sample has no confidence intervals anywhere", "[sweep][slow]") {
+TEST_CASE("a design that is not a random sample has no confidence intervals", "[sweep][slow]") {
   const StudyFolder folder(study_but("design = \"monte_carlo\"\ntrials = 200", "design = \"grid\"\nlevels = 5"));
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const Outcome told = folder.run({"summary", "o.h5"});

@@ -47,7 +47,7 @@ std::vector<double> errors(const std::string& study) {
 
 }  // namespace
 
-TEST_CASE("every trial has noise of its own, or all have the same if the study asks for it", "[sweep]") {
+TEST_CASE("every trial has its own noise, or all have the same if the study asks for it", "[sweep]") {
   for (const char* noise : {sensor, disturbance}) {
     INFO(noise);
     CHECK(spread(errors(noisy(noise))) > 1e-3);
@@ -56,7 +56,7 @@ TEST_CASE("every trial has noise of its own, or all have the same if the study a
   CHECK(errors(noisy(sensor)) != errors(edited(noisy(sensor), "seed = 1", "seed = 2")));
 }
 
-TEST_CASE("noise is of the trial, whoever makes it and replays it", "[sweep][slow]") {
+TEST_CASE("the noise of a trial is the same in threads, shards and replays", "[sweep][slow]") {
   for (const char* noise : {sensor, disturbance}) {
     const StudyFolder folder(noisy(noise));
     REQUIRE(folder.sweep({"-o", "1.h5", "--threads", "1"}).exit == 0);
@@ -83,7 +83,7 @@ TEST_CASE("noise is of the trial, whoever makes it and replays it", "[sweep][slo
   }
 }
 
-TEST_CASE("a study that varies the seed of noise says itself which noise a trial has", "[sweep]") {
+TEST_CASE("a study that varies the noise seed determines the noise of each trial", "[sweep]") {
   const std::string study =
       edited(noisy(sensor), "path = \"mesh.friction\"\ndistribution = \"uniform\"\nlow = 0.25\nhigh = 0.2500000001",
              "path = \"sensor.seed\"\ndistribution = \"discrete\"\nvalues = [1, 2]");

@@ -65,7 +65,7 @@ std::vector<pid_t> children(pid_t parent) {
 
 }  // namespace
 
-TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep][slow]") {
+TEST_CASE("1, 2 and 4 ranks give the rows of one process", "[sweep][slow]") {
   if (!has_mpi()) return;
   const auto study = GENERATE(as<std::string>(), good_study, lanes_study);
   const StudyFolder folder(edited(study, "trials = 200", "trials = 2000"));
@@ -80,7 +80,7 @@ TEST_CASE("1, 2 and 4 ranks make the rows of one process", "[sweep][slow]") {
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "1.h5", "2.h5", "4.h5"});
 }
 
-TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up for", "[sweep][slow]") {
+TEST_CASE("a lost rank loses its last trials, which any number of ranks can run again", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 100000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
@@ -111,25 +111,25 @@ TEST_CASE("a lost rank costs its last trials, which any number of ranks makes up
 
   const Outcome anew = Process(on_ranks("2", {"-o", "ranks.h5"}), folder.path()).wait();
   CHECK(anew.exit == 2);
-  CHECK(anew.err.find("of 100000 trials of an interrupted sweep; add --resume to go on") != std::string::npos);
+  CHECK(anew.err.find("of 100000 trials of an interrupted sweep; add --resume to continue it") != std::string::npos);
 
   SECTION("of four ranks") {
     const Outcome outcome = Process(on_ranks("4", {"-o", "ranks.h5", "--resume"}), folder.path()).wait();
     INFO(outcome.err);
     REQUIRE(outcome.exit == 0);
-    CHECK(outcome.out.find(" were there already") != std::string::npos);
+    CHECK(outcome.out.find(" were already complete") != std::string::npos);
   }
   SECTION("or a single process") {
     const Outcome outcome = folder.sweep({"-o", "ranks.h5", "--resume"});
     INFO(outcome.err);
     REQUIRE(outcome.exit == 0);
-    CHECK(outcome.out.find(" were there already") != std::string::npos);
+    CHECK(outcome.out.find(" were already complete") != std::string::npos);
   }
   CHECK(folder.rows("ranks.h5") == folder.rows("alone.h5"));
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "ranks.h5"});
 }
 
-TEST_CASE("what a single process has left, ranks go on with", "[sweep][slow]") {
+TEST_CASE("ranks resume the sweep of a single process", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 60000"));
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
@@ -140,12 +140,12 @@ TEST_CASE("what a single process has left, ranks go on with", "[sweep][slow]") {
   CHECK(folder.rows("ranks.h5") == folder.rows("alone.h5"));
 }
 
-TEST_CASE("ranks end for as many failures, and say so in the words, of a single process", "[sweep][slow]") {
+TEST_CASE("ranks stop at --max-failures with the message of a single process", "[sweep][slow]") {
   if (!has_mpi()) return;
   const StudyFolder folder(edited(lanes_study, "trials = 200", "trials = 4000"));
-  const auto told = [](const std::string& said) {  // "11 of 432 trials failed, ...; most often: ..."
+  const auto told = [](const std::string& said) {  // "11 of 432 trials failed, ...; most frequent reason: ..."
     const std::size_t begin = said.find("wormdrive: ");
-    return said.substr(begin, said.find("; ", said.find("most often")) - begin);
+    return said.substr(begin, said.find("; ", said.find("most frequent")) - begin);
   };
   const Outcome alone = folder.sweep({"-o", "alone.h5", "--max-failures", "10"});
   REQUIRE(alone.exit == 3);
@@ -164,7 +164,7 @@ TEST_CASE("ranks end for as many failures, and say so in the words, of a single 
 }
 
 /// What each of some ranks does in the test that follows: portions of a time in which it does not call MPI.
-TEST_CASE("a rank takes portions that take long", "[.][slow]") {
+TEST_CASE("a rank takes slow portions", "[.][slow]") {
   Ranks ranks(false);
   int made = 0;
   for (; ranks.add({1, 0}).portions < 40; ++made) std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -172,13 +172,13 @@ TEST_CASE("a rank takes portions that take long", "[.][slow]") {
   std::cout << fmt::format("rank {} of {} made {}\n", ranks.rank(), ranks.count(), made);
 }
 
-TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "[sweep][slow]") {
+TEST_CASE("ranks share slow portions evenly on any MPI transport", "[sweep][slow]") {
   if (!has_mpi()) return;
   using Variables = std::vector<std::pair<std::string, std::string>>;
   const auto variables = GENERATE(Variables{}, Variables{{"OMPI_MCA_btl", "tcp,self"}});
   const Environment environment(variables);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  const Outcome outcome = Process({mpirun, "-n", "2", self, "a rank takes portions that take long"}, "/").wait();
+  const Outcome outcome = Process({mpirun, "-n", "2", self, "a rank takes slow portions"}, "/").wait();
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.exit == 0);
   for (const std::string rank : {"rank 0 of 2 made ", "rank 1 of 2 made "}) {
@@ -190,7 +190,7 @@ TEST_CASE("ranks share slow portions evenly, whatever carries their messages", "
   }
 }
 
-TEST_CASE("a sweep on ranks tells how many trials they have made", "[sweep]") {
+TEST_CASE("a sweep on ranks prints how many trials each rank has run", "[sweep]") {
   if (!has_mpi()) return;
   const StudyFolder folder;
   const Outcome outcome = Process(on_ranks("2", {"-o", "o.h5"}), folder.path()).wait();
@@ -219,11 +219,11 @@ TEST_CASE("the processes of srun find each other by PMIx", "[sweep]") {
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "alone.h5", "o.h5"});
 }
 
-TEST_CASE("processes that cannot find each other are told apart from a single one, in one line", "[sweep]") {
+TEST_CASE("processes that cannot find each other are rejected in one line", "[sweep]") {
   const StudyFolder folder;
   const std::string cure =
       mpirun.empty() ? "this wormdrive was built without MPI; install libopenmpi-dev and build it again, or give every "
-                       "process a --shard of its own\n"
+                       "process its own --shard\n"
                      : "";
   {
     const Environment srun({{"SLURM_STEP_NUM_TASKS", "4"}, {"SLURM_PROCID", "0"}});
@@ -231,7 +231,7 @@ TEST_CASE("processes that cannot find each other are told apart from a single on
     CHECK(outcome.exit == 2);
     CHECK(outcome.err ==
           "srun: error: " + (cure.empty() ? "has started 4 processes that cannot find each other; start them with srun "
-                                            "--mpi=pmix or with mpirun, or give every process a --shard of its own\n"
+                                            "--mpi=pmix or with mpirun, or give every process its own --shard\n"
                                           : cure));
     CHECK(folder.sweep({"-o", "shard.h5", "--shard", "1/4"}).exit == 0);
   }
@@ -246,9 +246,9 @@ TEST_CASE("processes that cannot find each other are told apart from a single on
     const Outcome outcome = folder.sweep({"-o", "o.h5"});
     CHECK(outcome.exit == 2);
     CHECK(
-        outcome.err.starts_with("mpirun: error: has started 4 processes, of which MPI finds 1: it is not of the MPI "
-                                "with which wormdrive was built, "));
-    CHECK(outcome.err.ends_with("; start them with its mpirun, or give every process a --shard of its own\n"));
+        outcome.err.starts_with("mpirun: error: has started 4 processes, but MPI finds 1: it belongs to another MPI "
+                                "than the one wormdrive was built with, "));
+    CHECK(outcome.err.ends_with("; start them with the mpirun of that MPI, or give every process its own --shard\n"));
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
   }
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "shard.h5"});
@@ -258,7 +258,7 @@ TEST_CASE("processes that cannot find each other are told apart from a single on
   }
 }
 
-TEST_CASE("bad input on ranks is told once", "[sweep]") {
+TEST_CASE("bad input on ranks is reported once", "[sweep]") {
   if (!has_mpi()) return;
   const StudyFolder folder(study_but("trials = 200", "trials = 0"));
   const Outcome outcome = Process(on_ranks("2", {"-o", "ranks.h5"}), folder.path()).wait();

@@ -43,7 +43,7 @@ nlohmann::json so_far(const StudyFolder& folder, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a slow trial holds back no other: kill -9 costs the trials that have not ended", "[sweep][slow]") {
+TEST_CASE("a slow trial delays no other: kill -9 loses only trials that have not ended", "[sweep][slow]") {
   const StudyFolder folder(one_slow_trial);
   const int signal = GENERATE(SIGKILL, SIGTERM);
   {
@@ -66,13 +66,13 @@ TEST_CASE("a slow trial holds back no other: kill -9 costs the trials that have 
   const Outcome resumed = folder.sweep({"-o", "o.h5", "--resume", "--threads", "2", "--referee", "0"});
   INFO(resumed.err);
   REQUIRE(resumed.exit == 0);
-  CHECK(resumed.out.find("; 199 were there already") != std::string::npos);
+  CHECK(resumed.out.find("; 199 were already complete") != std::string::npos);
   CHECK(folder.column("o.h5", "controller.sample_time")[static_cast<std::size_t>(slow)] == 5e-8);
   CHECK(folder.present("o.h5") == 200);
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "o.h5"});
 }
 
-TEST_CASE("trials in any order make the file of trials in order, reasons and their numbers included", "[sweep]") {
+TEST_CASE("the file of trials does not depend on their order, including reasons", "[sweep]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 12"));
   const Study study = load_study(folder / "study.toml");
   const auto trial = [&](std::uint64_t index, TrialStatus status, const std::string& reason) {
@@ -121,7 +121,7 @@ TEST_CASE("trials in any order make the file of trials in order, reasons and the
         std::set<std::string>{"s.toml", "study.toml", "in_order.h5", "backward.h5", "mixed.h5", "gone_on.h5"});
 }
 
-TEST_CASE("of four who write one result at once one does, and the others say so", "[sweep][slow]") {
+TEST_CASE("of four processes that write one result only one succeeds, and the others say why", "[sweep][slow]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 4000"));
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
@@ -161,14 +161,14 @@ TEST_CASE("of four who write one result at once one does, and the others say so"
     }
 }
 
-TEST_CASE("a lock that a killed program left locks nothing", "[sweep]") {
+TEST_CASE("a lock left by a killed program locks nothing", "[sweep]") {
   const StudyFolder folder;
   folder.write("o.h5.part.lock", "");
   CHECK(folder.sweep({"-o", "o.h5"}).exit == 0);
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "o.h5"});
 }
 
-TEST_CASE("a sweep that is still running is summed up, shown and compared so far", "[sweep][slow]") {
+TEST_CASE("a running sweep can be summarised, reported and compared", "[sweep][slow]") {
   const StudyFolder folder(edited(edited(one_slow_trial, "trials = 200", "trials = 2000000"), "5e-8", "9e-4"));
   Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "o.h5", "--threads", "1"}, folder.path());
   nlohmann::json now{{"trials", 0}};

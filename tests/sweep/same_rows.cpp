@@ -30,7 +30,7 @@ TEST_CASE("without the processor's own sine, fused multiplication and vectors th
   CHECK(folder.rows("plain.h5") == folder.rows("all.h5"));
 }
 
-TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep][slow]") {
+TEST_CASE("1, 2 and 8 threads give the same rows", "[sweep][slow]") {
   for (const std::string& study :
        {good_study, study_but("monte_carlo", "latin_hypercube"), study_but("monte_carlo", "sobol"), lanes_study}) {
     const StudyFolder folder(study);
@@ -46,7 +46,7 @@ TEST_CASE("1, 2 and 8 threads make the same rows", "[sweep][slow]") {
   }
 }
 
-TEST_CASE("another seed makes other rows", "[sweep]") {
+TEST_CASE("another seed gives other rows", "[sweep]") {
   const StudyFolder folder;
   REQUIRE(folder.sweep({"-o", "a.h5"}).exit == 0);
   folder.write("study.toml", study_but("seed = 3", "seed = 4"));
@@ -54,7 +54,7 @@ TEST_CASE("another seed makes other rows", "[sweep]") {
   CHECK(folder.rows("a.h5") != folder.rows("b.h5"));
 }
 
-TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep][slow]") {
+TEST_CASE("seven shards merged in any order equal the whole sweep", "[sweep][slow]") {
   const auto study = GENERATE(as<std::string>(), study_but("monte_carlo", "latin_hypercube"), lanes_study);
   const StudyFolder folder(study);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
@@ -71,7 +71,7 @@ TEST_CASE("seven shards merged are the whole sweep, in any order", "[sweep][slow
   CHECK(folder.rows("merged.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[sweep][slow]") {
+TEST_CASE("a sweep killed 20 times at random and resumed equals the whole sweep", "[sweep][slow]") {
   const auto study = GENERATE(as<std::string>(), many, edited(lanes_study, "trials = 200", "trials = 60000"));
   const StudyFolder folder(study);
   const auto begin = std::chrono::steady_clock::now();
@@ -111,20 +111,21 @@ TEST_CASE("a sweep killed 20 times at random and resumed is the whole sweep", "[
   is_whole();
 }
 
-TEST_CASE("SIGTERM ends a sweep with all that is done, and it says how to go on", "[sweep][slow]") {
+TEST_CASE("SIGTERM ends a sweep, which keeps its trials and prints how to continue", "[sweep][slow]") {
   const int signal = GENERATE(SIGTERM, SIGUSR1);  // a batch system's, and what it has mpirun pass on
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   const Outcome ended = folder.interrupted({"-o", "ended.h5"}, signal);
   CHECK(ended.exit == 128 + signal);
-  CHECK(ended.err == fmt::format("wormdrive: interrupted after {} of 60000 trials, all of them in ended.h5.part; go on "
-                                 "with: wormdrive sweep study.toml -o ended.h5 --resume\n",
-                                 folder.present("ended.h5.part")));
+  CHECK(ended.err ==
+        fmt::format("wormdrive: interrupted after {} of 60000 trials, which are in ended.h5.part; continue "
+                    "with: wormdrive sweep study.toml -o ended.h5 --resume\n",
+                    folder.present("ended.h5.part")));
   REQUIRE(folder.sweep({"-o", "ended.h5", "--resume"}).exit == 0);
   CHECK(folder.rows("ended.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when there is room", "[sweep][slow]") {
+TEST_CASE("a full disk loses no stored row, and the sweep can be resumed", "[sweep][slow]") {
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   constexpr rlim_t room = 2'000'000;
@@ -139,23 +140,23 @@ TEST_CASE("a full disk costs no row that was safe, and the sweep goes on when th
   CHECK(full.exit == 4);
   CHECK(full.err.starts_with("wormdrive: cannot write full.h5.part"));
   CHECK(
-      full.err.ends_with("File too large; nothing before the last second is lost: make room, then go on with: "
+      full.err.ends_with("File too large; trials older than a second are safe; free some space, then continue with: "
                          "wormdrive sweep study.toml -o full.h5 --resume\n"));
   CHECK(folder.present("full.h5.part") >= before);
   const Outcome resumed = folder.sweep({"-o", "full.h5", "--resume"});
   INFO(full.err << resumed.err);
   REQUIRE(resumed.exit == 0);
-  CHECK(resumed.out.find(" were there already") != std::string::npos);
+  CHECK(resumed.out.find(" were already complete") != std::string::npos);
   CHECK(folder.rows("full.h5") == folder.rows("whole.h5"));
 }
 
-TEST_CASE("a sweep that is whole is not made again", "[sweep]") {
+TEST_CASE("a complete sweep is not run again", "[sweep]") {
   const StudyFolder folder;
   REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
   const auto made = std::filesystem::last_write_time(folder / "o.h5");
   const Outcome again = folder.sweep({"-o", "o.h5", "--resume"});
   CHECK(again.exit == 0);
-  CHECK(again.out.ends_with("  resume   every trial is in o.h5 already\n"));
+  CHECK(again.out.ends_with("  resume   o.h5 already contains every trial\n"));
   CHECK(std::filesystem::last_write_time(folder / "o.h5") == made);
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("a trial runs again with its trajectory and the same metrics, with eit
     const Outcome outcome = folder.run({"replay", "sweep.h5", "--trial", "123", "-o", "run.h5"});
     INFO(outcome.err);
     CHECK(outcome.exit == 0);
-    CHECK(outcome.out.find("every metric is that of the sweep, to the last bit") != std::string::npos);
+    CHECK(outcome.out.find("every metric equals that of the sweep to the last bit") != std::string::npos);
     CHECK(read_column(open_hdf5(folder / "run.h5"), "trajectory/gear_speed").back() ==
           folder.column("sweep.h5", "final_gear_speed")[123]);
   }

@@ -100,7 +100,7 @@ TEST_CASE("Sobol indices of a linear model, far from zero", "[sweep]") {
   check_indices(sobol_indices(column(evaluated(linear, 4, 4096)), 4), exact, exact);
 }
 
-TEST_CASE("intervals of Sobol indices hold the truth as often as they say", "[sweep]") {
+TEST_CASE("intervals of Sobol indices contain the true value as often as stated", "[sweep]") {
   constexpr int designs = 1000;
   for (const auto& [function, samples] : {std::pair{&ishigami, 128}, {&ishigami, 1024}, {&ramp, 100}, {&corner, 256}}) {
     const std::size_t parameters = function->first.size();
@@ -145,7 +145,7 @@ TEST_CASE("Clopper and Pearson's intervals", "[sweep]") {
   CHECK(close(probability(5, 100).high, 0.11283492, 1e-6));
 }
 
-TEST_CASE("a quantile's interval holds the truth as often as it says", "[sweep]") {
+TEST_CASE("the interval of a quantile contains the true value as often as stated", "[sweep]") {
   constexpr int experiments = 2000, n = 200;
   for (const double p : {0.05, 0.5, 0.95}) {
     int caught = 0;
@@ -185,7 +185,7 @@ TEST_CASE("order statistics of a column are those of the sorted values", "[sweep
   CHECK(order_statistics(column({}), 0, {}).empty());
 }
 
-TEST_CASE("rank correlation sees order alone, and shares ranks among equals", "[sweep]") {
+TEST_CASE("rank correlation depends on order alone, and equal values share ranks", "[sweep]") {
   const std::vector<double> rising{1.0, 2.0, 3.0, 4.0};
   CHECK(close(spearman(rising, {1.0, 8.0, 27.0, 64.0}), 1.0, 1e-15));
   CHECK(close(spearman(rising, {4.0, 3.0, 2.0, 1.0}), -1.0, 1e-15));
@@ -194,7 +194,7 @@ TEST_CASE("rank correlation sees order alone, and shares ranks among equals", "[
   CHECK(close(spearman(rising, {1.0, 2.0, 2.0, 7.0}), 4.5 / std::sqrt(22.5), 1e-15));
 }
 
-TEST_CASE("rank correlation of more values than it keeps differs by nothing that matters", "[sweep]") {
+TEST_CASE("rank correlation of more values than it stores is accurate enough", "[sweep]") {
   constexpr std::uint64_t n = 200'000;
   std::vector<double> x, y;
   std::vector<std::pair<double, std::size_t>> order_x, order_y;

@@ -48,10 +48,10 @@ std::vector<Plan> benchmark(std::uint64_t seed, double scale) {
 
 constexpr const char* head = R"(# Benchmark of the diagnosis
 
-Written by `recovery_campaign --all --output docs/diagnosis_benchmark.md` (target `recovery_campaign`), seed {}, at {:g} of
-the full number of recordings. Every recording comes from a [ground truth](../tests/recovery/truth/drive.hpp) that shares
-no code with the program; the diagnosis sees its data sheet and a CSV file. Sizes are those of
-[tests/recovery/truth/hidden.cpp](../tests/recovery/truth/hidden.cpp), a factor of three apart.
+Written by `recovery_campaign --all --output FILE` with seed {} and {:g} of the full number of recordings. A
+[ground truth](../tests/recovery/truth/drive.hpp) that shares no code with the program hides effects in simulated
+recordings; the diagnosis sees only a data sheet and a CSV file. Each size of an effect is three times the one before
+([tests/recovery/truth/hidden.cpp](../tests/recovery/truth/hidden.cpp)).
 
 | conditions | nominal values | coloured torque noise, 50 ms | encoder |
 |---|---|---|---|
@@ -60,45 +60,50 @@ no code with the program; the diagnosis sees its data sheet and a CSV file. Size
 | realistic | off by 1 %, 0.5 deg, 0.3 mN m (standard deviations), as stated | 0.5 mN m | 16384 counts |
 | double | off by twice as much as stated | 0.5 mN m | 16384 counts |
 
-Where nominal values are exact the data sheet says so (`[tolerance]` 0), else it states 1 %. White torque noise of
-0.5 mN m and encoder noise of 3e-5 rad are always there.
+If the nominal values are exact, the data sheet says so (`[tolerance]` 0); otherwise it states 1 %. White torque noise
+of 0.5 mN m and encoder noise of 3e-5 rad are always present.
 
-| score | |
+| score | the diagnosis names |
 |---|---|
-| exact | the hidden effects, no more and no less; nothing where nothing was hidden |
-| in class | a class of effects that the data cannot split, the hidden one among them |
-| off | beside them, or where nothing was hidden, only stated numbers that are in truth off by 2.5 tolerances or more |
+| exact | exactly the hidden effects; nothing if nothing was hidden |
+| in class | a class of effects that the data cannot distinguish and that contains the hidden one |
+| off | in addition only stated numbers that are wrong by 2.5 tolerances or more |
 | partial | some of several hidden effects, nothing else |
 | extra | the hidden effects and another one |
-| silent | no name |
-| wrong | a name that is not hidden: the worst |
+| silent | nothing, although something was hidden |
+| wrong | an effect that was not hidden |
 
-`observable`: those large enough to be named by the certificate that came with the diagnosis; `flagged`: something is
-said to remain; `class`: mean size; `error`: median of the named parameters, with the nominal
-error counted in; `covered`: share of the 95 % intervals that hold the truth; `held out`: prediction error at 0.25 s on
-data not used for the fit over that of the noise, median.
+| row or column | meaning |
+|---|---|
+| `observable` | effects that are nameable according to the certificate of the same diagnosis |
+| `flagged` | diagnoses that report something unexplained |
+| `class` | mean size of the class |
+| `error` | median error of the named parameters, error of the nominal values included |
+| `covered` | share of the 95 % intervals that contain the true value |
+| `held out` | median ratio of the prediction error 0.25 s ahead on held-out data to that of noise alone |
 
 )";
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Hides effects in a ground truth and has them diagnosed."};
+  CLI::App app{"Hides effects in simulated recordings and counts how often the diagnosis finds them."};
   std::string kind = "single", conditions = "ideal", output;
   std::vector<std::string> sizes{"small", "medium", "large"};
   Plan plan;
   bool worm_encoder = false, all = false;
   int threads = 2;
   double scale = 1.0;
-  app.add_option("--hide", kind,
-                 "single, nothing, pair, cancelling, stated_off or outside; or thresholds, unseen or experiments: from "
-                 "which size on "
-                 "effects are named, effects in motions that cannot show them, experiments that are proposed");
+  app.add_option(
+      "--hide", kind,
+      "what is hidden: single, nothing, pair, cancelling, stated_off (an effect beside a stated number that is far "
+      "off) or outside (of the catalogue); or a study: thresholds (the "
+      "smallest size that is named), unseen (motions that cannot show the effect), experiments (proposed ones)");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
-  app.add_option("--sizes", sizes, "small, medium, large")->delimiter(',');
-  app.add_option("--effects", plan.effects, "only these")->delimiter(',');
-  app.add_option("--cases", plan.cases, "how many recordings");
-  app.add_option("--seed", plan.seed, "of everything that is drawn");
+  app.add_option("--sizes", sizes, "sizes of the effects: small, medium, large")->delimiter(',');
+  app.add_option("--effects", plan.effects, "hide only these effects")->delimiter(',');
+  app.add_option("--cases", plan.cases, "number of recordings");
+  app.add_option("--seed", plan.seed, "seed of all random numbers");
   app.add_option("--duration", plan.duration, "of a recording [s]");
   app.add_option("--threads", threads, "recordings at a time");
   app.add_flag("--worm-encoder", worm_encoder, "with an encoder of 4096 counts on the worm");

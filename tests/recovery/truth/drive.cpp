@@ -189,7 +189,7 @@ Recording record(const Drive& drive, const Law& law, const RecordingSettings& se
   // the angles that a late encoder has still to show
   std::vector<double> waiting(static_cast<std::size_t>(late_angle) + 1, machine.gear());
   const auto slot = [&](long step) { return static_cast<std::size_t>(step % (late_angle + 1)); };
-  const double keep = std::exp(-settings.period / drive.noise.time_constant);
+  const double retained = std::exp(-settings.period / drive.noise.time_constant);
   double colour = drive.noise.coloured * normal(generator);
   Recording r;
   long n = 0;
@@ -206,7 +206,7 @@ Recording record(const Drive& drive, const Law& law, const RecordingSettings& se
     r.true_speed.push_back(machine.gear_speed());
     r.true_worm_speed.push_back(machine.worm_speed());
     r.mechanical_energy.push_back(machine.energy());
-    colour = keep * colour + std::sqrt(1.0 - keep * keep) * drive.noise.coloured * normal(generator);
+    colour = retained * colour + std::sqrt(1.0 - retained * retained) * drive.noise.coloured * normal(generator);
     const double disturbance = drive.noise.white * normal(generator) + colour;
     for (long j = 0; j < per_sample; ++j, ++n) {
       const long from = n - late_torque;

@@ -35,7 +35,7 @@ struct Secret {
 
 /// Every effect of the catalogue that a recording can show.
 std::span<const Secret> catalogue();
-/// What no effect of the catalogue accounts for. `dwell` may be called static_friction.
+/// What no effect of the catalogue explains. `dwell` may be called static_friction.
 std::span<const Secret> outside();
 /// One of the two by name; throws std::invalid_argument for an unknown one.
 const Secret& secret(std::string_view effect);

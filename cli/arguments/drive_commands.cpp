@@ -1,0 +1,92 @@
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
+
+namespace wormdrive {
+namespace {
+
+void add_new(CommandSet& commands) {
+  auto [command, options] = commands.add("new", "write a commented scenario or study to start from", new_command);
+  command.add_option("file", options.file, "scenario or study to write (.toml)")->required();
+  options.kind = new_kinds().front();
+  command.add_option("--kind", options.kind, "what the file describes")
+      ->check(CLI::IsMember(new_kinds()))
+      ->capture_default_str();
+}
+
+void add_list(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("list", "list effects, loads, torques, controllers, references or scenarios", list_command);
+  command.add_option("topic", options.topic, "what to list; effects.md prints the effects as a Markdown page")
+      ->required()
+      ->check(CLI::IsMember({"effects", "effects.md", "loads", "torques", "controllers", "references", "scenarios"}));
+}
+
+void add_check(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("check", "print the parameters of a scenario, derived quantities and warnings", check_command);
+  add_scenario_options(command, options);
+}
+
+void add_run(CommandSet& commands) {
+  auto [command, options] = commands.add("run", "simulate a scenario and write the result (HDF5)", run_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("-o,--output", options.output, "result file; default: the scenario's name with .h5");
+  command.add_flag("--audit", options.audit, "integrate again with another method and look for missed events");
+  add_force(command, options.replace);
+}
+
+void add_statics(CommandSet& commands) {
+  auto [command, options] = commands.add("statics", "compute the locking regime and break-in torques", statics_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("-o,--output", options.output, "result file; default: none is written");
+  command
+      .add_option("--max-load", options.max_load,
+                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
+      ->check(number(false));
+  command.add_option("--points", options.points, "number of load torques from -max to +max")
+      ->check(CLI::Range(3, 100000))
+      ->capture_default_str();
+  add_force(command, options.replace);
+}
+
+void add_steady(CommandSet& commands) {
+  auto [command, options] = commands.add("steady", "compute the motor torque at constant speed", steady_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("-o,--output", options.output, "result file; default: none is written");
+  command.add_option("--data", options.data,
+                     "records to compare with the model: a CSV file with the columns record, worm_speed_rad_per_s, "
+                     "motor_torque_Nm");
+  command
+      .add_option("--max-speed", options.max_speed,
+                  "largest worm speed [rad/s]; default: that of the data, or 100 rad/s without data")
+      ->check(number(false));
+  command.add_option("--points", options.points, "number of speeds in each direction")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  add_force(command, options.replace);
+}
+
+void add_fmu(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("fmu", "export the drive of a scenario as an FMU (FMI 2.0, model exchange)", fmu_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("-o,--output", options.output, "FMU; default: the scenario's name with .fmu");
+  add_force(command, options.replace);
+}
+
+}  // namespace
+
+void add_drive_commands(CommandSet& commands) {
+  commands.begin_group("Describe a drive");
+  add_new(commands);
+  add_list(commands);
+  add_check(commands);
+  commands.add("schema", "print the JSON schema of scenarios, for editors", schema_command);
+  commands.begin_group("Simulate it");
+  add_run(commands);
+  add_statics(commands);
+  add_steady(commands);
+  add_fmu(commands);
+}
+
+}  // namespace wormdrive
