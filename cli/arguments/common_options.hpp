@@ -10,7 +10,7 @@
 namespace wormdrive {
 
 /// A finite number that is greater than 0, or at least 0; CLI::PositiveNumber prints the largest double in full.
-inline CLI::Validator number(bool zero_too) {
+inline CLI::Validator finite_number(bool zero_too) {
   const std::string rule = zero_too ? "of at least 0" : "greater than 0";
   return CLI::Validator(
       [zero_too, rule](const std::string& text) {

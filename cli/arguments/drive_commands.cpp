@@ -42,7 +42,7 @@ void add_statics(CommandSet& commands) {
   command
       .add_option("--max-load", options.max_load,
                   "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
-      ->check(number(false));
+      ->check(finite_number(false));
   command.add_option("--points", options.points, "number of load torques from -max to +max")
       ->check(CLI::Range(3, 100000))
       ->capture_default_str();
@@ -59,7 +59,7 @@ void add_steady(CommandSet& commands) {
   command
       .add_option("--max-speed", options.max_speed,
                   "largest worm speed [rad/s]; default: that of the data, or 100 rad/s without data")
-      ->check(number(false));
+      ->check(finite_number(false));
   command.add_option("--points", options.points, "number of speeds in each direction")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

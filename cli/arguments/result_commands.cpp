@@ -32,7 +32,7 @@ void add_diff(CommandSet& commands) {
       commands.add("diff", "compare two results; exit code 0 if they agree, 1 if they differ", diff_command);
   command.add_option("first", options.first, "result (.h5)")->required();
   command.add_option("second", options.second, "result (.h5)")->required();
-  const CLI::Validator not_negative = number(true);
+  const CLI::Validator not_negative = finite_number(true);
   command
       .add_option("--relative", options.relative, "allowed difference, as a share of the signal's largest magnitude")
       ->check(not_negative)
