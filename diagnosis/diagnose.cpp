@@ -228,6 +228,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   refine_gap(by_all, last);
   fit(by_all, last, 6, 0.01);
   const Eigen::MatrixXd spread = covariance(by_all, last, 2);
+  d.uncertainty = joint_estimate(last, spread);
   for (const Found& f : found.causes)
     d.causes.push_back(estimated(last, spread, all[f.candidate].effect, all[f.candidate].coordinates));
   const auto is_cause = [&](const Coordinate& c) {
@@ -263,6 +264,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     }
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
+    d.uncertainty = {};
     describe(d, evaluation, before, found.base);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);

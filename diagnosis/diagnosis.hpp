@@ -31,6 +31,13 @@ struct EstimatedEffect {
   std::vector<Estimate> parameters;
 };
 
+/// What data leave open of several numbers together: a normal distribution.
+struct JointEstimate {
+  std::vector<std::string> effects;  ///< of each number
+  std::vector<Estimate> numbers;
+  std::vector<std::vector<double>> correlation;
+};
+
 /// One effect, or class of effects, that was tried, and what came of it.
 struct RankedCandidate {
   EstimatedEffect effect;
@@ -104,6 +111,7 @@ struct Diagnosis {
   std::vector<Visibility> certificate;
   std::vector<Remainder> remainders;   ///< what is left, strongest first; empty: nothing above the noise
   Scenario extended;                   ///< the scenario with the causes, ready to simulate
+  JointEstimate uncertainty;           ///< of all numbers that were fitted to the data
   std::optional<Scenario> experiment;  ///< one that would split the class
   std::string experiment_reason;       ///< a sentence
   ResidualTorque residual;

@@ -8,8 +8,8 @@ namespace wormdrive {
 
 /// The z below which a standard normal number lies with probability u, 0 < u < 1 [Wichura1988, AS 241, PPND16].
 inline double normal_quantile(double u) {
-  using Coefficients = std::array<double, 8>;
-  const auto ratio = [](const Coefficients& a, const Coefficients& b, double r) {
+  using RationalTerms = std::array<double, 8>;
+  const auto ratio = [](const RationalTerms& a, const RationalTerms& b, double r) {
     double above = 0.0, below = 0.0;
     for (int k = 7; k >= 0; --k) {
       above = above * r + a[k];
@@ -17,9 +17,9 @@ inline double normal_quantile(double u) {
     }
     return above / below;
   };
-  constexpr Coefficients a{3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
-                           1.3731693765509461125e4, 4.5921953931549871457e4, 6.7265770927008700853e4,
-                           3.3430575583588128105e4, 2.5090809287301226727e3},
+  constexpr RationalTerms a{3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
+                            1.3731693765509461125e4, 4.5921953931549871457e4, 6.7265770927008700853e4,
+                            3.3430575583588128105e4, 2.5090809287301226727e3},
       b{1.0,
         4.2313330701600911252e1,
         6.8718700749205790830e2,

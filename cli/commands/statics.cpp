@@ -38,8 +38,8 @@ StaticsMap make_map(const GearMesh<double>& forward, const GearMesh<double>& bac
 
 /// A range that shows the scenario's own load with room around it.
 double sensible_load(const Scenario& scenario) {
-  const auto* arm = std::get_if<GravityArm>(&scenario.load);
-  const double amplitude = arm ? std::abs(arm->torque_amplitude()) : 0.0;
+  const auto* gravity_arm = std::get_if<GravityArm>(&scenario.load);
+  const double amplitude = gravity_arm ? std::abs(gravity_arm->torque_amplitude()) : 0.0;
   return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
 }
 

@@ -109,11 +109,23 @@ std::optional<double> TableReader::number(const Spelling& spelling, const Bounds
   return std::nullopt;
 }
 
+namespace {
+
+bool is_override(const toml::table& table, const std::string& key) {
+  const toml::source_path_ptr source = table.find(key)->first.source().path;
+  return source && source->starts_with("--set ");
+}
+
+}  // namespace
+
 std::optional<Spelling> TableReader::stated(std::string_view name, const Unit& unit) {
   std::optional<Spelling> first;
   for (const Spelling& spelling : spellings(name, unit, axis_)) {
     if (!find(spelling.key)) continue;
-    if (first)
+    // an override replaces what a file states, in whatever unit
+    if (first && is_override(table_, spelling.key) != is_override(table_, first->key)) {
+      if (is_override(table_, spelling.key)) first = spelling;
+    } else if (first)
       fault(spelling.key, fmt::format("{} is stated twice, also as {}; keep one", path_of(spelling.key), first->key));
     else
       first = spelling;

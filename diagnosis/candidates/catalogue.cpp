@@ -144,8 +144,17 @@ void start_from_stated(Candidate& s, const Effects<double>& stated) {
     start.values[k] = coordinate_value(stated, c);
     c.centre = start.values[k];
   }
-  if (s.finite) s.resizable = false;  // the start is what is stated
   s.starts = {start};
+  if (!s.finite) return;
+  // its signature is what another size would do: none, half of it, twice as much
+  s.resizable = false;
+  const Coordinate& size = s.coordinates[0];
+  s.starts.clear();
+  for (const double x : {size.none_at_low ? size.low : 0.0, 0.5 * size.centre, 2.0 * size.centre}) {
+    if (x < size.low || x > size.high) continue;
+    start.values[0] = x;
+    s.starts.push_back(start);
+  }
 }
 
 }  // namespace

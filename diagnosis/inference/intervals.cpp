@@ -137,37 +137,79 @@ double structural_error(const Hypothesis& h, std::size_t k) {
 
 }  // namespace
 
+namespace {
+
+/// How a field of an effect moves with the free coordinates.
+Eigen::VectorXd field_slope(const Hypothesis& h, std::string_view effect, std::string_view field) {
+  const double value = field_of(extended(h), effect, field).value;
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(h.free.size()));
+  for (std::size_t k = 0; k < h.free.size(); ++k) {
+    if (h.free[k].effect != effect) continue;
+    constexpr double step = 1e-5;
+    Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values};
+    moved.values[k] += step * h.free[k].scale;
+    const double change = field_of(extended(moved), effect, field).value - value;
+    slope[static_cast<Eigen::Index>(k)] =
+        (field == "phase" ? std::remainder(change, 2.0 * std::numbers::pi) : change) / (step * h.free[k].scale);
+  }
+  return slope;
+}
+
+/// A covariance of the free coordinates with what the predictor itself gets wrong.
+Eigen::MatrixXd with_structural_errors(const Hypothesis& h, Eigen::MatrixXd covariance) {
+  for (std::size_t k = 0; k < h.free.size(); ++k) {
+    const auto q = static_cast<Eigen::Index>(k);
+    covariance(q, q) += std::pow(structural_error(h, k), 2);
+  }
+  return covariance;
+}
+
+Estimate estimate(std::string_view field, const FieldOfEffect& at, double variance) {
+  constexpr double normal_95 = 1.96;
+  const double error = std::sqrt(std::max(0.0, variance));
+  return {std::string(field), at.unit, at.value, error, at.value - normal_95 * error, at.value + normal_95 * error};
+}
+
+}  // namespace
+
 EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
                           const std::vector<Coordinate>& coordinates) {
   EstimatedEffect e{std::string(effect), {}};
   const Effects<double> now = extended(h);
-  const auto n = static_cast<Eigen::Index>(h.free.size());
-  const auto add = [&](std::string_view field) {
-    const FieldOfEffect at = field_of(now, effect, field);
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(n), structural = Eigen::VectorXd::Zero(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const auto q = static_cast<std::size_t>(k);
-      if (h.free[q].effect != effect) continue;
-      constexpr double step = 1e-5;
-      Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values};
-      moved.values[q] += step * h.free[q].scale;
-      const double change = field_of(extended(moved), effect, field).value - at.value;
-      slope[k] =
-          (field == "phase" ? std::remainder(change, 2.0 * std::numbers::pi) : change) / (step * h.free[q].scale);
-      structural[k] = slope[k] * structural_error(h, q);
-    }
-    const double error = std::sqrt(std::max(0.0, slope.dot(covariance * slope)) + structural.squaredNorm());
-    constexpr double normal_95 = 1.96;
-    e.parameters.push_back(
-        {std::string(field), at.unit, at.value, error, at.value - normal_95 * error, at.value + normal_95 * error});
-  };
+  const Eigen::MatrixXd spread = with_structural_errors(h, covariance);
   for (const Coordinate& c : coordinates)
-    for (const std::string_view field : fields_of(c)) add(field);
-  if (const std::string_view tried = coordinates.front().tried; !tried.empty()) {
-    const FieldOfEffect at = field_of(now, effect, tried);
-    e.parameters.push_back({std::string(tried), at.unit, at.value, 0.0, at.value, at.value});
-  }
+    for (const std::string_view field : fields_of(c)) {
+      const Eigen::VectorXd slope = field_slope(h, effect, field);
+      e.parameters.push_back(estimate(field, field_of(now, effect, field), slope.dot(spread * slope)));
+    }
+  if (const std::string_view tried = coordinates.front().tried; !tried.empty())
+    e.parameters.push_back(estimate(tried, field_of(now, effect, tried), 0.0));
   return e;
+}
+
+JointEstimate joint_estimate(const Hypothesis& h, const Eigen::MatrixXd& covariance) {
+  JointEstimate joint;
+  const Effects<double> now = extended(h);
+  std::vector<Eigen::VectorXd> slopes;
+  const Eigen::MatrixXd spread = with_structural_errors(h, covariance);
+  for (const Coordinate& c : h.free)
+    for (const std::string_view field : fields_of(c)) {
+      const Eigen::VectorXd slope = field_slope(h, c.effect, field);
+      const double variance = slope.dot(spread * slope);
+      if (!(variance > 0.0)) continue;
+      joint.effects.emplace_back(c.effect);
+      joint.numbers.push_back(estimate(field, field_of(now, c.effect, field), variance));
+      slopes.push_back(slope);
+    }
+  for (std::size_t a = 0; a < slopes.size(); ++a) {
+    joint.correlation.emplace_back();
+    for (std::size_t b = 0; b < slopes.size(); ++b)
+      joint.correlation.back().push_back(a == b
+                                             ? 1.0
+                                             : slopes[a].dot(spread * slopes[b]) /
+                                                   (joint.numbers[a].standard_error * joint.numbers[b].standard_error));
+  }
+  return joint;
 }
 
 }  // namespace wormdrive

@@ -17,4 +17,7 @@ Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, in
 EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
                           const std::vector<Coordinate>& coordinates);
 
+/// All free coordinates of a hypothesis together, as fields of effects.
+JointEstimate joint_estimate(const Hypothesis& h, const Eigen::MatrixXd& covariance);
+
 }  // namespace wormdrive

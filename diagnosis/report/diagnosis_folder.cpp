@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "description/toml/write_scenario.hpp"
+#include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/report/diagnosis_file.hpp"
+#include "diagnosis/report/uncertainty_study.hpp"
 #include "output/text_file.hpp"
 #include "simulation/overwriting.hpp"
 
@@ -25,15 +27,18 @@ std::string ids(const std::vector<EstimatedEffect>& effects) {
 
 namespace {
 /// diagnosis.h5 is the first: it tells that the others are of a diagnosis too.
-constexpr const char* file_names[] = {"diagnosis.h5", "extended.toml", "experiment.toml", "diagnosis.json"};
+constexpr const char* file_names[] = {"diagnosis.h5", "extended.toml", "experiment.toml", "uncertainty.toml",
+                                      "diagnosis.json"};
 }  // namespace
 
 std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
   for (const std::vector<std::string>& members : d.classes)
     text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(members, ", "));
-  if (!d.calibration.empty())
-    text += fmt::format("# Stated values that moved within their tolerances: {}.\n", ids(d.calibration));
+  std::vector<EstimatedEffect> moved;
+  for (const EstimatedEffect& e : d.calibration)
+    if (field_of(d.extended.effects, e.effect, e.parameters.front().field).on) moved.push_back(e);
+  if (!moved.empty()) text += fmt::format("# Stated values that moved within their tolerances: {}.\n", ids(moved));
   return text + to_toml(d.extended);
 }
 
@@ -58,10 +63,16 @@ std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nl
   std::vector<std::string> written{inside("extended.toml"), inside("diagnosis.h5")};
   write_diagnosis(written[1], found, {"diagnosis", title, to_toml(found.extended), command_line}, replace_);
   write_text_file(written[0], extended_file(found));
-  if (found.experiment) {
-    written.push_back(inside("experiment.toml"));
-    write_text_file(written.back(), to_toml(*found.experiment));
-  }
+  const auto write_or_remove = [&](const char* name, const std::string& text) {
+    if (text.empty()) {  // one of an earlier diagnosis would be taken for one of this
+      std::filesystem::remove(inside(name));
+      return;
+    }
+    written.push_back(inside(name));
+    write_text_file(written.back(), text);
+  };
+  write_or_remove("experiment.toml", found.experiment ? to_toml(*found.experiment) : "");
+  write_or_remove("uncertainty.toml", uncertainty_study(found));
   for (const std::string& picture : pictures()) written.push_back(picture);
   written.push_back(inside("diagnosis.json"));
   write_text_file(written.back(), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");

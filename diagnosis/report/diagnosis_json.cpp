@@ -31,6 +31,15 @@ json as_json(const EstimatedEffect& effect) {
   return {{"effect", effect.effect}, {"parameters", parameters}};
 }
 
+json as_json(const JointEstimate& u) {
+  json numbers = json::array();
+  for (std::size_t k = 0; k < u.numbers.size(); ++k) {
+    numbers.push_back(as_json(u.numbers[k]));
+    numbers.back()["effect"] = u.effects[k];
+  }
+  return {{"parameters", numbers}, {"correlation", u.correlation}};
+}
+
 json as_json(const RankedCandidate& c) {
   json made = as_json(c.effect);
   made["delta_bic"] = number(c.delta_bic);
@@ -99,6 +108,7 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
           {"ranking", list_of(d.ranking)},
           {"gain", list_of(d.prediction)},
           {"calibration", list_of(d.calibration)},
+          {"uncertainty", as_json(d.uncertainty)},
           {"identified", list_of(d.identified)},
           {"certificate", list_of(d.certificate)},
           {"unobservable", unobservable(d.certificate)},

@@ -12,6 +12,7 @@ void put_units_on_axis(Diagnosis& d, Axis axis) {
   };
   for (EstimatedEffect& cause : d.causes) convert_all(cause);
   for (EstimatedEffect& moved : d.calibration) convert_all(moved);
+  for (Estimate& e : d.uncertainty.numbers) convert(e.field, e.unit);
   for (RankedCandidate& candidate : d.ranking) convert_all(candidate.effect);
   for (Visibility& v : d.certificate) convert(v.field, v.unit);
   for (Remainder& r : d.remainders)

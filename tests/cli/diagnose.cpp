@@ -67,6 +67,7 @@ TEST_CASE("the JSON of a diagnosis has every key with its type, and null instead
                     {"ranking", "array"},
                     {"gain", "array"},
                     {"calibration", "array"},
+                    {"uncertainty", "object"},
                     {"identified", "array"},
                     {"certificate", "array"},
                     {"unobservable", "array"},

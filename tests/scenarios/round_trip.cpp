@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "core/rigid_drive.hpp"
+#include "description/diagnostics.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "simulation/load_scenario.hpp"
 
@@ -237,6 +238,16 @@ TEST_CASE("every shipped scenario is simulated again to the last bit from its re
     const Hdf5Handle one = open_hdf5(folder / "first.h5"), two = open_hdf5(folder / "again.h5");
     for (const std::string group : {"trajectory", "events"}) REQUIRE(bytes(one, group) == bytes(two, group));
   }
+}
+
+TEST_CASE("an override replaces what a file states in another unit") {
+  const std::string file = shipped("fig09_switching.toml");
+  const auto lead_angle = [&](const std::vector<std::string>& overrides) {
+    return std::get<MeshParameters<double>>(load_scenario(file, overrides, Purpose::look).mesh).lambda;
+  };
+  CHECK(lead_angle({"mesh.lead_angle_rad=0.1"}) == 0.1);
+  CHECK(lead_angle({"mesh.lead_angle_deg=5"}) == 5.0 * unit::degree);
+  CHECK_THROWS_AS(lead_angle({"mesh.lead_angle_rad=0.1", "mesh.lead_angle_deg=5"}), InputFault);
 }
 
 }  // namespace wormdrive::test::scenarios_round_trip

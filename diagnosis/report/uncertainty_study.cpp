@@ -1,0 +1,86 @@
+#include "diagnosis/report/uncertainty_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "description/keys.hpp"
+#include "diagnosis/candidates/coordinates.hpp"
+
+namespace wormdrive {
+
+namespace {
+
+/// A field of an effect as a study names it, and the unit of its numbers.
+struct Path {
+  std::string text;
+  double unit;
+};
+
+Path path_of(std::string_view effect, std::string_view field, const Unit& unit, Axis axis) {
+  const Spelling s = spellings(field, unit, axis).front();
+  return {fmt::format("effect.{}.{}", effect, s.key), s.unit.si};
+}
+
+/// What the effects with uncertain numbers state beside them, as --set takes it.
+std::vector<std::string> certain_fields(const Diagnosis& d) {
+  const JointEstimate& u = d.uncertainty;
+  std::vector<std::string> list;
+  d.extended.effects.for_each([&]<class E>(const std::optional<E>& effect) {
+    if (!effect || std::find(u.effects.begin(), u.effects.end(), E::id) == u.effects.end()) return;
+    for_each_field<E>([&](const auto& field) {
+      for (std::size_t k = 0; k < u.numbers.size(); ++k)
+        if (u.effects[k] == E::id && u.numbers[k].field == field.name) return;
+      const std::optional<double> value = (*effect).*field.member;
+      if (!value || !std::isfinite(*value)) return;
+      const Path path = path_of(E::id, field.name, field.unit, d.extended.axis);
+      list.push_back(fmt::format("\"{}={}\"", path.text, *value / path.unit));
+    });
+  });
+  return list;
+}
+
+}  // namespace
+
+std::string uncertainty_study(const Diagnosis& d) {
+  const JointEstimate& u = d.uncertainty;
+  if (u.numbers.empty()) return "";
+  std::string text =
+      "# The joint distribution that the data of a diagnosis leave for the numbers that they determine. To learn what "
+      "it\n"
+      "# means for another motion or a controller, name another scenario of the same drive here.\n"
+      "title = \"What the data leave open\"\n"
+      "scenario = \"extended.toml\"\n";
+  if (const std::vector<std::string> certain = certain_fields(d); !certain.empty())
+    text += fmt::format("set = [{}]\n", fmt::join(certain, ", "));
+  text += "\n[sweep]\ndesign = \"latin_hypercube\"\ntrials = 1000\nseed = 1\n";
+  std::vector<std::string> paths;
+  for (std::size_t k = 0; k < u.numbers.size(); ++k) {
+    const Estimate& e = u.numbers[k];
+    const FieldOfEffect field = field_of({}, u.effects[k], e.field);
+    const Path path = path_of(u.effects[k], e.field, field.unit, d.extended.axis);
+    paths.push_back(path.text);
+    constexpr double far = 6.0;  // deviations beyond which no draw lies
+    const bool low = e.value - far * e.standard_error < field.bounds.low;
+    const bool high = e.value + far * e.standard_error > field.bounds.high;
+    text += fmt::format("\n[[parameter]]\npath = \"{}\"\ndistribution = \"{}\"\nmean = {}\ndeviation = {}\n", path.text,
+                        low || high ? "truncated_normal" : "normal", e.value / path.unit, e.standard_error / path.unit);
+    if (low) text += fmt::format("low = {}\n", field.bounds.low / path.unit);
+    if (high) text += fmt::format("high = {}\n", field.bounds.high / path.unit);
+  }
+  for (std::size_t a = 0; a < paths.size(); ++a)
+    for (std::size_t b = a + 1; b < paths.size(); ++b) {
+      constexpr double least = 1e-4, most = 1.0 - 1e-9;
+      const double correlation = std::clamp(u.correlation[a][b], -most, most);
+      if (std::abs(correlation) < least) continue;
+      text += fmt::format("\n[[correlation]]\nbetween = [\"{}\", \"{}\"]\ncoefficient = {}\n", paths[a], paths[b],
+                          correlation);
+    }
+  return text;
+}
+
+}  // namespace wormdrive
