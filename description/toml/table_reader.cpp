@@ -112,7 +112,7 @@ std::optional<double> TableReader::number(const Spelling& spelling, const Bounds
 namespace {
 
 bool is_override(const toml::table& table, const std::string& key) {
-  const toml::source_path_ptr source = table.find(key)->first.source().path;
+  const toml::source_path_ptr source = table.get(key)->source().path;
   return source && source->starts_with("--set ");
 }
 

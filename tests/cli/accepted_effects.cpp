@@ -120,7 +120,7 @@ TEST_CASE("every command that reads a scenario rejects an impossible effect") {
   folder.write("b.csv", "load_torque_Nm,motor_torque_Nm\n0.2,0.01\n");
   const Outcome run = folder.run({"run", "s.toml"});
   CHECK(run.exit == 2);
-  CHECK(run.err.starts_with("s.toml:19:1: error: effect.backlash needs teeth that yield where they meet; "));
+  CHECK(run.err.starts_with("s.toml:19:1: error: effect.backlash needs elastic teeth; "));
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"check", "s.toml"},
                                              {"statics", "s.toml"},

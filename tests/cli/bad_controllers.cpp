@@ -72,7 +72,7 @@ TEST_CASE("unknown, missing and out-of-range keys of a controller are reported")
       {"friction and C1", but("[reference]", "[controller.variation]\nfriction = 0.1\nC1 = 0.1\n[reference]"),
        "s.toml:18:12: error: controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"},
       {"a branch without inertia", but("[reference]", "[controller.variation]\nC1 = 1000\n[reference]"),
-       "s.toml:17:1: error: controller.variation leaves the branch C1 without inertia, Jw i + C1 Jg <= 0, and no gain withstands that; vary less, or "
+       "s.toml:17:1: error: controller.variation leaves the branch C1 without inertia, Jw i + C1 Jg <= 0, and no gain withstands that; reduce the variation, or "
        "state D1_per_kgm2 and E1_rad_per_s2"},
       {"PID without weights", but(sliding, "kind = \"pid\"\nsample_time_s = 1e-3\n"),
        "s.toml:11:1: error: [controller] lacks 'integral_weight' (weight of the integral of e, squared)\n"

@@ -137,7 +137,7 @@ TEST_CASE("JSON is valid whatever bytes a file name has") {
   CHECK(folder.names() == std::set<std::string>{"\xff.h5"});
 }
 
-TEST_CASE("--quiet prints nothing") {
+TEST_CASE("the option --quiet prints nothing") {
   const Folder folder;
   for (const std::vector<std::string>& words : {std::vector<std::string>{"run", fig9, "-q"},
                                                 {"run", fig9, "--quiet", "--audit"},

@@ -46,8 +46,9 @@ TEST_CASE("the study of a diagnosis draws from the joint distribution that the d
     if (!study.strata) study.copula.apply(p);
     for (Eigen::Index k = 0; k < n; ++k) {
       const auto q = static_cast<std::size_t>(k);
-      drawn(t, k) = quantile(study.parameters[q].distribution, p[q]);
-      drawn(t, k) = (drawn(t, k) * study.parameters[q].si_unit.si - u.numbers[q].value) / u.numbers[q].standard_error;
+      const double si = study.parameters[q].path.ends_with("_deg") ? unit::degree : 1.0;
+      drawn(t, k) = quantile(study.parameters[q].distribution, p[q]) * si;
+      drawn(t, k) = (drawn(t, k) - u.numbers[q].value) / u.numbers[q].standard_error;
     }
   }
   const Eigen::RowVectorXd mean = drawn.colwise().mean();

@@ -113,7 +113,7 @@ high = 2000
   const Outcome outcome = folder.sweep({});
   CHECK(outcome.exit == 2);
   CHECK(outcome.err ==
-        "study.toml:6:8: error: sensor.counts = 1500.0000013969848 must be a whole number; let it be \"discrete\" with "
+        "study.toml:6:8: error: sensor.counts = 1500.0000013969848 must be a whole number; use \"discrete\" with "
         "whole values\n");
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("trials that cannot run become rows with their reason, and the sweep c
   const long failed = with_reason[1] + with_reason[2];
   CHECK(with_reason.size() == 3);  // none, and two that differ in more than their numbers
   CHECK(std::abs(failed - 100) < 4 * 10);
-  CHECK(outcome.out.find(fmt::format("{}: mesh.friction = -0.1 must be at least 0",
+  CHECK(outcome.out.find(fmt::format("{} trials: mesh.friction = -0.1 must be at least 0",
                                      std::count(friction.begin(), friction.end(), -0.1))) != std::string::npos);
   CHECK(outcome.out.find("mesh.friction = 20 is not below mu_g = 13.4382") != std::string::npos);
   CHECK(folder
@@ -235,8 +235,8 @@ TEST_CASE("a sweep is resumed only as the same sweep by the same program", "[swe
   }
   const Outcome other = folder.sweep({"-o", "o.h5", "--resume"});
   CHECK(other.exit == 2);
-  CHECK(other.err == fmt::format("o.h5.part: error: cannot be resumed: it was made by wormdrive 0.0.1 (abc), and this "
-                                 "is {}; undo the change, or delete the file to start again\n",
+  CHECK(other.err == fmt::format("o.h5.part: error: cannot be resumed: it was made by wormdrive 0.0.1 (abc), but this "
+                                 "program is {}; undo the change, or delete the file to start again\n",
                                  program_identity()));
   folder.write("o.h5.part", "no HDF5");
   CHECK(folder.sweep({"-o", "o.h5", "--resume"}).err ==

@@ -79,7 +79,7 @@ TEST_CASE("the noise of a trial is the same in threads, shards and replays", "[s
     INFO(worst.out << worst.err);
     REQUIRE(worst.exit == 0);
     const std::vector<double> largest = read_column(open_hdf5(folder / "1.h5"), "summary/worst/value");
-    CHECK(worst.out.find(fmt::format("  worst    error_max {:.6g} rad in 4 runs", largest[0])) != std::string::npos);
+    CHECK(worst.out.find(fmt::format("  worst    error_max {:.6g} rad after 4 runs", largest[0])) != std::string::npos);
   }
 }
 

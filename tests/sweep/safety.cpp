@@ -181,7 +181,7 @@ TEST_CASE("a running sweep can be summarised, reported and compared", "[sweep][s
     INFO(summary.err);
     CHECK(summary.exit == 0);
     CHECK(summary.out.find(" of 2000000 so far; the sweep is still running\n") != std::string::npos);
-    CHECK(summary.out.find(fmt::format("see one: wormdrive replay {} --trial ", name)) != std::string::npos);
+    CHECK(summary.out.find(fmt::format("see a trial: wormdrive replay {} --trial ", name)) != std::string::npos);
   }
   const Outcome report = folder.run({"report", "o.h5"});
   INFO(report.err);
