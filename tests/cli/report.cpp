@@ -111,7 +111,7 @@ TEST_CASE("a report of steady motion shows the model and the measurements") {
   CHECK(records[0][0] == "down");
   CHECK(records[1][2].get<double>() == Catch::Approx(0.04));
   CHECK(records[1][4].get<double>() == Catch::Approx(0.04 - records[1][3].get<double>()));
-  CHECK(data.at("verdict").get<std::string>().starts_with("The model differs from the mean torques of 2 records, "));
+  CHECK(data.at("verdict").get<std::string>().starts_with("The model differs from the mean torques of 2 records ("));
   CHECK(data.at("groups")[0].at("panels").size() == 2);
   const nlohmann::json panel = data.at("groups")[0].at("panels")[0];
   const auto over = panel.at("over").get<std::vector<double>>();
