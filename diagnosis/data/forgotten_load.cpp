@@ -24,7 +24,7 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
   if (!mesh || !load || !load->terms.empty()) return;
   // As for a wrong unit: most is unaccounted for as it stands, and little with the load.
   constexpr double most = 0.35, too_much = 0.6;
-  const TorqueJudge judge(table.torque.values, table.angle.values, table.time.values.front(), period);
+  const TorqueJudge judge(table, table.torque.values, table.angle.values, period);
   const double as_it_is = judge.fit(scenario).missed_rms;
   if (as_it_is < too_much) return;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,16 +18,22 @@ constexpr std::size_t longest_group = 5;      ///< of neighbours that are left o
 constexpr double most_impossible = 0.01;      ///< share of all samples
 constexpr std::size_t standing_samples = 10;  ///< equal readings in a row that count as standing
 
+/// How far off a straight line the readings of an encoder may be.
+struct Straightness {
+  double tolerance, bend;
+
+  Straightness(const std::vector<double>& y, const SampleLimits& limits)
+      : bend(limits.largest_acceleration * limits.period * limits.period) {
+    std::vector<double> seconds;
+    for (std::size_t k = 1; k + 1 < y.size(); ++k) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
+    tolerance = robust_deviations * std::max(robust_deviation(std::move(seconds)), resolution(y));
+  }
+};
+
 /// The readings of an encoder, and how far a sample may lie from where its neighbours put it.
 class Path {
  public:
-  Path(std::vector<double>& y, const SampleLimits& limits) : y_(y) {
-    std::vector<double> seconds;
-    for (std::size_t k = 1; k + 1 < y.size(); ++k) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
-    const double noise = std::max(robust_deviation(std::move(seconds)), resolution(y));
-    bend_ = limits.largest_acceleration * limits.period * limits.period;
-    tolerance_ = robust_deviations * noise;
-  }
+  Path(std::span<double> y, const Straightness& straight) : y_(y), straight_(straight) {}
 
   /// Whether the samples a < b continue what ends with the samples before k.
   bool continues(std::size_t k, std::size_t at) const {
@@ -34,18 +41,17 @@ class Path {
     const double slope = (y_[k - 1] - y_[k - 1 - reach]) / static_cast<double>(reach);
     const double ahead = static_cast<double>(at - k + 1), span = ahead + static_cast<double>(reach);
     return std::abs(y_[at] - y_[k - 1] - slope * ahead) <
-           tolerance_ * (1.0 + ahead / static_cast<double>(reach)) + bend_ * span * span;
+           straight_.tolerance * (1.0 + ahead / static_cast<double>(reach)) + straight_.bend * span * span;
   }
   void bridge(std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k)
       y_[k] = y_[from - 1] +
               (y_[to] - y_[from - 1]) * static_cast<double>(k - from + 1) / static_cast<double>(to - from + 1);
   }
-  double tolerance() const { return tolerance_ + bend_; }
 
  private:
-  std::vector<double>& y_;
-  double bend_, tolerance_;
+  std::span<double> y_;
+  const Straightness& straight_;
 };
 
 [[noreturn]] void refuse_jump(const RecordedTable& table, const RecordedValues& angle, std::size_t k) {
@@ -76,8 +82,8 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
     std::size_t to = from + 1;
     while (to < y.size() && y[to] == y[from]) ++to;
     if (to - from >= standing_samples) {
-      const double before = from < look ? 0.0 : speed(from - look, from - 1);
-      const double after = to + look > y.size() ? 0.0 : speed(to, to + look - 1);
+      const double before = from < look || table.crosses_pause(from, look) ? 0.0 : speed(from - look, from - 1);
+      const double after = to + look > y.size() || table.crosses_pause(to, look) ? 0.0 : speed(to, to + look - 1);
       if (std::max(before, after) > sudden)
         reject(
             table.where(from),
@@ -92,12 +98,42 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
 
 std::string group_told(const RecordedTable& table, const std::string& what, double value, std::size_t from,
                        std::size_t to) {
-  const std::string where = table.has_lines ? fmt::format(" (line {})", from + 2) : "";
+  const std::string where = table.has_lines ? fmt::format(" (line {})", table.where(from).line) : "";
   if (to - from == 1)
     return fmt::format("left out: {} = {:.6g} at {:.6g} s{}, which no measurement can have given", what, value,
                        table.time.values[from], where);
   return fmt::format("left out: {} from {:.6g} s to {:.6g} s{}, {} samples that no measurement can have given", what,
                      table.time.values[from], table.time.values[to - 1], where, to - from);
+}
+
+/// Follows an angle from an undisturbed stretch on, backward to the begin and forward to the end, and leaves out what
+/// is off its path.
+template <class Leave>
+void follow(const RecordedTable& table, RecordedValues& angle, std::size_t begin, std::size_t end,
+            const Straightness& straight, Leave&& leave) {
+  constexpr std::size_t undisturbed = 8;
+  const std::span<double> y = std::span(angle.values).subspan(begin, end - begin);
+  if (y.size() <= undisturbed) return;
+  Path path(y, straight);
+  std::reverse(y.begin(), y.end());
+  for (const bool reversed : {true, false}) {
+    for (std::size_t k = reversed ? y.size() - undisturbed : undisturbed; k < y.size(); ++k) {
+      if (path.continues(k, k)) continue;
+      std::size_t back = k + 1;
+      while (back < y.size() && back - k <= longest_group && !path.continues(k, back)) ++back;
+      if (back < y.size() && back - k > longest_group) {
+        if (reversed) break;
+        refuse_jump(table, angle, begin + k);
+      }
+      const std::size_t from = begin + (reversed ? y.size() - back : k);
+      leave(angle.name, angle.in_file(y[k]), from, from + (back - k));
+      if (back < y.size())
+        path.bridge(k, back);
+      else
+        std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), y[k - 1]);
+    }
+    if (reversed) std::reverse(y.begin(), y.end());
+  }
 }
 
 }  // namespace
@@ -148,27 +184,12 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
     std::vector<double>& y = angle->values;
     if (y.empty()) continue;
     refuse_standing(table, *angle, own);
-    // the path is followed from an undisturbed stretch on, backward to the start and forward to the end
-    std::reverse(y.begin(), y.end());
-    Path path(y, own);
-    const auto sample = [&](std::size_t k, bool reversed) { return reversed ? y.size() - 1 - k : k; };
-    for (const bool reversed : {true, false}) {
-      for (std::size_t k = reversed ? y.size() - 8 : 8; k < y.size(); ++k) {
-        if (path.continues(k, k)) continue;
-        std::size_t back = k + 1;
-        while (back < y.size() && back - k <= longest_group && !path.continues(k, back)) ++back;
-        if (back < y.size() && back - k > longest_group) {
-          if (reversed) break;
-          refuse_jump(table, *angle, k);
-        }
-        const std::size_t from = reversed ? sample(back - 1, true) : k;
-        leave(angle->name, angle->in_file(y[k]), from, from + (back - k));
-        if (back < y.size())
-          path.bridge(k, back);
-        else
-          std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), y[k - 1]);
-      }
-      if (reversed) std::reverse(y.begin(), y.end());
+    const Straightness straight(y, own);
+    std::size_t begin = 0;
+    for (std::size_t stretch = 0; stretch <= table.restarts.size(); ++stretch) {
+      const std::size_t end = stretch < table.restarts.size() ? table.restarts[stretch] : y.size();
+      follow(table, *angle, begin, end, straight, leave);
+      begin = end;
     }
   }
   if (static_cast<double>(left_out) > most_impossible * static_cast<double>(u.size()))

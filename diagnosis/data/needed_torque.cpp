@@ -30,8 +30,8 @@ MeasuredMotion measured_motion(const std::vector<double>& angle, double period, 
   return motion;
 }
 
-std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion& motion, double start, double period,
-                                  double still) {
+std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion& motion,
+                                  const std::vector<double>& time, double still) {
   std::vector<double> torque(motion.angle.size(), 0.0);
   Scenario free = scenario;
   free.motor = {};
@@ -40,7 +40,7 @@ std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion
       const double v = motion.speed[k], a = motion.acceleration[k];
       if (std::abs(v) < still) continue;
       const Motion direction = v > 0.0 ? Motion::forward : Motion::backward;
-      const double t = start + static_cast<double>(k) * period;
+      const double t = time[k];
       drive.enter(t);
       const auto at = drive.moment(t, motion.angle[k], v);
       const auto sides = drive.side_torques(at, direction);

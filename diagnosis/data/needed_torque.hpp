@@ -15,8 +15,8 @@ MeasuredMotion measured_motion(const std::vector<double>& angle, double period, 
 
 /// The motor torque that the drive of a scenario would need for a motion [N m], its inverse dynamics; zero where the
 /// gear is slower than `still` [rad/s], for rest does not tell the torque.
-std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion& motion, double start, double period,
-                                  double still);
+std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion& motion,
+                                  const std::vector<double>& time, double still);
 
 /// The largest acceleration at the gear that a motor torque up to this size can cause [rad/s^2].
 double largest_acceleration(const Scenario& scenario, double torque);

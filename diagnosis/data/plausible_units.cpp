@@ -67,9 +67,11 @@ void refuse_rest(const RecordedTable& table, const RecordedValues& column, const
 /// A speed that is recorded beside the angle has to be its derivative.
 void refuse_other_speed(const RecordedTable& table, double period, const Scenario& scenario) {
   if (table.speed.values.empty()) return;
-  const Values speed = measured_motion(table.angle.values, period, 12).speed;
+  constexpr std::size_t half_width = 12;
+  const Values speed = measured_motion(table.angle.values, period, half_width).speed;
   double product = 0.0, square = 0.0, other = 0.0;
   for (std::size_t k = 0; k < speed.size(); ++k) {
+    if (table.crosses_pause(k, half_width)) continue;
     product += speed[k] * table.speed.values[k];
     square += speed[k] * speed[k];
     other += table.speed.values[k] * table.speed.values[k];
@@ -90,7 +92,7 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
 /// What an arm that stands at another angle than stated would leave, which is a matter of the diagnosis.
 double least_missed_by_turned_arm(const RecordedTable& table, double period, Scenario scenario) {
   double least = std::numeric_limits<double>::infinity();
-  const TorqueJudge judge(table.torque.values, table.angle.values, table.time.values.front(), period);
+  const TorqueJudge judge(table, table.torque.values, table.angle.values, period);
   if (auto* const arm = std::get_if<GravityArm>(&scenario.load))
     for (int k = 1; k < 12; ++k) {
       arm->offset += std::numbers::pi / 6.0;
@@ -114,7 +116,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
                        table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
   refuse_other_speed(table, period, scenario);
   const auto fit = [&](const Values& torque, const Values& angle) {
-    return TorqueJudge(torque, angle, table.time.values.front(), period).fit(scenario);
+    return TorqueJudge(table, torque, angle, period).fit(scenario);
   };
   const TorqueFit as_is = fit(table.torque.values, table.angle.values);
   if (as_is.missed < 0.6) return;
@@ -133,8 +135,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
   if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
-  const TorqueFit as_is =
-      TorqueJudge(table.torque.values, table.angle.values, table.time.values.front(), period).fit(scenario);
+  const TorqueFit as_is = TorqueJudge(table, table.torque.values, table.angle.values, period).fit(scenario);
   if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
     reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
                                       "unit, or wrong scenario",

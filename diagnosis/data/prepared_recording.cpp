@@ -13,26 +13,27 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Slope of the least-squares line through half_width samples on either side, whose steps are even among themselves.
-std::vector<double> slopes(const std::vector<double>& y, const Recording& recording, long half_width) {
-  const long n = static_cast<long>(y.size());
-  const long w = std::min(half_width, (n - 1) / 2);
-  std::vector<double> slope(y.size(), 0.0);
-  double squares = 0.0;
-  for (long j = -w; j <= w; ++j) squares += static_cast<double>(j * j);
-  if (squares == 0.0) return slope;
-  for (long k = 0; k < n; ++k) {
-    const long middle = std::clamp(k, w, n - 1 - w);
-    double sum = 0.0;
-    const double here = y[static_cast<std::size_t>(middle)];  // what stands has no slope, not one of rounding
-    for (long j = -w; j <= w; ++j) sum += static_cast<double>(j) * (y[static_cast<std::size_t>(middle + j)] - here);
-    const auto first = static_cast<std::size_t>(middle - w), last = static_cast<std::size_t>(middle + w);
-    const double step = recording.times.empty()
-                            ? recording.period
-                            : (recording.times[last] - recording.times[first]) / static_cast<double>(2 * w);
-    slope[static_cast<std::size_t>(k)] = sum / (squares * step);
+/// Slopes of the least-squares lines through half_width samples on either side, within a stretch of a recording.
+void find_slopes(const Recording& recording, std::size_t begin, std::size_t end, std::size_t half_width,
+                 std::vector<double>& slope) {
+  const std::vector<double>& y = recording.gear_angle;
+  const std::size_t w = std::min(half_width, (end - begin - 1) / 2);
+  if (w == 0) return;
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::size_t middle = std::clamp(k, begin + w, end - 1 - w);
+    double sum = 0.0, squares = 0.0, steps = 0.0, way = 0.0;
+    for (std::size_t j = middle - w; j <= middle + w; ++j) {
+      // from the middle's own angle and time: what stands has no slope, not one of rounding
+      const double step = recording.times.empty() ? static_cast<double>(j) - static_cast<double>(middle)
+                                                  : (recording.times[j] - recording.times[middle]) / recording.period;
+      sum += step * (y[j] - y[middle]);
+      squares += step * step;
+      steps += step;
+      way += y[j] - y[middle];
+    }
+    const double share = steps / static_cast<double>(2 * w + 1);
+    slope[k] = (sum - share * way) / ((squares - share * steps) * recording.period);
   }
-  return slope;
 }
 
 /// Where the worm's zero is nobody states: it is put where both encoders agree on average.
@@ -57,7 +58,13 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
   const double Ts = recording.period;
   p.worm_angle = worm_at_gear(recording, ratio);
   p.worm_resolution = recording.worm_resolution / ratio;
-  p.speed = slopes(recording.gear_angle, recording, std::max(4L, std::lround(rules.slope_half_width / Ts)));
+  const auto half_width = static_cast<std::size_t>(std::max(4L, std::lround(rules.slope_half_width / Ts)));
+  p.speed.resize(n);
+  for (std::size_t k = 0, begin = 0; k <= recording.restarts.size(); ++k) {
+    const std::size_t end = k < recording.restarts.size() ? recording.restarts[k] : n;
+    find_slopes(recording, begin, end, half_width, p.speed);
+    begin = end;
+  }
   p.rms_speed = root_mean_square(p.speed);
   p.rms_torque = root_mean_square(recording.motor_torque);
   for (const double u : recording.motor_torque) p.largest_torque = std::max(p.largest_torque, std::abs(u));
@@ -72,6 +79,9 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
     p.held_out[k] =
         block % static_cast<std::size_t>(rules.held_out_every) == static_cast<std::size_t>(rules.held_out_every) - 1;
   }
+  // a prediction that starts anew has its speed from these samples, and is not to be judged by them
+  for (const std::size_t restart : recording.restarts)
+    for (std::size_t k = restart; k < std::min(n, restart + 2 * half_width + 1); ++k) p.used[k] = 0;
   return p;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,6 +33,11 @@ struct PreparedRecording {
 
   std::size_t samples() const { return data.samples(); }
   std::size_t blocks() const { return (samples() + block_length - 1) / block_length; }
+  /// Of the stretch without a pause in which a sample lies, the sample after its last.
+  std::size_t end_of_stretch(std::size_t k) const {
+    const auto next = std::upper_bound(data.restarts.begin(), data.restarts.end(), k);
+    return next == data.restarts.end() ? samples() : *next;
+  }
   double duration() const { return static_cast<double>(samples()) * data.period; }
 };
 

@@ -2,18 +2,20 @@
 
 #include <filesystem>
 
-#include "diagnosis/data/even_time.hpp"
 #include "diagnosis/data/forgotten_load.hpp"
 #include "diagnosis/data/impossible_samples.hpp"
+#include "diagnosis/data/missing_rows.hpp"
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/data/plausible_units.hpp"
 #include "diagnosis/data/recorded_table.hpp"
+#include "diagnosis/data/sample_times.hpp"
 #include "statistics/robust.hpp"
 
 namespace wormdrive {
 Recording read_recording(const std::string& path, const Scenario& scenario) {
   RecordedTable table = read_recorded_table(path, scenario);
-  EvenTime time = even_time(table);
+  MissingRows rows = bridge_missing_rows(table);
+  SampleTimes time = sample_times(table, rows);
   refuse_implausible_units(table, time.period, scenario);
   Recording recording;
   recording.name = std::filesystem::path(path).filename().string();
@@ -21,7 +23,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   recording.period = time.period;
   recording.times = std::move(time.times);
   recording.remarks = std::move(time.remarks);
-  recording.valid.assign(table.time.values.size(), 1);
+  recording.valid = std::move(rows.there);
   const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);
   const SampleLimits limits{time.period, largest_acceleration(scenario, usual_peak(table.torque.values)),
                             mesh ? mesh->i : 1.0};
@@ -29,6 +31,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
     recording.remarks.push_back(std::move(remark));
   refuse_implausible_size(table, time.period, scenario);
   reject_forgotten_load(table, time.period, scenario);
+  recording.restarts = table.restarts;
   recording.gear_resolution = resolution(table.angle.values);
   if (!table.worm_angle.values.empty()) recording.worm_resolution = resolution(table.worm_angle.values);
   recording.motor_torque = std::move(table.torque.values);

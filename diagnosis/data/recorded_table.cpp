@@ -43,7 +43,9 @@ RecordedTable from_csv(const std::string& path, const Scenario& scenario) {
           column("gear_angle", true),
           column("worm_angle", false),
           column("gear_speed", false),
-          scenario.axis};
+          scenario.axis,
+          {},
+          {}};
 }
 
 /// The rows of a run without a controller that lie on the even grid of its report interval; of the two rows of an event
@@ -123,8 +125,14 @@ RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scen
   return column;
 }
 
+bool RecordedTable::crosses_pause(std::size_t sample, std::size_t half_width) const {
+  const auto next = std::upper_bound(restarts.begin(), restarts.end(), sample - std::min(sample, half_width));
+  return next != restarts.end() && *next <= sample + half_width;
+}
+
 Location RecordedTable::where(std::size_t sample) const {
-  return {path, has_lines ? static_cast<std::uint32_t>(sample + 2) : 0};
+  if (!has_lines) return {path};
+  return {path, lines.empty() ? static_cast<std::uint32_t>(sample + 2) : lines[sample]};
 }
 
 RecordedTable read_recorded_table(const std::string& path, const Scenario& scenario) {

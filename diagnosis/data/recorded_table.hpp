@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,11 +30,15 @@ RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scen
 /// The columns of a recording, each as long as the time's.
 struct RecordedTable {
   std::string path;
-  bool has_lines = true;  ///< a CSV file, sample k stands in line k + 2
+  bool has_lines = true;  ///< a CSV file
   RecordedValues time, torque, angle;
   RecordedValues worm_angle, speed;  ///< may be empty
   Axis axis = Axis::rotary;
+  std::vector<std::uint32_t> lines{};   ///< of the samples; empty: sample k stands in line k + 2
+  std::vector<std::size_t> restarts{};  ///< samples before which so many are missing that nothing connects them
 
+  /// Whether some of the samples within so many on either side lie beyond a pause.
+  bool crosses_pause(std::size_t sample, std::size_t half_width) const;
   Location where(std::size_t sample) const;
   Location where() const { return {path}; }
 };

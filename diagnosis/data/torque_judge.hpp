@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/data/needed_torque.hpp"
+#include "diagnosis/data/recorded_table.hpp"
 #include "statistics/sizes.hpp"
 
 namespace wormdrive {
@@ -20,10 +21,10 @@ struct TorqueFit {
 /// not depend on the drive is worked out once.
 class TorqueJudge {
  public:
-  /// Torque [N m] and gear angle [rad] from `start` on, every `period` [s].
-  TorqueJudge(const std::vector<double>& torque, const std::vector<double>& angle, double start, double period)
-      : start_(start),
-        period_(period),
+  /// Torque [N m] and gear angle [rad] in place of the table's own, one every `period` [s].
+  TorqueJudge(const RecordedTable& table, const std::vector<double>& torque, const std::vector<double>& angle,
+              double period)
+      : table_(table),
         half_width_(static_cast<std::size_t>(std::max(4L, std::lround(0.012 / period)))),
         motion_(measured_motion(angle, period, half_width_)),
         still_(std::max(0.3 * median_size(motion_.speed), 1e-9)),
@@ -34,10 +35,10 @@ class TorqueJudge {
   }
 
   TorqueFit fit(const Scenario& scenario) const {
-    const std::vector<double> needed = needed_torque(scenario, motion_, start_, period_, still_);
+    const std::vector<double> needed = needed_torque(scenario, motion_, table_.time.values, still_);
     std::vector<double> left, given, asked;
     for (std::size_t k = half_width_; k + half_width_ < mean_.size(); ++k) {
-      if (needed[k] == 0.0) continue;
+      if (needed[k] == 0.0 || table_.crosses_pause(k, half_width_)) continue;
       left.push_back(mean_[k] - needed[k]);
       given.push_back(mean_[k]);
       asked.push_back(needed[k]);
@@ -47,7 +48,7 @@ class TorqueJudge {
   }
 
  private:
-  double start_, period_;
+  const RecordedTable& table_;
   std::size_t half_width_;
   MeasuredMotion motion_;
   double still_;              ///< speed below which rest does not tell the torque [rad/s]

@@ -12,6 +12,8 @@ Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
     : scenario_(std::move(scenario)), layout_(std::move(layout)), threads_(threads) {
   scenario_.motor = {};  // the recorded command is all there is
   scenario_.control.reset();
+  for (const PreparedRecording& r : layout_.recordings)
+    shortest_period_ = shortest_period_ == 0.0 ? r.data.period : std::min(shortest_period_, r.data.period);
 }
 
 template <class Use>
@@ -24,8 +26,8 @@ void Evaluation::with_predictor(const Effects<double>& effects, std::size_t reco
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
         WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(drive), out, noise.impact, prepared,
-                                  observer_gains(noise, prepared.data.period), extra);
+        Predictor<Load> predictor(std::move(drive), out, noise.impact, prepared, observer_gains(noise, prepared.data),
+                                  extra);
         use(predictor);
       },
       prepared.data.load ? *prepared.data.load : scenario_.load);
@@ -66,11 +68,11 @@ std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effec
     of_gear = layout_.of(recording, innovations);
     of_worm = layout_.of_worm(recording, innovations);
   }
-  const Recording& data = layout_.recordings[recording].data;
+  const PreparedRecording& data = layout_.recordings[recording];
   with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
     for (const std::size_t begin : begins) {
       // not a number from where the model can no longer move
-      std::vector<double> angles(std::min(steps, data.samples() - 1 - begin), std::nan(""));
+      std::vector<double> angles(std::min(steps, data.end_of_stretch(begin) - 1 - begin), std::nan(""));
       try {
         predictor.run_on(begin, states, of_gear, of_worm, angles);
       } catch (const SolverFault&) {

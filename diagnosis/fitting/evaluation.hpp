@@ -20,6 +20,8 @@ class Evaluation {
   const Scenario& scenario() const { return scenario_; }
   const InnovationLayout& layout() const { return layout_; }
   int threads() const { return threads_; }
+  /// Between two samples of the fastest recording [s].
+  double shortest_period() const { return shortest_period_; }
   /// Recordings predicted so far.
   long passes() const { return passes_; }
 
@@ -44,6 +46,7 @@ class Evaluation {
   Scenario scenario_;
   InnovationLayout layout_;
   int threads_;
+  double shortest_period_ = 0.0;
   mutable std::atomic<long> passes_{0};
 };
 

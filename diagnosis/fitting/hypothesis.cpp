@@ -33,6 +33,7 @@ Hypothesis without_noise_model(Hypothesis h) {
 bool evaluate(const Evaluation& evaluation, Hypothesis& h) {
   constexpr double never = std::numeric_limits<double>::infinity();
   h.objective = h.bic = never;
+  h.noise.period = evaluation.shortest_period();
   std::optional<std::vector<double>> e = evaluation.innovations(extended(h), h.noise);
   if (!e) return false;
   h.innovations = std::move(*e);

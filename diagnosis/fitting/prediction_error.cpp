@@ -30,7 +30,7 @@ std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::siz
   std::vector<std::size_t> begins;
   const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
   for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
-    if (recording.held_out[k] && recording.used[k]) begins.push_back(k);
+    if (recording.held_out[k] && recording.used[k] && k + steps < recording.end_of_stretch(k)) begins.push_back(k);
   return begins;
 }
 
@@ -149,7 +149,8 @@ RecordedNoise recorded_noise(const Evaluation& evaluation, const Hypothesis& h, 
   const double K = observer_gains(h.noise, r.data.period).angle;  // = P/(P + 1)
   RecordedNoise noise{{}, static_cast<double>(sizes.size())};
   noise.sizes.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
-  noise.sizes.torque = std::hypot(h.noise.white, h.noise.coloured) * noise.sizes.angle *
+  const ProcessNoise process = h.noise.over(r.data.period);
+  noise.sizes.torque = std::hypot(process.white, process.coloured) * noise.sizes.angle *
                        inertia_on_worm(evaluation, h, recording) / (r.data.period * r.data.period);
   return noise;
 }

@@ -1,8 +1,11 @@
 #include "diagnosis/predictor/observer_gains.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
+
+#include "diagnosis/data/sample_times.hpp"
 
 namespace wormdrive {
 
@@ -15,23 +18,53 @@ ObserverGains alpha_beta(double index, double keep) {
   return {alpha, 2.0 * (2.0 - alpha) - 4.0 * std::sqrt(1.0 - alpha), 0.0, keep};
 }
 
+/// A step of the double integrator, in units of the usual one.
+struct Propagation {
+  Eigen::Matrix3d F, Q;
+
+  /// keep: share of the coloured torque that is left after it. A torque that is new at every sample is the weaker the
+  /// longer it lasts, for its spectrum is what is given.
+  Propagation(const ProcessNoise& noise, double length, double keep) {
+    const double h = length, white = noise.white * noise.white / h, coloured = noise.coloured * noise.coloured;
+    F << 1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, keep;
+    Q = Eigen::Matrix3d::Zero();
+    const double h2 = h * h;
+    Q.topLeftCorner<2, 2>() << 0.25 * h2 * h2 * white, 0.5 * h2 * h * white, 0.5 * h2 * h * white, h2 * white;
+    Q(2, 2) = coloured * (1.0 - keep * keep);
+  }
+  Eigen::Matrix3d ahead(const Eigen::Matrix3d& P) const { return F * P * F.transpose() + Q; }
+};
+
+/// Whether one pair of gains serves every sample.
+bool is_steady(const Recording& r) {
+  if (!r.restarts.empty() || std::find(r.valid.begin(), r.valid.end(), 0) != r.valid.end()) return false;
+  for (std::size_t k = 1; k < r.times.size(); ++k)
+    if (std::abs(r.times[k] - r.times[k - 1] - r.period) > even_enough * r.period) return false;
+  return true;
+}
+
 }  // namespace
 
-ObserverGains observer_gains(const ProcessNoise& noise, double period) {
+ProcessNoise ProcessNoise::over(double other) const {
+  ProcessNoise noise = *this;
+  noise.period = other;
+  if (period == 0.0 || std::abs(other - period) <= even_enough * period) return noise;
+  const double longer = other / period;
+  noise.white *= longer * std::sqrt(longer);
+  noise.coloured *= longer * longer;
+  return noise;
+}
+
+ObserverGains observer_gains(const ProcessNoise& stated, double period) {
+  const ProcessNoise noise = stated.over(period);
   const double a = std::exp(-period / colouring_time);
   if (noise.coloured <= 0.0) return alpha_beta(noise.white, a);
-  using Matrix = Eigen::Matrix3d;
-  Matrix F;
-  F << 1.0, 1.0, 0.5, 0.0, 1.0, 1.0, 0.0, 0.0, a;
-  const double white = noise.white * noise.white, coloured = noise.coloured * noise.coloured;
-  Matrix Q = Matrix::Zero();
-  Q.topLeftCorner<2, 2>() << 0.25 * white, 0.5 * white, 0.5 * white, white;
-  Q(2, 2) = coloured * (1.0 - a * a);
-  Matrix P = Eigen::Vector3d(1.0, 0.1, coloured).asDiagonal();
+  const Propagation step(noise, 1.0, a);
+  Eigen::Matrix3d P = Eigen::Vector3d(1.0, 0.1, noise.coloured * noise.coloured).asDiagonal();
   Eigen::Vector3d K = Eigen::Vector3d::Zero(), before = K;
   constexpr int most = 4000, look_every = 20;
   for (int k = 1; k <= most; ++k) {
-    const Matrix ahead = F * P * F.transpose() + Q;
+    const Eigen::Matrix3d ahead = step.ahead(P);
     K = ahead.col(0) / (ahead(0, 0) + 1.0);
     P = ahead - K * ahead.row(0);
     if (k % look_every != 0) continue;
@@ -39,6 +72,28 @@ ObserverGains observer_gains(const ProcessNoise& noise, double period) {
     before = K;
   }
   return {K[0], K[1], K[2], a};
+}
+
+std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Recording& recording) {
+  if (is_steady(recording)) return {observer_gains(stated, recording.period)};
+  const ProcessNoise noise = stated.over(recording.period);
+  // what a line through the next samples tells of angle and speed is about as good as one reading of the sensor
+  const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, 1.0, noise.coloured * noise.coloured).asDiagonal();
+  std::vector<ObserverGains> gains(recording.samples());
+  Eigen::Matrix3d P = at_start;
+  for (std::size_t k = 1; k < gains.size(); ++k) {
+    if (std::binary_search(recording.restarts.begin(), recording.restarts.end(), k)) {
+      P = at_start;
+      continue;
+    }
+    const double step = recording.time(k) - recording.time(k - 1), keep = std::exp(-step / colouring_time);
+    P = Propagation(noise, step / recording.period, keep).ahead(P);
+    Eigen::Vector3d K = Eigen::Vector3d::Zero();
+    if (recording.valid.empty() || recording.valid[k]) K = P.col(0) / (P(0, 0) + 1.0);
+    P -= K * P.row(0).eval();
+    gains[k] = {K[0], K[1], K[2], keep};
+  }
+  return gains;
 }
 
 }  // namespace wormdrive

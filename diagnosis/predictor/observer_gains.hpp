@@ -1,4 +1,7 @@
 #pragma once
+#include <vector>
+
+#include "diagnosis/data/recording.hpp"
 #include "diagnosis/predictor/restitution.hpp"
 
 namespace wormdrive {
@@ -10,6 +13,10 @@ struct ProcessNoise {
   double white = 0.005;     ///< torque that is new at every sample
   double coloured = 0.003;  ///< torque that lasts
   Restitution impact{};
+  double period = 0.0;  ///< of the samples for which these are stated [s]; 0: of any
+
+  /// The same torques, by what they do within samples of another period.
+  ProcessNoise over(double other) const;
 };
 
 /// What an innovation of the angle adds to the state.
@@ -26,5 +33,9 @@ inline constexpr double colouring_time = 0.05;
 /// Gains of the steady Kalman filter for a double integrator that is driven by white and coloured noise and whose angle
 /// is measured [Kalman 1960]; the states are scaled to the sensor's noise and to the period [s].
 ObserverGains observer_gains(const ProcessNoise& noise, double period);
+
+/// The gains for every sample of a recording whose steps are uneven, or of which samples are missing, by the same
+/// filter while it is not steady; a single one where all would be alike. Where nothing is measured they are 0.
+std::vector<ObserverGains> observer_gains(const ProcessNoise& noise, const Recording& recording);
 
 }  // namespace wormdrive

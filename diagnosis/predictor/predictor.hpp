@@ -35,11 +35,11 @@ class Predictor {
 
   /// extra: torque added to the command at every sample [N m], empty for none.
   Predictor(WormDrive<double, Load> drive, const TakenOut& out, const Restitution& impact,
-            const PreparedRecording& recording, const ObserverGains& gains, std::span<const double> extra = {})
+            const PreparedRecording& recording, std::vector<ObserverGains> gains, std::span<const double> extra = {})
       : model_(std::move(drive), out.gap, recording.worm_angle.empty() ? 0.0 : out.compliance, impact),
         out_(out),
         recording_(recording),
-        gains_(gains),
+        gains_(std::move(gains)),
         extra_(extra),
         held_torque_(
             (model_.drive().mesh().Jw * model_.drive().mesh().i + model_.drive().mesh().C(0.0) * model_.drive().Jg()) /
@@ -50,13 +50,20 @@ class Predictor {
   /// no motion, or loses the measured one.
   void operator()(std::span<double> of_gear, std::span<double> of_worm, FilteredStates* states = nullptr) {
     const Recording& data = recording_.data;
-    State now = start(recording_.speed[0]);
+    State now = start(0);
     double w = 0.0;
+    std::size_t end = recording_.end_of_stretch(0);
     for (std::size_t k = 0;; ++k) {
       if (states) keep(*states, k, now, w);
       if (k + 1 == data.samples()) break;
+      if (k + 1 == end) {  // nobody knows what happens in the pause
+        now = start(end);
+        w = 0.0;
+        end = recording_.end_of_stretch(end);
+        continue;
+      }
       run_sample(now, k, w);
-      w *= gains_.keep;
+      w *= gains(k + 1).keep;
       if (!data.valid.empty() && !data.valid[k + 1]) continue;
       if (!of_worm.empty()) {
         of_worm[k + 1] = recording_.worm_angle[k + 1] - model_.worm(now).angle;
@@ -80,7 +87,7 @@ class Predictor {
                           {from.worm_angle[begin], from.worm_speed[begin]});
     for (std::size_t k = 0; k < angles.size(); ++k) {
       run_sample(now, begin + k, w);
-      w *= gains_.keep;
+      w *= gains(begin + k + 1).keep;
       if (!of_worm.empty()) correct(now, w, begin + k + 1, of_worm[begin + k + 1]);
       angles[k] = model_.measured_angle(now);
       if (of_gear.empty()) continue;
@@ -92,12 +99,15 @@ class Predictor {
  private:
   double time(std::size_t k) const { return recording_.data.time(k); }
 
-  State start(double speed) {
-    rewind(0);
-    drive().command(0.0, command(0, 0.0));
+  const ObserverGains& gains(std::size_t k) const { return gains_.size() == 1 ? gains_.front() : gains_[k]; }
+
+  /// What a sample that none before tells of shows of the state.
+  State start(std::size_t k) {
+    rewind(k);
+    drive().command(time(k), command(k, 0.0));
     // the sensor's law is a straight line
     const double offset = drive().effects().measured_angle(0.0), slope = drive().effects().measured_angle(1.0) - offset;
-    return model_.at(0.0, {(recording_.data.gear_angle[0] - offset) / slope, speed / slope});
+    return model_.at(time(k), {(recording_.data.gear_angle[k] - offset) / slope, recording_.speed[k] / slope});
   }
   void keep(FilteredStates& states, std::size_t k, const State& now, double w) const {
     const ShaftState worm = model_.worm(now);
@@ -123,8 +133,8 @@ class Predictor {
   void correct(State& now, double& w, std::size_t k, double e) const {
     // where data and model agree that it stands it does not get a speed
     const bool stands = !recording_.moving[k] && model_.at_rest(now);
-    model_.shift(now, gains_.angle * e, stands ? 0.0 : gains_.speed * e / recording_.data.period);
-    if (recording_.moving[k]) w += gains_.torque * e * held_torque_;
+    model_.shift(now, gains(k).angle * e, stands ? 0.0 : gains(k).speed * e / recording_.data.period);
+    if (recording_.moving[k]) w += gains(k).torque * e * held_torque_;
   }
 
   /// Takes out of the gear's innovations what a wrong zero of the worm has put there.
@@ -155,7 +165,7 @@ class Predictor {
   Model model_;
   TakenOut out_;
   const PreparedRecording& recording_;
-  ObserverGains gains_;
+  std::vector<ObserverGains> gains_;  ///< of every sample, or one for all
   std::span<const double> extra_;
   double held_torque_;  ///< on the worm, of an acceleration by 1 rad per period squared, without friction [N m]
 };

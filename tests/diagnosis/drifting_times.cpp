@@ -1,5 +1,4 @@
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 
@@ -52,12 +51,6 @@ std::string said(const Sheet& sheet) {
   }
   return "it was taken";
 }
-std::string said(const std::function<double(double)>& clock) {
-  Sheet sheet = sound();
-  sheet.each(0, [&](double t, std::size_t) { return clock(t); });
-  return said(sheet);
-}
-
 double rms_innovation(const Recording& recording) {
   Scenario scenario;
   scenario.mesh = SingleInertia<double>{0.01};
@@ -96,16 +89,6 @@ TEST_CASE("even times stay even, and what they miss by jitter is told and not fo
   CHECK(jittered.times.empty());
   REQUIRE(jittered.remarks.size() == 1);
   CHECK(jittered.remarks[0] == "the sample times miss even steps by up to 5 % of a step; taken for even");
-}
-
-TEST_CASE("a step that its neighbours do not have, or another rate, is refused with its line") {
-  CHECK(said([](double t) {
-          return t < 4.0 ? t : t + 0.3e-3;
-        }).starts_with("r.csv:4001: error: time_s = 3.999 is 0.00015 s off the even steps of 0.001004 s around it; "));
-  CHECK(
-      said([](double t) { return t + 0.02 * t * t; })
-          .starts_with("r.csv:2: error: time_s has steps of 0.001002 s at 0 and of 0.00116 s on average; at most 10 % "
-                       "apart they can be one recording"));
 }
 
 TEST_CASE("the prediction runs from stamp to stamp") {

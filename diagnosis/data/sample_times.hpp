@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnosis/data/missing_rows.hpp"
+#include "diagnosis/data/recorded_table.hpp"
+
+namespace wormdrive {
+
+/// The sample times of a recording: even, or as they are.
+struct SampleTimes {
+  double start, period;       ///< of the first sample, and between two samples on average [s]
+  std::vector<double> times;  ///< of every sample since the first, where they are not those of one even grid [s]
+  std::vector<std::string> remarks;
+};
+
+inline constexpr double longest_period = 0.02;  ///< [s]: slower samples do not show how a drive starts and stops
+inline constexpr double even_enough = 0.02;     ///< of a step: what misses one even grid by less is taken for even
+
+/// The times at which a recording was sampled. Stamps that miss an even grid are followed, unless the angle goes on
+/// more evenly with time without them: then a clock sampled it, and the stamps were late on their way. Throws
+/// InputFault where the recording is too short.
+SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows);
+
+}  // namespace wormdrive
