@@ -53,4 +53,18 @@ std::string ResultFile::attribute(const std::string& object, const std::string& 
   return H5Aexists(at, name.c_str()) > 0 ? read_text_attribute(at, name) : "";
 }
 
+std::vector<ResultFile> open_results(const std::vector<std::string>& paths) {
+  std::vector<ResultFile> files;
+  Diagnostics faults;
+  for (const std::string& path : paths) {
+    try {
+      files.emplace_back(path);
+    } catch (const InputFault& fault) {
+      for (const Fault& f : fault.faults) faults.add(f.where, f.what);
+    }
+  }
+  faults.raise();
+  return files;
+}
+
 }  // namespace wormdrive
