@@ -12,26 +12,26 @@
 
 namespace wormdrive {
 
-int guarded(const std::function<int()>& command) {
+int guarded(const std::function<int()>& command, const std::string& who) {
   try {
     return command();
   } catch (const InputFault& fault) {
-    std::cerr << fault.what() << '\n';
+    if (!fault.faults.empty()) std::cerr << fault.what() << '\n';  // else the first rank tells it
     return bad_input;
   } catch (const SimulationFailure& halt) {
-    std::cerr << "wormdrive: " << halt.what() << '\n';
+    std::cerr << who << ": " << halt.what() << '\n';
     return cannot_go_on;
   } catch (const ReadFault& fault) {
     std::cerr << fault.path << ": error: " << fault.what() << '\n';
     return bad_input;
   } catch (const OutputFault& fault) {
-    std::cerr << "wormdrive: " << fault.what() << '\n';
+    std::cerr << who << ": " << fault.what() << '\n';
     return cannot_write;
   } catch (const std::system_error& fault) {  // from printing
-    std::cerr << "wormdrive: " << fault.what() << '\n';
+    std::cerr << who << ": " << fault.what() << '\n';
     return cannot_write;
   } catch (const std::exception& other) {  // out of memory, or something that nobody foresaw
-    std::cerr << "wormdrive: cannot go on: " << other.what() << '\n';
+    std::cerr << who << ": cannot go on: " << other.what() << '\n';
     return cannot_go_on;
   }
 }

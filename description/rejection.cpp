@@ -42,13 +42,11 @@ std::string refusal(const GearInertia<double>& effect, const Scenario& scenario)
   return too_little_on_the_gear(effect, scenario);
 }
 
+/// Dry friction that drives has no state of rest; viscous friction that drives has, see warnings().
 std::string refusal(const BearingAsymmetry<double>& effect, const Scenario& scenario) {
   const auto& dry = std::get<std::optional<WormCoulomb<double>>>(scenario.effects.list);
-  const auto& viscous = std::get<std::optional<WormViscous<double>>>(scenario.effects.list);
-  if (std::abs(effect.torque) <= (dry ? dry->torque : 0.0) &&
-      std::abs(effect.coefficient) <= (viscous ? viscous->coefficient : 0.0))
-    return "";
-  return "is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm";
+  if (std::abs(effect.torque) <= (dry ? dry->torque : 0.0)) return "";
+  return "has a torque greater than the dry friction it belongs to, worm_coulomb: it would drive the worm";
 }
 std::string refusal(const ToothCompliance<double>& teeth, const Scenario&) {
   if (teeth.growing_damping && teeth.limited_damping)

@@ -30,6 +30,13 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   return list;
 }
 
+/// A diagnosis finds such friction where something else than the bearings has the rest of it, as the teeth.
+bool bearings_drive(const Effects<double>& effects) {
+  const auto& asymmetry = std::get<std::optional<BearingAsymmetry<double>>>(effects.list);
+  const auto& viscous = std::get<std::optional<WormViscous<double>>>(effects.list);
+  return asymmetry && std::abs(asymmetry->coefficient) > (viscous ? viscous->coefficient : 0.0);
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const Scenario& scenario) {
@@ -44,6 +51,10 @@ std::vector<std::string> warnings(const Scenario& scenario) {
   if (scenario.motor.terms.empty() && !scenario.control)
     list.push_back(
         fmt::format("no [motor.torque]: the motor {} is 0 throughout", in_words_of(scenario.axis, "torque")));
+  if (bearings_drive(scenario.effects))
+    list.push_back(
+        "effect.bearing_asymmetry has a coefficient greater than that of worm_viscous: in one direction the "
+        "bearings drive the worm");
   for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
   return list;
 }

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/elastic/elastic_teeth.hpp"
 #include "description/build.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/fitting/fit.hpp"
@@ -22,6 +21,7 @@
 #include "diagnosis/verdict/adequacy.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/experiment.hpp"
+#include "diagnosis/verdict/extended_scenario.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
@@ -251,24 +251,19 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   judge(d, found, all, sizes);
 
   if (!d.causes.empty() || (found.causes.empty() && calibration_matters(d))) {
-    d.extended.effects = extended(last);
+    Effects<double> with_causes = extended(last);
     for (const Found& f : found.causes)
       if (std::none_of(d.causes.begin(), d.causes.end(),
                        [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }))
-        switch_off(d.extended.effects, all[f.candidate].effect);
-    give_teeth_for_impacts(d.extended, last.noise.impact);
-    auto& uneven = std::get<std::optional<TransmissionError<double>>>(d.extended.effects.list);
-    if (has_elastic_teeth(d.extended.effects) && uneven) {
-      uneven.reset();
-      d.remarks.emplace_back("the extended scenario leaves transmission_error out: elastic teeth run at an even pitch");
-    }
+        switch_off(with_causes, all[f.candidate].effect);
+    d.extended = extended_scenario(scenario, with_causes, last.noise.impact, d.remarks);
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     d.uncertainty = {};
     describe(d, evaluation, before, found.base);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
-  for (const NotExamined& n : not_examined(sizes))
+  for (const NotExamined& n : not_examined(scenario.effects, sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
   d.passes = evaluation.passes() + by_all.passes();
   return d;

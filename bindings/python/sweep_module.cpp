@@ -1,10 +1,14 @@
+#include <nlohmann/json.hpp>
+
 #include "bindings/python/module.hpp"
 #include "bindings/python/numpy_table.hpp"
 #include "bindings/python/signals.hpp"
 #include "bindings/python/sweep_result.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "statistics/threads.hpp"
+#include "sweep/file/so_far.hpp"
 #include "sweep/study/load_study.hpp"
+#include "sweep/summary/summary_json.hpp"
 
 namespace py = pybind11;
 
@@ -43,6 +47,15 @@ std::unique_ptr<SweepResult> restored(const py::tuple& state) {
   return result;
 }
 
+/// As JSON; of a sweep that runs or was interrupted, what there is of it.
+std::string summary(const std::string& path, const SummarySettings& settings) {
+  const py::gil_scoped_release others_may_run;
+  const SweepSoFar so_far(path);
+  const SweepReader sweep(so_far.path());
+  return summary_json(sweep, summarise(sweep, settings), so_far.running())
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 void add_sweep(py::module_& m) {
@@ -60,6 +73,9 @@ void add_sweep(py::module_& m) {
           py::arg("path"), py::arg("command_line"), py::arg("referee"), py::arg("force"))
       .def(py::pickle(&state, &restored));
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
+  m.def("summary", [](const std::string& path, const std::string& metric, unsigned worst, bool done_only) {
+    return summary(path, {.ranked_by = metric, .worst = worst, .done_only = done_only});
+  });
   m.def("sweep_text", [](const std::string& text, const std::string& name, unsigned threads) {
     return run(read_study(text, name), threads);
   });

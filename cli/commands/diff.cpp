@@ -177,16 +177,7 @@ int diff_command(const DiffOptions& options) {
   if (is_sweep(options.first) && is_sweep(options.second)) return diff_sweeps(options);
   std::vector<std::string> paths{options.first};
   if (options.second != options.first) paths.push_back(options.second);
-  std::vector<ResultFile> files;
-  Diagnostics faults;
-  for (const std::string& path : paths) {
-    try {
-      files.emplace_back(path);
-    } catch (const InputFault& fault) {
-      for (const Fault& f : fault.faults) faults.add(f.where, f.what);
-    }
-  }
-  faults.raise();
+  const std::vector<ResultFile> files = open_results(paths);
   const ResultFile &a = files.front(), &b = files.back();
   const FileComparison result = compare(a, b, options);
   if (options.json) print_json(as_json(result));

@@ -8,8 +8,6 @@
 #include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/result_file.hpp"
-#include "description/diagnostics.hpp"
-#include "description/toml/document.hpp"
 
 extern char** environ;
 
@@ -46,14 +44,7 @@ int run_script(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  Diagnostics faults;
-  for (const std::string& file : options.files)
-    if (const auto why = why_unreadable(file))
-      faults.add({file}, *why);
-    else if (!is_hdf5(file))
-      faults.add({file}, "not an HDF5 file; wormdrive run writes one");
-  faults.raise();
-  for (const std::string& file : options.files) ResultFile{file};  // refuses a damaged one
+  open_results(options.files);  // refuses what is no result, or a damaged one
   const int code = draw(options);
   if (code == 0) print_item("wrote", picture(options));
   return code;

@@ -9,6 +9,7 @@
 #include "cli/commands/sweep_ranks.hpp"
 #include "cli/commands/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_trial.hpp"
 #include "cli/shell_words.hpp"
@@ -83,6 +84,8 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     } else {
       file.flush();
     }
+  } catch (const ReadFault&) {  // which room on the disk would not mend
+    throw;
   } catch (const OutputFault& fault) {
     throw OutputFault(fmt::format("{}; trials older than a second are safe; free some space, then {}", fault.what(),
                                   how_to_resume(options)));
@@ -125,14 +128,15 @@ bool looks_good(Ranks& ranks, Look&& look) {
 
 int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
+  std::optional<Study> read;
   const bool good = looks_good(ranks, [&] {
-    load_study(options.study);
+    read = load_study(options.study);
     reject_overwriting(output, options.study);
     if (ranks.count() > 1 && !options.shard.empty())
       reject({"--shard " + options.shard}, "the ranks share all trials; remove the option");
   });
-  if (!good) return 2;
-  const Study study = load_study(options.study);
+  if (!good) return bad_input;
+  const Study study = read ? std::move(*read) : load_study(options.study);  // once: it may be a pipe
   const Interruptible interruptible;
   if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);
   return sweep_alone(options, study, output);
@@ -142,19 +146,10 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
 
 int sweep_command(const SweepOptions& options) {
   std::optional<Ranks> ranks;
-  try {
+  return guarded([&] {  // mpirun may lose what is said behind the ranks' common end
     ranks.emplace(!options.shard.empty());
     return sweep_together(*ranks, options);
-  } catch (const InputFault& fault) {
-    // mpirun may lose what is said behind the ranks' common end
-    if (ranks && ranks->count() == 1) throw;
-    if (!fault.faults.empty()) fmt::print(stderr, "{}\n", fault.what());
-    return 2;
-  } catch (const OutputFault& fault) {
-    if (!ranks || ranks->count() == 1) throw;
-    fmt::print(stderr, "wormdrive: {}\n", fault.what());
-    return 4;
-  }
+  });
 }
 
 }  // namespace wormdrive

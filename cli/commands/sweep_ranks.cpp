@@ -11,6 +11,7 @@
 #include "cli/commands/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_trial.hpp"
 #include "cli/shell_words.hpp"
@@ -147,6 +148,13 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
   return plan;
 }
 
+/// The exit code of all ranks out of those of each.
+int common_code(const Ranks& ranks, int code) {
+  for (const int one : {bad_input, cannot_write, cannot_go_on})
+    if (ranks.sum(code == one ? 1 : 0) > 0) return one;
+  return 0;
+}
+
 /// Puts together what the ranks have made; the first one does it.
 void join(const SweepOptions& options, const std::string& output, OutputLock lock) {
   const std::vector<std::string> parts = rank_parts(output);
@@ -174,7 +182,7 @@ std::string shares(const std::string& output, std::uint64_t generation, int rank
 int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output) {
   OutputLock lock;  // the first one holds it for all
   const std::optional<RankPlan> agreement = agreed(ranks, options, study, output, lock);
-  if (!agreement) return 2;
+  if (!agreement) return bad_input;
   const RankPlan& plan = *agreement;
   const bool talks = ranks.first() && !options.quiet;
   if (talks) print_study(study, {0, study.trials()});
@@ -185,26 +193,26 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   const Missing missing(plan.missing);
   const auto begin = std::chrono::steady_clock::now();
   RankSweep sweep(ranks, options, study, rank_file(output, plan.generation, ranks.rank()), missing);
-  std::string fault;
-  try {
+  const auto make = [&] {
     sweep.make();
-  } catch (const std::exception& what) {  // the others go on: they must not wait for this one
-    fault = what.what();
-    fmt::print(stderr, "wormdrive: rank {}: {}\n", ranks.rank(), fault);
-  }
+    return 0;
+  };
+  // the others go on: they must not wait for this one
+  const int fault = common_code(ranks, guarded(make, fmt::format("wormdrive: rank {}", ranks.rank())));
   const std::uint64_t made = ranks.sum(sweep.made());
-  const bool broken = ranks.sum(fault.empty() ? 0 : 1) > 0, too_many = sweep.too_many();
+  const bool too_many = sweep.too_many();
+  if (fault == bad_input) return fault;  // going on would meet it again
   const std::uint64_t there = study.trials() - missing.count() + made;
   const std::string resume = fmt::format("continue with: mpirun -n {} {}", ranks.count(),
                                          how_to_resume(options).substr(std::string("continue with: ").size()));
-  if (broken || too_many || made < missing.count()) {
+  if (fault != 0 || too_many || made < missing.count()) {
     if (ranks.first() && too_many)
       fmt::print(stderr, "wormdrive: {}; {}.rank_* contain all of them\n",
                  ended_early(rank_parts(output), *options.max_failures).told, output);
     else if (ranks.first())
       fmt::print(stderr, "wormdrive: stopped after {} of {} trials, which are in {}.rank_*; {}\n", there,
                  study.trials(), output, resume);
-    return too_many ? 3 : broken ? 4 : 128 + Interruptible::signal();
+    return too_many ? cannot_go_on : fault != 0 ? fault : 128 + Interruptible::signal();
   }
   std::string each;
   if (ranks.first()) {

@@ -11,7 +11,7 @@ namespace wormdrive {
 
 ResultFile::ResultFile(const std::string& path) : path_(path) {
   if (const auto why = why_unreadable(path)) reject({path}, *why);
-  if (!is_hdf5(path)) reject({path}, "is not a result file (HDF5); wormdrive run writes one");
+  if (!is_hdf5(path)) reject({path}, "not an HDF5 file; wormdrive run writes one");
   try {
     read_ahead(path);
     file_ = open_hdf5(path);
@@ -51,6 +51,20 @@ std::vector<std::pair<std::string, double>> ResultFile::numbers(const std::strin
 std::string ResultFile::attribute(const std::string& object, const std::string& name) const {
   const Hdf5Handle at = open_object(file_, object);
   return H5Aexists(at, name.c_str()) > 0 ? read_text_attribute(at, name) : "";
+}
+
+std::vector<ResultFile> open_results(const std::vector<std::string>& paths) {
+  std::vector<ResultFile> files;
+  Diagnostics faults;
+  for (const std::string& path : paths) {
+    try {
+      files.emplace_back(path);
+    } catch (const InputFault& fault) {
+      for (const Fault& f : fault.faults) faults.add(f.where, f.what);
+    }
+  }
+  faults.raise();
+  return files;
 }
 
 }  // namespace wormdrive

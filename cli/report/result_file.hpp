@@ -32,4 +32,7 @@ class ResultFile {
   Hdf5Handle file_;
 };
 
+/// Throws InputFault with the faults of all that are no result files, or damaged ones.
+std::vector<ResultFile> open_results(const std::vector<std::string>& paths);
+
 }  // namespace wormdrive

@@ -135,6 +135,11 @@ std::vector<double> far_values(const Coordinate& c) {
   return values;
 }
 
+/// Whether the scenario takes friction over the sliding speed from a standard, which leaves no room for another fall.
+bool has_standard_friction(const Effects<double>& stated) {
+  return std::get<std::optional<Agma<double>>>(stated.list).has_value();
+}
+
 /// An effect that the scenario has already is sought as a change of what it states.
 void start_from_stated(Candidate& s, const Effects<double>& stated) {
   if (!field_of(stated, s.effect, s.coordinates[0].field).on) return;
@@ -176,7 +181,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
   all.push_back(linear("encoder_scale", "share", 0.01, -0.3, 0.3));
   if (m.has_teeth) {
     const double gear_torque = m.torque * m.worm_speed / m.gear_speed;
-    all.push_back(stribeck(m));
+    if (!has_standard_friction(stated)) all.push_back(stribeck(m));
     all.push_back(linear("friction_asymmetry", "change", 0.04 * m.friction, -0.6 * m.friction, 0.6 * m.friction));
     all.push_back(periodic("position_friction", 0.05, 0.7));
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
@@ -208,8 +213,10 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
   return all;
 }
 
-std::vector<NotExamined> not_examined(const Magnitudes& m) {
+std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"}};
+  if (m.has_teeth && has_standard_friction(stated))
+    list.push_back({"stribeck", "effect.agma states already how friction falls with the sliding speed"});
   if (m.has_teeth && !m.has_worm_encoder)
     list.push_back({"tooth_compliance", "only an encoder on the worm shows it", true});
   if (!m.load_turns)

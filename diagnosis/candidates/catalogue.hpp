@@ -44,13 +44,13 @@ struct Candidate {
 std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitudes& sizes,
                                   const std::vector<Coordinate>& toleranced);
 
-/// Effects of the catalogue that are no candidates in a drive of this kind, with the reason.
+/// Effects of the catalogue that are no candidates in a drive of this kind that has these effects, with the reason.
 struct NotExamined {
   std::string_view effect;
   std::string_view reason;
   bool needs_worm_encoder = false;  ///< another recording could show it
 };
-std::vector<NotExamined> not_examined(const Magnitudes& sizes);
+std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& sizes);
 
 /// Whether an effect moves worm and gear against each other. What two encoders show of that no torque can explain.
 bool is_kinematic(std::string_view effect);

@@ -41,6 +41,7 @@ class Maker {
             .centre = centre,
             .tolerance = tolerance};
   }
+  bool states(std::string_view effect, std::string_view field) const { return field_of(effects_, effect, field).on; }
   void add(std::vector<Coordinate> coordinates, std::vector<std::vector<double>> starts = {}) {
     if (starts.empty()) {  // as stated, but off the bound: there a step may lead nowhere
       starts.emplace_back();
@@ -90,10 +91,15 @@ std::vector<PointCandidate> point_candidates(const Scenario& scenario, const Tor
     at.centre = 0.1 * v;
     std::vector<std::vector<double>> starts;
     for (const double share : {0.005, 0.02, 0.1, 0.5}) starts.push_back({0.1 * mu, std::max(2.0 * at.low, share * v)});
-    maker.add({maker.coordinate("stribeck", "drop", mu, 0.5), at}, starts);
-    maker.exclude("agma");  // both say how friction falls with the sliding speed
-    maker.add({maker.coordinate("agma", "scale", 1.0, 10.0)}, {{mu / 0.15}});
-    maker.exclude("stribeck");
+    // both say how friction falls with the sliding speed
+    if (!maker.states("agma", "scale")) {
+      maker.add({maker.coordinate("stribeck", "drop", mu, 0.5), at}, starts);
+      maker.exclude("agma");
+    }
+    if (!maker.states("stribeck", "drop")) {
+      maker.add({maker.coordinate("agma", "scale", 1.0, 10.0)}, {{mu / 0.15}});
+      maker.exclude("stribeck");
+    }
     one("gear_viscous", "coefficient", gear * mesh.i / speed, 2.0 * gear * mesh.i / speed);
   } else {
     one("static_friction", "rise", mu, 0.5);

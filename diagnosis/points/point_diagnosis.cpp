@@ -12,6 +12,7 @@
 #include "description/keys.hpp"
 #include "diagnosis/points/report.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
+#include "diagnosis/verdict/extended_scenario.hpp"
 #include "statistics/random.hpp"
 #include "statistics/student_t.hpp"
 
@@ -149,7 +150,8 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   d.noise_torque = found.after.all.scale * *std::max_element(points.deviation.begin(), points.deviation.end());
   put_units_on_axis(d, scenario.axis);
   judge_points(d, found, candidates);
-  if (!d.causes.empty()) d.extended.effects = fitter.with(found.after.model, found.after.all.values);
+  if (!d.causes.empty())
+    d.extended = extended_scenario(scenario, fitter.with(found.after.model, found.after.all.values), {}, d.remarks);
   if (more && !d.classes.empty()) propose_other_load(d, scenario, *more, candidates, found);
   d.passes = fitter.passes();
   return d;

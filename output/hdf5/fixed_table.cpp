@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "output/hdf5/stored_column.hpp"
+#include <fmt/format.h>
 
 namespace wormdrive {
 namespace {
@@ -92,6 +92,12 @@ void FixedTexts::write(std::uint64_t row, const std::string& text) {
   std::string padded(shortened(text));
   padded.resize(longest);
   write_rows(dataset_, text_type(action), row, 1, padded.data(), action);
+}
+
+void check_fixed_texts(const StoredColumn& column, std::uint64_t rows) {
+  if (column.type() != StoredColumn::Type::padded_text || column.bytes_per_row() != FixedTexts::longest)
+    column.reject(fmt::format("does not hold texts of {} bytes", FixedTexts::longest));
+  if (column.rows() != rows) column.reject(fmt::format("has {} rows instead of {}", column.rows(), rows));
 }
 
 std::vector<std::string> read_fixed_texts(hid_t parent, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "output/hdf5/stored_column.hpp"
 #include "output/hdf5/table.hpp"
 
 namespace wormdrive {
@@ -37,6 +38,8 @@ class FixedTexts {
   Hdf5Handle dataset_;
 };
 
+/// Throws ReadFault unless a column has room for so many texts as FixedTexts writes them.
+void check_fixed_texts(const StoredColumn& column, std::uint64_t rows);
 /// All texts of such a column up to the first empty one. Throws ReadFault.
 std::vector<std::string> read_fixed_texts(hid_t parent, const std::string& name);
 

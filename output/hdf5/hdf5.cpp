@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 
 namespace wormdrive {
@@ -80,6 +81,8 @@ std::string file_of(hid_t object) {
 }
 
 bool is_hdf5(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;  // a pipe gives its text once, and not for this look
   prepare_hdf5();
   return H5Fis_hdf5(path.c_str()) > 0;
 }

@@ -51,6 +51,7 @@ StoredColumn::StoredColumn(hid_t file, std::string path)
   const hsize_t size = H5Tget_size(type), stored = std::min<hsize_t>(H5Dget_storage_size(dataset_), bytes);
   if (size == 0 || rows > stored / size)
     reject(fmt::format("states {} rows of {} bytes, but the file contains only {} bytes", rows, size, stored));
+  bytes_per_row_ = size;
 }
 
 std::vector<double> StoredColumn::values(std::uint64_t first, std::uint64_t count) const {

@@ -21,6 +21,7 @@ class StoredColumn {
   const std::string& path() const { return path_; }
   Type type() const { return type_; }
   std::uint64_t rows() const { return rows_; }
+  std::uint64_t bytes_per_row() const { return bytes_per_row_; }
   /// Values of numbers or flags, so many from a row on; throws ReadFault if it holds texts or is shorter.
   std::vector<double> values(std::uint64_t first, std::uint64_t count) const;
   std::vector<double> values() const { return values(0, rows_); }
@@ -37,7 +38,8 @@ class StoredColumn {
   std::string file_, path_;
   Hdf5Handle dataset_;
   Type type_ = Type::number;
-  std::uint64_t rows_ = 0, bytes_ = 0;  ///< of the file
+  std::uint64_t rows_ = 0, bytes_per_row_ = 0;
+  std::uint64_t bytes_ = 0;  ///< of the file
 };
 
 /// All values of a column of numbers or flags. Throws ReadFault.

@@ -7,6 +7,7 @@
 
 #include "output/hdf5/stored_table.hpp"
 #include "sweep/file/sweep_file.hpp"
+#include "sweep/summary/summary_tables.hpp"
 
 namespace wormdrive {
 namespace {
@@ -71,6 +72,8 @@ void check_referee(const StoredTable& referee, TrialRange range) {
 
 TrialRange check_sweep(hid_t file, const Study& study) {
   const TrialRange range = stored_range(file, study);
+  for (const char* const name : {"title", "command_line"}) read_text_attribute(file, name);
+  if (H5Aexists(file, "sources") > 0) read_text_attribute(file, "sources");  // older files have none
   const StoredTable trials(file, "trials"), referee(file, "referee");
   for (ColumnDescription column : trial_columns(study)) {
     if (column.is_flag()) column.flag_values.push_back(0);  // of a trial that was not made yet
@@ -83,6 +86,7 @@ TrialRange check_sweep(hid_t file, const Study& study) {
     if (there && value != static_cast<double>(trial))
       trials.column("index").reject(fmt::format("contains {} in the row of trial {}", value, trial));
   });
+  check_fixed_texts(StoredColumn(file, "reasons"), ReasonTable::most);
   check_reasons(file, trials, range);
   for (const UncertainParameter& p : study.parameters)
     for_each_row(trials, p.name, range, [&](std::uint64_t trial, double value, bool there) {
@@ -90,7 +94,10 @@ TrialRange check_sweep(hid_t file, const Study& study) {
         trials.column(p.name).reject(fmt::format("holds {} for trial {}, which is not finite", value, trial));
     });
   for (const ColumnDescription& column : verdict_columns(study.scenario.axis)) referee.check(column, Range::any);
+  if (referee.rows() != most_verdicts)
+    referee.column("judged").reject(fmt::format("has {} rows instead of {}", referee.rows(), most_verdicts));
   check_referee(referee, range);
+  check_summary_tables(file, study);
   return range;
 }
 

@@ -7,7 +7,8 @@ namespace wormdrive {
 
 /// Looks at all that readers of a sweep rely on: that it has room for trials of its study and no others, and that every
 /// row that is there, whatever its place among those that are not yet, has its own index, a status, one of the reasons
-/// that the file has, and numbers as parameters. Returns the trials for which it has room. Throws ReadFault.
+/// that the file has, and numbers as parameters; and at all that a sweep that goes on writes to: room for the texts of
+/// /reasons and for the tables of /summary. Returns the trials for which it has room. Throws ReadFault.
 TrialRange check_sweep(hid_t file, const Study& study);
 
 }  // namespace wormdrive

@@ -102,7 +102,7 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
       for (const RefereeVerdict& verdict : shard->verdicts()) verdicts.push_back(verdict);
     merged.file->write(verdicts);
     merged.file->finish();
-  } catch (const OutputFault&) {
+  } catch (...) {
     std::error_code ignored;  // the shards have all of it
     std::filesystem::remove(merged.file->part_path(), ignored);
     throw;

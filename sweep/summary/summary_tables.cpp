@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "output/hdf5/fixed_table.hpp"
+#include "output/hdf5/stored_table.hpp"
 
 namespace wormdrive {
 namespace {
@@ -109,6 +110,14 @@ SummaryTable condition_table(const Study& study) {
           {{"rule", "the condition in words"}}};
 }
 
+/// Those that a study has.
+std::vector<SummaryTable> summary_tables(const Study& study) {
+  std::vector<SummaryTable> tables{status_table(),         metric_table(study), threshold_table(study),
+                                   influence_table(study), worst_table(study),  condition_table(study)};
+  std::erase_if(tables, [](const SummaryTable& table) { return table.rows == 0; });
+  return tables;
+}
+
 /// Writes rows that are given one after the other.
 class Rows {
  public:
@@ -201,12 +210,22 @@ void write_conditions(hid_t file, const SweepSummary& summary, const Study& stud
 void create_summary_tables(hid_t file, const Study& study) {
   const Hdf5Handle summary = create_group(file, "summary");
   write_attribute(summary, "ranked_by", default_ranking(study));
-  for (const SummaryTable& table : {status_table(), metric_table(study), threshold_table(study), influence_table(study),
-                                    worst_table(study), condition_table(study)}) {
-    if (table.rows == 0) continue;
+  for (const SummaryTable& table : summary_tables(study)) {
     FixedTable::create(file, table.group(), table.columns, table.rows);
     for (const auto& [name, long_name] : table.texts)
       FixedTexts::create(file, table.group() + "/" + name, long_name, table.rows);
+  }
+}
+
+void check_summary_tables(hid_t file, const Study& study) {
+  read_text_attribute(open_object(file, "summary"), "ranked_by");
+  for (const SummaryTable& table : summary_tables(study)) {
+    const StoredTable stored(file, table.group());
+    for (const ColumnDescription& column : table.columns) stored.check(column, Range::any);
+    for (const auto& [name, long_name] : table.texts) check_fixed_texts(stored.column(name), table.rows);
+    if (stored.rows() != table.rows)
+      stored.column(table.columns.front().name)
+          .reject(fmt::format("has {} rows instead of {}", stored.rows(), table.rows));
   }
 }
 

@@ -134,4 +134,17 @@ TEST_CASE("every command that reads a scenario rejects an impossible effect") {
   }
 }
 
+TEST_CASE("bearings whose viscous friction drives in one direction are taken, with a warning") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario + "[effect.bearing_asymmetry]\ntorque_Nm = 0\ncoefficient_Nms_per_rad = 1e-5\n");
+  const Outcome run = folder.run({"run", "s.toml", "-o", "o.h5"});
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  const std::string warning = "effect.bearing_asymmetry has a coefficient greater than that of worm_viscous: ";
+  CHECK(run.out.find(warning) != std::string::npos);
+  const Outcome check = folder.run({"check", "s.toml", "--set", "effect.worm_viscous.coefficient_Nms_per_rad=1e-5"});
+  CHECK(check.exit == 0);
+  CHECK(check.out.find(warning) == std::string::npos);
+}
+
 }  // namespace wormdrive::test::cli_accepted_effects

@@ -126,6 +126,17 @@ TEST_CASE("unknown commands and unexpected arguments end with exit code 2") {
   }
 }
 
+TEST_CASE("files that are not HDF5 are rejected in the same words by every command, each file once") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario);
+  folder.write("t.toml", good_scenario);
+  const std::string words = ": error: not an HDF5 file; wormdrive run writes one",
+                    both = "s.toml" + words + "\nt.toml" + words;
+  check_rejected(folder, {{"plot", "", both, {"plot", "s.toml", "t.toml", "-o", "p.png"}, true},
+                          {"diff", "", both, {"diff", "s.toml", "t.toml"}, true},
+                          {"report", "", "s.toml" + words, {"report", "s.toml"}, true}});
+}
+
 TEST_CASE("plot rejects files that are not results") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
@@ -133,7 +144,6 @@ TEST_CASE("plot rejects files that are not results") {
   write_hdf5(folder / "other.h5", "author", "somebody");
   check_rejected(folder, {
       {"missing", "", "no.h5: error: cannot be read: No such file or directory", {"plot", "no.h5"}, true},
-      {"no HDF5", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"plot", "s.toml"}, true},
       {"folder", "", "folder: error: cannot be read: it is a directory", {"plot", "folder"}, true}});
   const Outcome outcome = folder.run({"plot", "other.h5"});
   INFO(outcome.err);

@@ -39,7 +39,7 @@ TEST_CASE("an effect that contradicts the drive is rejected with the resulting v
       {"no gear", with("[effect.gear_inertia]\ninertia_kgm2 = -1e-3\n"),
        "s.toml:19:1: error: effect.gear_inertia leaves no inertia on the gear side: 0.000739 + -0.001 kg m^2"},
       {"a bearing that drives", with("[effect.bearing_asymmetry]\ntorque_Nm = 0.002\ncoefficient_Nms_per_rad = 0\n[effect.worm_coulomb]\ntorque_Nm = 0.001\n"),
-       "s.toml:19:1: error: effect.bearing_asymmetry is greater than the friction it belongs to, worm_coulomb or worm_viscous: it would drive the worm"}});
+       "s.toml:19:1: error: effect.bearing_asymmetry has a torque greater than the dry friction it belongs to, worm_coulomb: it would drive the worm"}});
 }
 
 TEST_CASE("two effects that exclude each other are rejected with the reason") {

@@ -196,7 +196,7 @@ TEST_CASE("files that are not results, or damaged ones, get no report") {
                    true},
                   {"a scenario",
                    "",
-                   "s.toml: error: is not a result file (HDF5); wormdrive run writes one",
+                   "s.toml: error: not an HDF5 file; wormdrive run writes one",
                    {"report", "s.toml"},
                    true},
                   {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},

@@ -141,7 +141,7 @@ TEST_CASE("new and diff reject bad input in one line") {
                    4},
                   {"no result",
                    "",
-                   "s.toml: error: is not a result file (HDF5); wormdrive run writes one",
+                   "s.toml: error: not an HDF5 file; wormdrive run writes one",
                    {"diff", "s.toml", "s.toml"},
                    true},
                   {"no two results",

@@ -128,7 +128,7 @@ TEST_CASE("every effect of the catalogue is a candidate, a candidate's twin, or 
   const Scenario arm = nominal_arm();
   const Magnitudes sizes = magnitudes(arm, {prepared(record(arm, {.duration = 3}), {}, 0)});
   const auto all = candidates({}, sizes, toleranced_coordinates(arm, sizes, {}));
-  const auto others = not_examined(sizes);
+  const auto others = not_examined({}, sizes);
   Effects<double>{}.for_each([&]<class E>(const std::optional<E>&) {
     CAPTURE(E::id);
     const bool is_candidate = std::any_of(all.begin(), all.end(), [](const Candidate& s) {

@@ -149,6 +149,15 @@ def dataset_damages(path, values):
     yield "a type", linked(lambda file: np.dtype("f8"))
 
 
+def text_damages(path, values):
+    """Yields (what, damage) for a column of texts of 512 bytes."""
+    for data in (np.zeros(values.size), np.full(values.size, "a", TEXT), values.astype("S9"), values.astype("S600"),
+                 values[:-1], np.append(values, values[-1:])):
+        yield (f"as {data.size} of {data.dtype}",
+               replaced(path, lambda file, data=data: file.create_dataset(path, data=data)))
+    yield "missing", lambda file: file.__delitem__(path)
+
+
 def range_damages(path, values, rule, row):
     """Yields (what, damage) for values that a column must not have."""
     def written(row, value):
@@ -205,24 +214,21 @@ def attribute_damages(name, value):
 
 def rule(kind, path):
     """What the numbers of a column have to be, as output/schema.md states it."""
-    table, name = path.split("/")
+    table, name = path.rsplit("/", 1)
     if table in ("trajectory", "controller", "statics") and name in ("time", "load_torque") and kind != "diagnosis":
         return "rising" if (table, name) != ("trajectory", "load_torque") else "finite"
     if table == "trials":
         return "index" if name in ("index", "reason") else "finite" if "." in name else "any"
     if table == "referee":
         return "index" if name == "trial" else "any"
-    return "any" if kind == "diagnosis" else "finite"
+    return "any" if kind == "diagnosis" or table.startswith("summary/") else "finite"
 
 
 def columns(file):
-    """Yields the path and the values of every column that readers rely on."""
-    for table, group in file.items():
-        if not isinstance(group, h5py.Group) or table == "summary":
-            continue
-        for name, column in group.items():
-            if column.dtype.kind in "fi":
-                yield f"{table}/{name}", column[:]
+    """Returns the path and the values of every column."""
+    found = []
+    file.visit(found.append)
+    return [(path, file[path][:]) for path in found if isinstance(file[path], h5py.Dataset) and file[path].dtype.kind in "fiS"]
 
 
 class Case:
@@ -234,18 +240,19 @@ class Case:
     def damages(self):
         """Yields (what, damage) for everything in it."""
         with h5py.File(self.name) as file:
-            kind, found = file.attrs["kind"], list(columns(file))
-            attributes = [(n, file.attrs[n]) for n in ("kind", "title", "scenario", "study", "build", "first_trial",
-                                                       "end_trial") if n in file.attrs]
+            kind, found = file.attrs["kind"], columns(file)
+            of_sweeps = ("study", "build", "first_trial", "end_trial", "command_line")
+            attributes = [(n, file.attrs[n]) for n in ("kind", "title", "scenario", *(of_sweeps if kind == "sweep" else ()))]
         for path, values in found:
             row = 0 if path.startswith("referee/") else values.size // 2  # of the referee only what is used counts
-            for what, damage in (*dataset_damages(path, values), *range_damages(path, values, rule(kind, path), row)):
+            for what, damage in (text_damages(path, values) if values.dtype.kind == "S" else
+                                 (*dataset_damages(path, values), *range_damages(path, values, rule(kind, path), row))):
                 yield f"{path} {what}", damage
         for name, value in attributes:
             for what, damage in attribute_damages(name, value):
-                if not (name == "title" and what == "no text"):  # a title may be empty
+                if name not in ("title", "command_line") or what != "no text":  # these may be empty
                     yield f"attribute {name} {what}", damage
-        for table in {path.split("/")[0] for path, _ in found} - {"records", "controller"}:
+        for table in sorted({path.rpartition("/")[0] for path, _ in found} - {"", "records", "controller"}):
             yield f"{table} missing", lambda file, table=table: file.__delitem__(table)
             yield f"{table} with a group", lambda file, table=table: file[table].create_group("more")
             yield f"{table} in a circle", lambda file, table=table: file[table].__setitem__("more", file[table])

@@ -336,6 +336,47 @@ class Studies(unittest.TestCase):
             self.assertIn("no.toml", str(caught.exception))
             os.chdir("/")
 
+    def test_a_summary_is_that_of_the_program_also_of_a_sweep_that_runs_or_was_killed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def told(name, *words):
+                theirs = subprocess.run([PROGRAM, "summary", name, "--json", *words], cwd=folder, check=True,
+                                        capture_output=True, text=True)
+                return json.loads(theirs.stdout)
+
+            Path(folder, "short.toml").write_text(wormdrive.Scenario(SHORT).toml)
+            study = "".join(f"{key} = {wormdrive._toml(value)}\n" for key, value in STUDY.items())
+            Path(folder, "study.toml").write_text(study)
+            subprocess.run([PROGRAM, "sweep", "study.toml", "-q", "-o", "whole.h5"], check=True, cwd=folder)
+            whole = wormdrive.summary(Path(folder, "whole.h5"))
+            self.assertEqual(whole, told("whole.h5"))
+            self.assertEqual((whole["trials"], whole["of"], whole["running"]), (40, 40, False))
+            other = {"metric": "final_gear_angle", "worst": 2, "done_only": True}
+            self.assertEqual(wormdrive.summary(Path(folder, "whole.h5"), **other),
+                             told("whole.h5", "--metric", "final_gear_angle", "--worst", "2", "--done-only"))
+            with self.assertRaises(wormdrive.InputError) as caught:
+                wormdrive.summary(Path(folder, "whole.h5"), metric="speed")
+            self.assertIn("speed", str(caught.exception))
+            with self.assertRaises(wormdrive.InputError):
+                wormdrive.summary(Path(folder, "none.h5"))
+            os.chdir(folder)
+            self.assertEqual(wormdrive.sweep("study.toml").summary(), whole)
+            os.chdir("/")
+
+            Path(folder, "study.toml").write_text(study.replace("40", "10000000"))
+            with subprocess.Popen([PROGRAM, "sweep", "study.toml", "-q", "-o", "long.h5"], cwd=folder) as process:
+                while not Path(folder, "long.h5.part").exists() or told("long.h5")["trials"] == 0:
+                    time.sleep(0.05)
+                os.kill(process.pid, signal.SIGSTOP)  # so that both look at the same trials
+                running = wormdrive.summary(Path(folder, "long.h5"))
+                self.assertEqual(running, told("long.h5"))
+                process.kill()
+            self.assertTrue(running["running"])
+            self.assertGreater(running["trials"], 0)
+            self.assertLess(running["trials"], running["of"])
+            for name in ("long.h5", "long.h5.part"):
+                self.assertEqual(wormdrive.summary(Path(folder, name)), {**running, "running": False})
+                self.assertEqual(told(name), {**running, "running": False})
+
     def test_a_diagnosis_says_what_the_program_says(self):
         bench = SCENARIOS / "example_bench.toml", SCENARIOS / "example_bench.csv"
         with tempfile.TemporaryDirectory() as folder:

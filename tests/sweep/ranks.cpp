@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <thread>
 #include <unistd.h>
@@ -14,28 +13,12 @@
 #include <sys/stat.h>
 
 #include "catch.hpp"
+#include "sweep/mpirun.hpp"
 #include "sweep/studies.hpp"
 
 namespace wormdrive::test::sweep_ranks {
 
 namespace {
-
-const std::string mpirun = WORMDRIVE_MPIRUN;
-
-/// Whether the program knows MPI; else there is nothing to test.
-bool has_mpi() {
-  if (mpirun.empty()) std::cout << "skipped: built without MPI\n";
-  std::ifstream variables(WORMDRIVE_TESTS "/sweep/mpirun.env");
-  for (std::string line; std::getline(variables, line);)
-    if (const std::size_t at = line.find('='); at != std::string::npos)
-      setenv(line.substr(0, at).c_str(), line.c_str() + at + 1, 1);
-  return !mpirun.empty();
-}
-
-std::vector<std::string> on_ranks(const char* count, std::vector<std::string> words) {
-  words.insert(words.begin(), {mpirun, "-n", count, WORMDRIVE_PROGRAM, "sweep", "study.toml", "--threads", "1"});
-  return words;
-}
 
 /// Variables of the environment, as long as it lives.
 class Environment {

@@ -28,7 +28,7 @@ except ImportError as error:
                       "Python: cmake --build --preset release --target wormdrive_python") from None
 from ._core import InputError, OutputError, SimulationHalted
 
-__all__ = ["run", "steady", "check", "sweep", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
+__all__ = ["run", "steady", "check", "sweep", "summary", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
            "InputError", "OutputError", "SimulationHalted"]
 __version__ = _core.version().split()[1]
 
@@ -200,6 +200,13 @@ class Sweep:
         it is forced. referee: so many trials are made again by CVODE, and how far it is from them stands in the file."""
         self._sweep.write(os.fspath(path), _command_line(), referee, force)
 
+    def summary(self, *, metric: str = "", worst: int = 5, done_only: bool = False) -> dict[str, Any]:
+        """What the trials come to, as summary() tells it of a file."""
+        with tempfile.TemporaryDirectory() as scratch:
+            path = os.path.join(scratch, "sweep.h5")
+            self.write(path, referee=0)
+            return summary(path, metric=metric, worst=worst, done_only=done_only)
+
     def __repr__(self) -> str:
         return f"<wormdrive.Sweep '{self.title}': {len(self.trials.index)} trials>"
 
@@ -291,6 +298,15 @@ def sweep(study: Union[str, "os.PathLike[str]", Mapping[str, Any]], /, *, thread
     if (stated := _text_of(study)) is not None:
         return Sweep(_core.sweep_text(*stated, threads))
     return Sweep(_core.sweep_file(os.fspath(study), threads))  # type: ignore[arg-type]
+
+
+def summary(path: Union[str, "os.PathLike[str]"], /, *, metric: str = "", worst: int = 5,
+            done_only: bool = False) -> dict[str, Any]:
+    """What `wormdrive summary --json` tells of the file of a sweep: how its metrics are distributed, how often thresholds are
+    missed, which parameters matter, the worst trials. Of a sweep that is still running or was interrupted it tells the
+    trials that there are: `trials` of `of`, and whether it is `running`. metric: by which trials are ranked. A value that is
+    not finite is None."""
+    return json.loads(_core.summary(os.fspath(path), metric, worst, done_only))  # type: ignore[no-any-return]
 
 
 def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0,
