@@ -111,7 +111,7 @@ TEST_CASE("a file that is damaged while it is written is bad input, of a rank as
           "[sweep][slow]") {
   const StudyFolder folder(study_but("trials = 200", "trials = 300000"));
   const auto fault = [](const std::string& part, std::size_t trial) {
-    return fmt::format("{}: error: its column 'trials/index' holds -1 where trial {} stands\n", part, trial);
+    return fmt::format("{}: error: its column 'trials/index' contains -1 in the row of trial {}\n", part, trial);
   };
   {
     Process alone({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "alone.h5"}, folder.path());
