@@ -1,4 +1,5 @@
 #pragma once
+#include <utility>
 #include <variant>
 
 #include "control/open_loop.hpp"
@@ -10,5 +11,24 @@ namespace wormdrive {
 /// Every kind of controller as it is stated; a new one is a new file and one entry here. It names itself by `kind` and
 /// `meaning`, lists its `fields()`, and its `make_controller` leads to a callable Measurement -> ControlSignals.
 using ControllerParameters = std::variant<SlidingParameters, PidParameters, OpenLoopParameters>;
+
+/// The controllers that parameters lead to.
+template <class... P>
+std::variant<decltype(make_controller(std::declval<const P&>(), NominalModel{}, Variations{}))...> controllers_of(
+    const std::variant<P...>&);
+
+/// A controller of any kind: a run is compiled once for all of them.
+class AnyController {
+ public:
+  AnyController(const ControllerParameters& stated, const NominalModel& nominal, const Variations& variations)
+      : law_(std::visit([&](const auto& p) -> Law { return make_controller(p, nominal, variations); }, stated)) {}
+  ControlSignals operator()(const Measurement& m) {
+    return std::visit([&m](auto& law) -> ControlSignals { return law(m); }, law_);
+  }
+
+ private:
+  using Law = decltype(controllers_of(std::declval<ControllerParameters>()));
+  Law law_;
+};
 
 }  // namespace wormdrive

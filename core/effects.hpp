@@ -64,11 +64,11 @@ struct Effects {
   /// Calls visit(optional effect) for every effect of the catalogue.
   template <class Visit>
   void for_each(Visit&& visit) {
-    std::apply([&](auto&... effect) { (visit(effect), ...); }, list);
+    for_each_in(list, visit);
   }
   template <class Visit>
   void for_each(Visit&& visit) const {
-    std::apply([&](const auto&... effect) { (visit(effect), ...); }, list);
+    for_each_in(list, visit);
   }
 
   /// Largest magnitude of the motor's command [N m], infinity without a limit.

@@ -1,7 +1,10 @@
 #pragma once
+#include <cstddef>
 #include <limits>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include "core/unit.hpp"
 
@@ -42,10 +45,18 @@ struct Field {
 template <class Owner, class Value>
 Field(Value Owner::*, std::string_view, Unit, Bounds, std::string_view, Presence = {}) -> Field<Owner, Value>;
 
+/// Calls visit(element) for every element of a tuple; std::apply does the same and takes the compiler far longer.
+template <class Tuple, class Visit>
+constexpr void for_each_in(Tuple& tuple, Visit& visit) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (visit(std::get<k>(tuple)), ...); }
+  (std::make_index_sequence<std::tuple_size_v<std::remove_const_t<Tuple>>>());
+}
+
 /// Calls visit(field) for every field of a parameter struct, in the order of its list.
 template <class Owner, class Visit>
 constexpr void for_each_field(Visit&& visit) {
-  std::apply([&](const auto&... field) { (visit(field), ...); }, Owner::fields());
+  const auto fields = Owner::fields();
+  for_each_in(fields, visit);
 }
 
 }  // namespace wormdrive

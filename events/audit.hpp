@@ -81,7 +81,7 @@ struct Cubic {
   /// Where it falls through zero in (0, h], for a cubic that is positive at 0 and not at h.
   double root(double h) const {
     const double end = (*this)(h);
-    return end >= 0.0 ? h : root_between(*this, 0.0, c0, h, end);  // zero to rounding counts as h
+    return end >= 0.0 ? h : root_between(FunctionView<double>(*this), 0.0, c0, h, end);  // zero to rounding counts as h
   }
 };
 

@@ -45,7 +45,7 @@ class DriveRun {
             {control.sampling.period, control.sampling.offset, drive_.effects().measuring_delay()}};
   }
   Instant start() const {
-    const auto& [theta_g, omega_g] = scenario_.initial;
+    const double theta_g = scenario_.initial.theta_g, omega_g = scenario_.initial.omega_g;
     Instant start;
     if constexpr (requires { carrying(drive_, 0.0, theta_g, omega_g); }) {
       drive_.enter(0.0);
@@ -94,16 +94,12 @@ class DriveRun {
       if (listeners_.samples) samples_.push_back(sample);
       if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied, sample.disturbance});
     };
-    std::visit(
-        [&](const auto& law) {
-          ClosedLoop loop(make_controller(law, nominal, variations), control.reference, control.sensor,
-                          control.sampling, control.disturbance, listen);
-          simulate(drive_, solver_, loop, timetable(control), start(), [&](const Drive& drive, const Instant& now) {
-            watch.meter.instant(now.t, now.mode);
-            record(drive, now);
-          });
-        },
-        control.law);
+    ClosedLoop loop(AnyController(control.law, nominal, variations), control.reference, control.sensor,
+                    control.sampling, control.disturbance, listen);
+    simulate(drive_, solver_, loop, timetable(control), start(), [&](const Drive& drive, const Instant& now) {
+      watch.meter.instant(now.t, now.mode);
+      record(drive, now);
+    });
     summary_.control = watch.summary();
     summary_.control->follows = !control.reference.terms.empty();
   }

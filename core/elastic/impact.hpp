@@ -31,7 +31,7 @@ inline double restitution(const HuntCrossley<double>& law, double, double speed)
   const auto more_than_before = [before](double y) { return before - boost::math::log1pmx(-y); };
   // Teeth part more slowly than they met, and more slowly than 1/c: at that speed the law would no longer push.
   const double most = std::min(x, std::nextafter(1.0, 0.0)), excess = more_than_before(most);
-  return (excess > 0.0 ? root_between(more_than_before, 0.0, before, most, excess) : most) / x;
+  return (excess > 0.0 ? root_between(FunctionView<double>(more_than_before), 0.0, before, most, excess) : most) / x;
 }
 
 /// Of a damper that is limited while the teeth approach. In units of time and speed in which mass, stiffness and

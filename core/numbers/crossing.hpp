@@ -1,44 +1,40 @@
 #pragma once
-#include <cstdint>
+#include <memory>
 #include <optional>
-
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "core/numbers/series.hpp"
 
 namespace wormdrive {
 
+/// A function of a number, seen through two pointers: one search serves every function.
+template <class Value>
+class FunctionView {
+ public:
+  template <class F>
+  explicit FunctionView(const F& f)
+      : object_(std::addressof(f)),
+        call_([](const void* object, double at) -> Value { return (*static_cast<const F*>(object))(at); }) {}
+  Value operator()(double at) const { return call_(object_, at); }
+
+ private:
+  const void* object_;
+  Value (*call_)(const void*, double);
+};
+
 /// Root of f between a and b, where it has the values fa and fb of opposite sign or zero; the end behind the crossing.
-template <class F>
-double root_between(F&& f, double a, double fa, double b, double fb) {
-  if (fa == 0.0) return a;
-  if (fb == 0.0 || !(a < b)) return b;
-  std::uintmax_t iterations = 200;
-  return boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(), iterations)
-      .second;
-}
+double root_between(const FunctionView<double>& f, double a, double fa, double b, double fb);
+
+/// The fall through zero in [a, b] that the values at both ends do not rule out; see falling_crossing.
+std::optional<double> search_fall(const FunctionView<Series<double, 1>>& f, double a, const Series<double, 1>& left,
+                                  double b, const Series<double, 1>& right);
 
 /// Time in [a, b] at which a function of time falls through zero, also if it comes back within the step.
 /// f(t) returns value and rate; left and right are f(a) and f(b); the function turns at most once in between.
 template <class F>
-std::optional<double> falling_crossing(F&& f, double a, const Series<double, 1>& left, double b,
+std::optional<double> falling_crossing(const F& f, double a, const Series<double, 1>& left, double b,
                                        const Series<double, 1>& right) {
-  const auto value = [&](double t) { return f(t)[0]; };
-  if (right[0] < 0.0) {
-    if (left[0] > 0.0) return root_between(value, a, left[0], b, right[0]);
-    if (left[1] <= 0.0) return a;
-    if (right[1] > 0.0) return std::nullopt;  // on its way up all along
-    // begins at zero, to rounding, and rises: it falls behind its highest point
-    const double highest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);
-    const double height = value(highest);
-    return height > 0.0 ? root_between(value, highest, height, b, right[0]) : a;
-  }
-  if (left[1] >= 0.0 || right[1] <= 0.0) return std::nullopt;
-  // falls at a, rises at b: the lowest point lies between
-  const double lowest = root_between([&](double t) { return f(t)[1]; }, a, left[1], b, right[1]);
-  const double depth = value(lowest);
-  if (depth >= 0.0) return std::nullopt;
-  return left[0] > 0.0 ? root_between(value, a, left[0], lowest, depth) : a;
+  if (!(right[0] < 0.0) && (left[1] >= 0.0 || right[1] <= 0.0)) return std::nullopt;
+  return search_fall(FunctionView<Series<double, 1>>(f), a, left, b, right);
 }
 
 }  // namespace wormdrive

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <ceres/jet.h>
 
+#include "core/load.hpp"
 #include "core/rigid_drive.hpp"
 #include "events/event_sequence.hpp"
 #include "events/sensitivity/cvodes_sensitivity.hpp"
@@ -99,23 +100,10 @@ void follow(const EventSequence<System>& sequence, Drive& drive, Carrier& carrie
   }
 }
 
-/// Runs a drive and finds the derivatives of its state by parameters, through every event.
-///
-/// settings.solver makes the run and carries the derivatives: power series of Jets, or CVODES. What the controller
-/// holds is taken as given, as a recorded torque is; the derivatives do not go through its law. Throws
-/// SimulationFailure or SolverFault when the run cannot go on.
-template <class Load, class Controller>
-Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
-                            const Timetable& timetable, const SolverSettings& settings, Controller& controller) {
-  using System = WormDrive<double, Load>;
-  System system(parts.mesh, parts.load, parts.effects, parts.motor);
-  const double begin = timetable.next_time();
-  const typename System::Instant start{begin, {parts.initial.theta_g, parts.initial.omega_g}, {}};
-  EventSequence<System> sequence(start);
-  with_solver(system, settings,
-              [&](auto& solver) { simulate(system, solver, controller, timetable, start, sequence); });
-
-  Sensitivities made = outline(sequence, system, parameters);
+/// Carries the derivatives by parameters along what a run has met.
+template <class Load>
+void follow_all(const EventSequence<WormDrive<double, Load>>& sequence, double begin, const RigidDrive<Load>& parts,
+                std::span<const Parameter> parameters, const SolverSettings& settings, Sensitivities& made) {
   constexpr std::size_t together = Followed::DIMENSION;
   for (std::size_t first = 0; first < parameters.size(); first += together) {
     const auto some = parameters.subspan(first, std::min(together, parameters.size() - first));
@@ -133,6 +121,24 @@ Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Param
       case SolverKind::taylor: along(SeriesSensitivity<Drive>(seeded.drive, settings)); break;
     }
   }
+}
+
+/// Runs a drive and finds the derivatives of its state by parameters, through every event.
+///
+/// settings.solver makes the run and carries the derivatives: power series of Jets, or CVODES. What the controller
+/// holds is taken as given, as a recorded torque is; the derivatives do not go through its law. Throws
+/// SimulationFailure or SolverFault when the run cannot go on.
+template <class Load, class Controller>
+Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
+                            const Timetable& timetable, const SolverSettings& settings, Controller& controller) {
+  using System = WormDrive<double, Load>;
+  System system(parts.mesh, parts.load, parts.effects, parts.motor);
+  const typename System::Instant start{timetable.next_time(), {parts.initial.theta_g, parts.initial.omega_g}, {}};
+  EventSequence<System> sequence(start);
+  with_solver(system, settings,
+              [&](auto& solver) { simulate(system, solver, controller, timetable, start, sequence); });
+  Sensitivities made = outline(sequence, system, parameters);
+  follow_all(sequence, start.t, parts, parameters, settings, made);
   return made;
 }
 
@@ -143,5 +149,17 @@ Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Param
   NoController nobody;
   return sensitivities(parts, parameters, timetable, settings, nobody);
 }
+
+// Compiled once, in sensitivity.cpp, for the loads of core/: the derivatives cost a compiler minutes.
+// clang-format off
+#define WORMDRIVE_SENSITIVITIES(prefix, Load)                                                                       \
+  prefix template void follow_all(const EventSequence<WormDrive<double, Load>>&, double, const RigidDrive<Load>&,   \
+                                  std::span<const Parameter>, const SolverSettings&, Sensitivities&);               \
+  prefix template Sensitivities sensitivities(const RigidDrive<Load>&, std::span<const Parameter>, const Timetable&, \
+                                              const SolverSettings&);
+// clang-format on
+WORMDRIVE_SENSITIVITIES(extern, TimedLoad)
+WORMDRIVE_SENSITIVITIES(extern, GravityLoad)
+WORMDRIVE_SENSITIVITIES(extern, TableLoad)
 
 }  // namespace wormdrive

@@ -131,7 +131,8 @@ class Shadow {
   /// falls over the speed, or an arm that falls over, makes them grow.
   void drift(double seconds, Quad theta, Quad omega) {
     double growth = 0.0, push = 0.0;
-    for (const auto& [angle, speed] : {std::pair{course_.theta, course_.omega}, {theta, omega}}) {
+    for (const auto& place : {std::pair{course_.theta, course_.omega}, {theta, omega}}) {
+      const Quad angle = place.first, speed = place.second;
       const auto now = [&](double turned, double faster) {
         return course_.now(mode_.motion, mode_.flank, false, angle + Quad(turned), speed + Quad(faster));
       };

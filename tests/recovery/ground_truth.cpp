@@ -10,8 +10,7 @@
 
 // The ground truth of the recovery tests against what is known without it, and in its rigid limit against the program.
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::recovery_ground_truth {
 
 namespace {
 
@@ -158,3 +157,5 @@ TEST_CASE("the same seed gives the same recording, another one another") {
   CHECK(first.worm_angle == again.worm_angle);
   CHECK(first.gear_angle != truth::record(drive, follow(3, 1.0), {.duration = 1.0, .seed = 5}).gear_angle);
 }
+
+}  // namespace wormdrive::test::recovery_ground_truth

@@ -1,0 +1,9 @@
+#include "events/growth.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace wormdrive {
+
+double largest_growth(const Eigen::Matrix4d& J) { return J.eigenvalues().real().maxCoeff(); }
+
+}  // namespace wormdrive
