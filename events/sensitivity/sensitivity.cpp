@@ -1,7 +1,5 @@
 #include "events/sensitivity/sensitivity.hpp"
 
-#include "core/load.hpp"
-
 namespace wormdrive {
 
 WORMDRIVE_SENSITIVITIES(, TimedLoad)
