@@ -118,23 +118,28 @@ class TaylorAccuracy {
   /// events. What is left out is taken to be no more than the last terms together. powers: of h.
   template <class Expansion>
   static double guard_step(Expansion& e, int g, double h, Powers powers) {
-    const Polynomial c = e.guard(g);
+    Polynomial c = e.guard(g);
     const double* last = &c[c.size() - window];
+    // one that starts as a power of the time has the roots of the rest; the terms that count are those behind its first
+    while (c.size() > 3 && c[0] == 0.0 && c[1] == 0.0) c = c.subspan(1);
+    const int lowered = e.order + 1 - static_cast<int>(c.size());
+    const int uncounted = lowered > 0 ? std::max(0, window + 2 - static_cast<int>(c.size())) : 0;
     for (double s = h;; powers = powers_of(s *= 0.5, e.order)) {
-      double left_out = 0.0, most = 0.0;
-      for (int k = 0; k < window; ++k) {
+      double left_out = 0.0, most = 0.0, scale = 1.0;
+      for (int n = 0; n < lowered; ++n) scale *= s;
+      for (int k = uncounted; k < window; ++k) {
         const double term = std::abs(last[k]) * powers[k];
         left_out += term;
         // of the last two each has to be below rounding, of those before them as much less as terms fall
         most = std::max(most, term * share_of_last[k]);
       }
-      const double loss = left_out + possible_loss(c, s);
+      const double loss = left_out + scale * possible_loss(c, s), gain = scale * c[1] * s;
       e.positive[g] = c[0] + std::min(c[1], 0.0) * s - loss > share_left * c[0];
-      if (e.positive[g] || c[1] * s - loss > share_left * c[1] * s) return s;
-      const double excess = most / rounding_of(c, s);
+      if (e.positive[g] || gain - loss > share_left * gain) return s;
+      const double excess = most / (scale * rounding_of(c, s));
       if (!(excess > 1.0)) return s;
       // terms that grow beyond all rounding on a step far too long tell nothing of a short one
-      const double exact = s * rough_exp2(-rough_log2(excess) / (e.order - 1));
+      const double exact = s * rough_exp2(-rough_log2(excess) / (e.order - lowered - 1));
       if (exact >= 0.5 * s) return exact;
     }
   }

@@ -79,7 +79,7 @@ Judgement judgement(const Case& tie, bool judged) {
   if (same && !judged) return {Verdict::not_judged};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     try {
-      const std::string found = contradiction(tie, solvers[k], runs[k], same ? 6000 : 20'000);
+      const std::string found = contradiction(tie, solvers[k], runs[k], same ? 6000 : 200'000);
       if (!found.empty()) return {Verdict::silent, fmt::format("{}: {}", name(solvers[k]), found)};
     } catch (const judge::GivesUp&) {
       if (same) return {Verdict::not_judged};

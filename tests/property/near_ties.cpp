@@ -32,6 +32,15 @@ TEST_CASE("near ties: 300 random drives at the edge of an event end as they must
   CHECK(verdicts[Verdict::rounding] <= 30);
 }
 
+TEST_CASE("near ties: a torque that grows by the square of the time from a touch at the start moves the drive") {
+  // elastic teeth under a load at its crest, with and without a gap, and torques in one phase on a rigid drive
+  for (const std::uint64_t index : {5736, 7227, 4010}) {
+    const Judgement found = judgement(make_case(78, index), false);
+    INFO("case " << index << ": " << found.reason);
+    CHECK((found.verdict == Verdict::agree || found.verdict == Verdict::rounding));
+  }
+}
+
 TEST_CASE("the judge of near ties has the events of fig. 9 to the last digit, and objects to a missed or a late one") {
   judge::Drive drive;
   drive.lambda = 4 * (std::numbers::pi / 180);
