@@ -221,8 +221,17 @@ class TaylorSolver {
   /// coefficient that is more than rounding counts, though another may outweigh it.
   template <int last>
   void leave_rest(const Series<Rounded, last>& speed, int vanishing, double resolution) {
+    // Under falling friction a rounding grows by itself. One that points against the mode would hold the motion at
+    // zero, in steps as short as the growth, for ever; its mirror image is as likely.
+    const Coefficients& c = series_.guards[System::speed_guard];
+    if (vanishing > last && 2.0 * c[2] * series_.step / c[1] > 1.0) return c[1] < 0.0 ? mirror() : void();
     for (int k = 0; k <= last && k < vanishing; ++k)
       if (std::abs(speed[k].value) <= blur(speed, k, resolution)) stay(k);
+  }
+  void mirror() {
+    for (int k = 1; k <= series_.order; ++k)
+      for (double* const c : {&series_.omega[k], &series_.theta[k + 1], &series_.guards[System::speed_guard][k]})
+        *c = -*c;
   }
   /// Takes a coefficient of the speed for rounding.
   void stay(int k) { series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0; }

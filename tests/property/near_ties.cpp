@@ -1,6 +1,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "catch.hpp"
 #include "judge/judge.hpp"
@@ -32,12 +33,14 @@ TEST_CASE("near ties: 300 random drives at the edge of an event end as they must
   CHECK(verdicts[Verdict::rounding] <= 30);
 }
 
-TEST_CASE("near ties: a torque that grows by the square of the time from a touch at the start moves the drive") {
-  // elastic teeth under a load at its crest, with and without a gap, and torques in one phase on a rigid drive
-  for (const std::uint64_t index : {5736, 7227, 4010}) {
-    const Judgement found = judgement(make_case(78, index), false);
-    INFO("case " << index << ": " << found.reason);
-    CHECK((found.verdict == Verdict::agree || found.verdict == Verdict::rounding));
+TEST_CASE("near ties: what starts by less than its rounding starts, and goes on") {
+  // elastic teeth under a load at its crest, with and without a gap; torques in one phase on a rigid drive; friction
+  // that falls so fast that a rounding grows within nanoseconds
+  for (const auto& [seed, index] : {std::pair{78, 5736}, {78, 7227}, {78, 4010}, {92, 6202}}) {
+    const Judgement found = judgement(make_case(seed, index), false);
+    INFO("seed " << seed << ", case " << index << ": " << found.reason);
+    CHECK((found.verdict == Verdict::agree || found.verdict == Verdict::not_judged ||
+           found.verdict == Verdict::rounding));
   }
 }
 
