@@ -58,6 +58,13 @@ struct DiagnoseOptions {
 };
 int diagnose_command(const DiagnoseOptions& options);
 
+struct ViewOptions {
+  ScenarioOptions scenario;
+  std::vector<std::string> vary;  ///< "table.key" or "table.key=low..high"; empty: all numbers
+  int port = 0;                   ///< 0: any that is free
+};
+int view_command(const ViewOptions& options);
+
 struct PlotOptions {
   std::vector<std::string> files;  ///< one, or several that share a picture
   std::string output;              ///< empty: named after the first file

@@ -2,9 +2,13 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "output/run_file.hpp"
 #include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
+
+/// Runs a scenario into a result file, to its end; listeners may look on. Throws SimulationFailure or OutputFault.
+RunSummary run_into(RunFile& file, const Scenario& scenario, RunListeners listeners);
 
 /// Runs a scenario into a result file and tells what it comes to. Throws SimulationFailure, the part kept, or
 /// OutputFault.

@@ -23,6 +23,8 @@ packages=(
   libopenmpi-dev       # sweeps shared by several machines
   openmpi-bin          # mpirun
   libarchive-dev       # writes FMUs, which are zip archives
+  libcpp-httplib-dev   # wormdrive view: serves its page on the loopback address
+  pkgconf              # tells how cpp-httplib was compiled
   libjs-dygraphs       # reports: goes into the program when it is built
   catch2               # unit tests
   pybind11-dev         # the Python module

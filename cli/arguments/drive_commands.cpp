@@ -35,6 +35,18 @@ void add_run(CommandSet& commands) {
   add_force(command, options.replace);
 }
 
+void add_view(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("view", "look at a scenario in a browser, with sliders that run it again", view_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option(
+      "--vary", options.vary,
+      "a number with a slider: table.key or table.key=low..high; default: all numbers, from half to twice");
+  command.add_option("--port", options.port, "port of the loopback address; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+}
+
 void add_statics(CommandSet& commands) {
   auto [command, options] = commands.add("statics", "compute the locking regime and break-in torques", statics_command);
   add_scenario_options(command, options.scenario);
@@ -84,6 +96,7 @@ void add_drive_commands(CommandSet& commands) {
   commands.add("schema", "print the JSON schema of scenarios, for editors", schema_command);
   commands.begin_group("Simulate it");
   add_run(commands);
+  add_view(commands);
   add_statics(commands);
   add_steady(commands);
   add_fmu(commands);

@@ -38,16 +38,11 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
   return result;
 }
 
-RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& options) {
+/// With a bar of progress; what there is stays where the run cannot go on.
+RunSummary run_in_sight(RunFile& file, const Scenario& scenario, const RunOptions& options) {
   Progress progress(scenario.run.duration, options.scenario.quiet || options.scenario.json);
   try {
-    RunSummary summary = run_scenario(scenario, {.rows = [&](const Trajectory& part) { file.append(part); },
-                                                 .samples = [&](const auto& part) { file.append(part); },
-                                                 .time = [&](double t) { progress.at(t); },
-                                                 .audit = options.audit});
-    if (summary.control) file.describe(*summary.control);
-    file.finish(describe_solver(scenario.run), summary.statistics);
-    return summary;
+    return run_into(file, scenario, {.time = [&](double t) { progress.at(t); }, .audit = options.audit});
   } catch (const SimulationFailure& halt) {
     file.file().keep();
     throw SimulationFailure(fmt::format("{}; the run up to there is in {}", halt.what(), file.file().part_path()));
@@ -55,6 +50,16 @@ RunSummary run_into(RunFile& file, const Scenario& scenario, const RunOptions& o
 }
 
 }  // namespace
+
+RunSummary run_into(RunFile& file, const Scenario& scenario, RunListeners listeners) {
+  write_drive(file.file().file(), scenario);
+  listeners.rows = [&](const Trajectory& part) { file.append(part); };
+  listeners.samples = [&](const auto& part) { file.append(part); };
+  RunSummary summary = run_scenario(scenario, listeners);
+  if (summary.control) file.describe(*summary.control);
+  file.finish(describe_solver(scenario.run), summary.statistics);
+  return summary;
+}
 
 RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options) {
   const bool talk = !options.scenario.quiet && !options.scenario.json;
@@ -66,8 +71,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
   }
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
                {scenario.control.has_value(), has_elastic_teeth(scenario.effects)}, options.replace);
-  write_drive(file.file().file(), scenario);
-  RunSummary summary = run_into(file, scenario, options);
+  RunSummary summary = run_in_sight(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return summary;
   print_item("run",

@@ -98,16 +98,8 @@ std::string escaped(const std::string& text) {
   return html;
 }
 
-/// JSON inside <script>: "</script>" in a text must not end it.
-std::string embedded(const Json& data) {
-  std::string safe;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  return safe;
-}
+/// Bytes that are no UTF-8, as in a file's name, are replaced.
+std::string dumped(const Json& data) { return data.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
 
@@ -122,8 +114,21 @@ ReportTable table_of(const std::string& title, const std::vector<Quantity>& quan
   return table;
 }
 
+std::string to_json(const ReportPage& page) { return dumped(as_json(page)); }
+
+/// "</script>" in a text must not end it.
+std::string embedded(const Json& data) {
+  std::string safe;
+  for (const char c : dumped(data))
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  return safe;
+}
+
 /// Every {{mark}} of the template is filled in, in one pass: contents are not looked into.
-std::string to_html(const ReportPage& page) {
+std::string to_html(const ReportPage& page, const PageAdditions& additions) {
   const std::string title = escaped(page.title), content = embedded(as_json(page));
   const std::pair<std::string_view, std::string_view> contents[] = {{"{{title}}", title},
                                                                     {"{{dygraphs.notice}}", assets::dygraphs_notice},
@@ -131,7 +136,9 @@ std::string to_html(const ReportPage& page) {
                                                                     {"{{dygraphs.css}}", assets::dygraphs_css},
                                                                     {"{{page.css}}", assets::page_css},
                                                                     {"{{dygraphs.js}}", assets::dygraphs_js},
-                                                                    {"{{page.js}}", assets::page_js}};
+                                                                    {"{{page.js}}", assets::page_js},
+                                                                    {"{{before}}", additions.before},
+                                                                    {"{{after}}", additions.after}};
   std::string html;
   std::string_view rest = assets::page_html;
   for (std::size_t at = rest.find("{{"); at != std::string_view::npos; at = rest.find("{{")) {

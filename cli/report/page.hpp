@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "description/quantities.hpp"
 
 namespace wormdrive {
@@ -84,8 +86,19 @@ std::string words(std::string name);
 /// Quantities as a table.
 ReportTable table_of(const std::string& title, const std::vector<Quantity>& quantities);
 
+/// What a page has beside its result, as HTML: before its charts, and after its own script.
+struct PageAdditions {
+  std::string before = {}, after = {};
+};
+
 /// One page of HTML that needs nothing else. Of long columns it shows the rows where one of them is largest or
 /// smallest.
-std::string to_html(const ReportPage& page);
+std::string to_html(const ReportPage& page, const PageAdditions& additions = {});
+
+/// What the script of a page draws.
+std::string to_json(const ReportPage& page);
+
+/// JSON as it may stand inside <script>.
+std::string embedded(const nlohmann::ordered_json& data);
 
 }  // namespace wormdrive

@@ -1,7 +1,8 @@
 "use strict";
 // Draws what stands in #data: groups of charts that zoom together, events, tables. Plain browser, no network.
+// report.show(data) draws another result in its place; the same signals keep their zoom.
 (function () {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  let data = JSON.parse(document.getElementById("data").textContent), groups = [];
   const $ = (id) => document.getElementById(id);
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   function show(x, digits = 6) {
@@ -24,15 +25,16 @@
   }
 
   // ---- head ---------------------------------------------------------------------------------------------------
-  const panels = data.groups.flatMap((g) => g.panels);
-  const thinned = panels.find((p) => p.over.length < p.rows && p.style !== "points");
-  $("title").textContent = data.title;
-  $("summary").textContent = data.summary +
-    (thinned ? `; of long signals the rows are drawn where they are largest or smallest (${thinned.over.length} of ${thinned.rows})` : "") + ".";
-  if (data.verdict) $("verdict").textContent = data.verdict;
-  else $("verdict").remove();
-  data.remarks.forEach((w) => $("remarks").append(element("li", w)));
-  if (!data.remarks.length) $("remarks").remove();
+  function head() {
+    const thinned = data.groups.flatMap((g) => g.panels).find((p) => p.over.length < p.rows && p.style !== "points");
+    $("title").textContent = data.title;
+    $("summary").textContent = data.summary +
+      (thinned ? `; of long signals the rows are drawn where they are largest or smallest (${thinned.over.length} of ${thinned.rows})` : "") + ".";
+    $("verdict").textContent = data.verdict;
+    $("verdict").hidden = !data.verdict;
+    $("remarks").replaceChildren(...data.remarks.map((w) => element("li", w)));
+    $("remarks").hidden = !data.remarks.length;
+  }
 
   // ---- charts -------------------------------------------------------------------------------------------------
   const colors = ["--line1", "--line2", "--line3", "--line4"];
@@ -40,24 +42,34 @@
 
   function Group(group) {
     const self = { charts: [], events: group.events, chosen: -1, table: null };
-    const panels = group.panels;
-    const begin = Math.min(...panels.map((p) => p.over[0])), end = Math.max(...panels.map((p) => p.over[p.over.length - 1]));
+    let panels, begin, end;
+    function take(next) {
+      group = next;
+      self.events = group.events;
+      panels = group.panels;
+      begin = Math.min(...panels.map((p) => p.over[0]));
+      end = Math.max(...panels.map((p) => p.over[p.over.length - 1]));
+    }
+    take(group);
     const box = element("section", undefined, { class: "group", "aria-label": group.title || "signals over " + group.over });
     if (group.title) box.append(element("h2", group.title));
     const legend = element("p", undefined, { class: "bands" });
-    const meanings = new Map(group.bands.map(([, , kind, meaning]) => [kind, meaning]));
-    ["stuck", "left", "right"].filter((kind) => meanings.has(kind)).forEach((kind) =>
-      legend.append(element("span", meanings.get(kind), { style: `background: var(--${kind})` })));
-    if (group.bands.length) box.append(legend);
-    const hint = "Point at a curve for its values" + (group.events.length ? ", at a line for the event" : "") + ".";
-    const now = element("p", hint, { class: "now", role: "status", "aria-live": "polite" });
-    box.append(now);
+    function legend_of_bands() {
+      const meanings = new Map(group.bands.map(([, , kind, meaning]) => [kind, meaning]));
+      legend.replaceChildren(...["stuck", "left", "right"].filter((kind) => meanings.has(kind)).map((kind) =>
+        element("span", meanings.get(kind), { style: `background: var(--${kind})` })));
+      legend.hidden = !group.bands.length;
+    }
+    legend_of_bands();
+    const hint = () => "Point at a curve for its values" + (group.events.length ? ", at a line for the event" : "") + ".";
+    const now = element("p", hint(), { class: "now", role: "status", "aria-live": "polite" });
+    box.append(legend, now);
     $("groups").append(box);
     let zooming = false;
 
-    function underlay(panel) {
+    function underlay(n) {
       return (canvas, area, chart) => {
-        const [from, to] = chart.xAxisRange();
+        const panel = panels[n], [from, to] = chart.xAxisRange();
         group.bands.forEach(([low, high, kind]) => {
           if (high < from || low > to) return;
           const left = chart.toDomXCoord(Math.max(low, from)), right = chart.toDomXCoord(Math.min(high, to));
@@ -92,7 +104,8 @@
       };
     }
 
-    function draw(panel) {
+    const rows_of = (panel) => panel.over.map((x, k) => [x, ...panel.series.map((s) => s.values[k])]);
+    function draw(panel, n) {
       const frame = element("div", undefined, { class: "panel" }), heading = element("h3");
       const chart_box = element("div", undefined, { class: "chart", tabindex: "0", role: "img",
         "aria-label": panel.series.map((s) => s.meaning).join(", ") + " over " + group.over });
@@ -107,10 +120,10 @@
       const low = Math.min(...kept), high = Math.max(...kept), room = 0.15 * (high - low);
       const values = high > low ? [low - room, high + room] : null;  // null: as far as the lines in sight reach
       const cloud = panel.style === "points" ? { [panel.series[0].name]: { strokeWidth: 0, drawPoints: true, pointSize: panel.over.length > 500 ? 1.5 : 2.5, highlightCircleSize: 4 } } : {};
-      const chart = new Dygraph(chart_box, panel.over.map((x, k) => [x, ...panel.series.map((s) => s.values[k])]), {
+      const chart = new Dygraph(chart_box, rows_of(panel), {
         labels: [group.over, ...panel.series.map((s) => s.name)], series: cloud, colors: panel.series.map((_, k) => css(colors[k])),
         gridLineColor: css("--grid"), axisLineColor: css("--rule"), dateWindow: [begin, end], legend: "never", strokeWidth: 1.4,
-        yRangePad: 8, valueRange: values, labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(panel),
+        yRangePad: 8, valueRange: values, labelsKMB: false, stepPlot: panel.style === "steps", underlayCallback: underlay(n),
         xlabel: panel === panels[panels.length - 1] ? with_unit(group.over, group.units) : undefined, xLabelHeight: 16,
         axes: { x: { axisLabelFormatter: (x) => show(x) },
                 y: { axisLabelWidth: 72, pixelsPerLabel: 22, axisLabelFormatter: (y) => show(y) } },
@@ -150,7 +163,7 @@
       return [`${e.what} at ${show(e.at, 9)} ${group.units}: ${e.before} → ${e.after}`, ...changes].join("; ");
     }
     function tell(x, points, chart_box) {
-      if (x === null) { now.textContent = self.chosen >= 0 ? describe(group.events[self.chosen]) : hint; return; }
+      if (x === null) { now.textContent = self.chosen >= 0 ? describe(group.events[self.chosen]) : hint(); return; }
       const [from, to] = self.range(), near = (to - from) / Math.max(chart_box.clientWidth, 1) * 5;
       const event = group.events.find((e) => Math.abs(e.at - x) <= near);
       now.textContent = event ? describe(event)
@@ -167,6 +180,21 @@
     };
     panels.forEach(draw);
     if (group.events.length) event_table(self, group);
+    // Whether another group has the same signals, which the charts can show in place of these.
+    const signals = (g) => JSON.stringify([g.title, g.over, g.panels.map((p) => [p.style, p.filled, p.series.map((s) => s.name)])]);
+    self.fits = (next) => signals(group) === signals(next) && !panels.some((p) => p.filled);
+    self.update = (next) => {
+      const range = self.range(), all = range[0] <= begin && range[1] >= end;
+      take(next);
+      self.chosen = Math.min(self.chosen, group.events.length - 1);
+      legend_of_bands();
+      zooming = true;
+      self.charts.forEach((chart, n) => chart.updateOptions({ file: rows_of(panels[n]), dateWindow: all ? [begin, end] : range }));
+      zooming = false;
+      if (group.events.length) event_table(self, group);
+      if (self.chosen >= 0) self.table.querySelectorAll("tbody tr")[self.chosen].classList.add("chosen");
+      tell(null);
+    };
     // Colours of charts are drawn, not styled.
     self.recolour = () => self.charts.forEach((chart, n) => chart.updateOptions({
       colors: panels[n].series.map((_, k) => css(colors[k])), gridLineColor: css("--grid"), axisLineColor: css("--rule") }));
@@ -175,7 +203,7 @@
 
   // ---- keyboard -----------------------------------------------------------------------------------------------
   function key(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey || !current) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || !current || event.target instanceof HTMLInputElement) return;
     const g = current, [from, to] = g.range(), width = to - from;
     const middle = g.chosen >= 0 ? g.events[g.chosen].at : (from + to) / 2;
     const actions = {
@@ -230,21 +258,33 @@
     });
   }
 
-  const groups = data.groups.map(Group);
-  current = groups[0] || null;
-  if (!groups.length) $("keys").remove();
-  else if (!groups.some((g) => g.events.length)) $("event_keys").remove();
-  data.tables.forEach((t) => table_of(t.title, t.heads, t.rows, t.note));
-  data.texts.forEach(([title, text]) => {
-    const details = element("details");
-    details.append(element("summary", title), element("pre", text));
-    $("texts").append(details);
-  });
+  function show_page(next) {
+    data = next;
+    head();
+    $("tables").replaceChildren();
+    if (groups.length === data.groups.length && groups.every((g, k) => g.fits(data.groups[k]))) {
+      groups.forEach((g, k) => g.update(data.groups[k]));
+    } else {
+      $("groups").replaceChildren();
+      groups = data.groups.map(Group);
+      current = groups[0] || null;
+    }
+    $("keys").hidden = !groups.length;
+    $("event_keys").hidden = !groups.some((g) => g.events.length);
+    data.tables.forEach((t) => table_of(t.title, t.heads, t.rows, t.note));
+    const open = [...$("texts").children].map((details) => details.open);
+    $("texts").replaceChildren(...data.texts.map(([title, text], k) => {
+      const details = element("details", undefined, open[k] ? { open: "" } : {});
+      details.append(element("summary", title), element("pre", text));
+      return details;
+    }));
+  }
+  show_page(data);
 
   // Charts follow a change of the scheme, and print in the light one.
   const recolour = () => groups.forEach((g) => g.recolour());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
   matchMedia("print").addEventListener("change", recolour);
   // for whoever drives the page from outside
-  window.report = { groups, data };
+  window.report = { get groups() { return groups; }, get data() { return data; }, show: show_page };
 })();

@@ -4,20 +4,29 @@
 
 #include "description/diagnostics.hpp"
 #include "description/toml/document.hpp"
+#include "description/toml/parse_scenario.hpp"
 #include "output/check_result.hpp"
 #include "output/hdf5/read_ahead.hpp"
 
 namespace wormdrive {
 
-ResultFile::ResultFile(const std::string& path) : path_(path) {
+ResultFile::ResultFile(const std::string& path, Writer writer) : path_(path) {
   if (const auto why = why_unreadable(path)) reject({path}, *why);
   if (!is_hdf5(path)) reject({path}, "not an HDF5 file; wormdrive run writes one");
   try {
-    read_ahead(path);
+    if (writer == Writer::anybody) read_ahead(path);
     file_ = open_hdf5(path);
     check_result(file_);
   } catch (const OutputFault& fault) {
     reject({path}, fault.what());
+  }
+}
+
+Scenario ResultFile::scenario() const {
+  try {
+    return parse_scenario(read_text_attribute(file_, "scenario"), path_, {}, Purpose::show);
+  } catch (const OutputFault& fault) {
+    reject({path_}, fault.what());
   }
 }
 

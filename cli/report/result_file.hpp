@@ -3,19 +3,25 @@
 #include <utility>
 #include <vector>
 
+#include "description/scenario.hpp"
 #include "output/hdf5/stored_table.hpp"
 
 namespace wormdrive {
+
+/// Who wrote a result: this program a moment ago, or anybody, so that a copy of this process reads it first.
+enum class Writer { anybody, this_program };
 
 /// A result file to read from, with the names of what is in it. All of it was looked at when it was opened.
 class ResultFile {
  public:
   /// Throws InputFault if it is no result file, or a damaged one.
-  explicit ResultFile(const std::string& path);
+  explicit ResultFile(const std::string& path, Writer writer = Writer::anybody);
 
   const std::string& path() const { return path_; }
   bool has(const std::string& table) const { return has_member(file_, table); }
   std::vector<double> column(const std::string& name) const { return read_column(file_, name); }
+  /// What was simulated. Throws InputFault.
+  Scenario scenario() const;
   /// A column of texts.
   std::vector<std::string> texts(const std::string& name) const;
   /// The columns of numbers of a table, flags included.

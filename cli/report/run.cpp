@@ -6,7 +6,6 @@
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
 #include "output/trajectory.hpp"
-#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {
@@ -105,7 +104,7 @@ ReportTable control_table(const ResultFile& file) {
 
 ReportPage report_of_run(const ResultFile& file) {
   if (file.column("trajectory/time").empty()) reject({file.path()}, "contains a run without rows");
-  const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
+  const Scenario scenario = file.scenario();
   using enum ReportPanel::Style;
   ReportGroup group{"", "time", "s",
                     panels(file, "trajectory",

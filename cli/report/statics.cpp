@@ -1,12 +1,11 @@
 #include "cli/describe/drive.hpp"
 #include "cli/report/kinds.hpp"
 #include "cli/report/thinning.hpp"
-#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 
 ReportPage report_of_statics(const ResultFile& file) {
-  const Scenario scenario = load_scenario(file.path(), {}, Purpose::show);
+  const Scenario scenario = file.scenario();
   const std::string table = "statics";
   const std::vector<double> load = file.column(table + "/load_torque");
   ReportPanel map{load, {}, ReportPanel::Style::lines, true};

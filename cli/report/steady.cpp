@@ -8,7 +8,6 @@
 #include "cli/report/kinds.hpp"
 #include "cli/report/thinning.hpp"
 #include "description/diagnostics.hpp"
-#include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
 namespace {
@@ -108,7 +107,7 @@ ReportTable curve_table(const ReportPanel& curve, const std::string& speed_unit)
 ReportPage report_of_steady(const ResultFile& file) {
   if (!file.has("model")) reject({file.path()}, "contains no curve");
   ReportPage page;
-  page.summary = describe_mesh(load_scenario(file.path(), {}, Purpose::show));
+  page.summary = describe_mesh(file.scenario());
   ReportGroup group{
       "", file.attribute("model/worm_speed", "long_name"), file.attribute("model/worm_speed", "units"), {}};
   if (!file.has("records")) {
