@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/commands/diff_sweeps.hpp"
+#include "cli/commands/sweep/diff_sweeps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/result_file.hpp"
 #include "description/diagnostics.hpp"

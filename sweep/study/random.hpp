@@ -7,7 +7,7 @@
 namespace wormdrive {
 
 /// What the random numbers of a sweep are for: streams of one seed never overlap, nor with those of a run.
-enum class SweepStream : std::uint64_t { draws = 0x100, permutation, digital_shift, noise };
+enum class SweepStream : std::uint64_t { draws = 0x100, permutation, digital_shift, noise, subset, importance };
 
 /// Random bits without memory: they depend on seed, stream and the two counters alone, whoever asks and when.
 inline std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, SweepStream stream, std::uint64_t trial,

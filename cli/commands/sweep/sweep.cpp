@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
-#include "cli/commands/sweep_ranks.hpp"
-#include "cli/commands/sweep_steps.hpp"
+#include "cli/commands/sweep/sweep_ranks.hpp"
+#include "cli/commands/sweep/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/progress.hpp"

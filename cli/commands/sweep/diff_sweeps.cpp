@@ -1,4 +1,4 @@
-#include "cli/commands/diff_sweeps.hpp"
+#include "cli/commands/sweep/diff_sweeps.hpp"
 
 #include <algorithm>
 #include <cmath>

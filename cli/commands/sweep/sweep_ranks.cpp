@@ -1,4 +1,4 @@
-#include "cli/commands/sweep_ranks.hpp"
+#include "cli/commands/sweep/sweep_ranks.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands/sweep_steps.hpp"
+#include "cli/commands/sweep/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "cli/exit_code.hpp"

@@ -1,4 +1,4 @@
-#include "cli/commands/sweep_steps.hpp"
+#include "cli/commands/sweep/sweep_steps.hpp"
 
 #include <algorithm>
 #include <charconv>
