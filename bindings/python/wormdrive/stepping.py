@@ -140,7 +140,8 @@ class Drives:
         return self._core.snapshot()
 
     def restore(self, snapshot: bytes) -> None:
-        """Goes back to a snapshot of drives with the same scenarios; any other raises InputError."""
+        """Goes back to a snapshot of drives with the same scenarios, or takes all to that of one Drive; any other raises
+        InputError."""
         self._core.restore(snapshot)
 
     def __len__(self) -> int:
