@@ -56,7 +56,7 @@ int main(void) {
               "snapshot: error: is of a drive with another scenario");
   check_error(wormdrive_open("no_such_file.toml") == NULL, "no_such_file.toml: error: cannot be read: No such file or directory");
   check_error(wormdrive_parse("[mesh]\nkind = \"none\"\n") == NULL,
-              "text:1:1: error: [mesh] lacks 'inertia_kgm2' (inertia of all that moves)");
+              "text:1:1: error: [mesh] lacks 'inertia_kgm2' (inertia that moves)");
   check_error(wormdrive_parse(NULL) == NULL, "toml is a null pointer");
   check(wormdrive_get_state(drive, &state) == WORMDRIVE_OK && state.time == 0.0, "nothing has changed");
   wormdrive_close(drive);
