@@ -1,4 +1,4 @@
-// How many steps a second one core makes of drives that are stepped, alone and in batches, at which error, and how
+// How many steps a second one core makes of drives that are stepped, alone and together, at which error, and how
 // often it allocates memory meanwhile. The reference is CVODE at a relative tolerance of 1e-13 under the same torques.
 #include <algorithm>
 #include <cmath>
