@@ -11,25 +11,28 @@ const SlidingParameters& sliding(const Scenario& scenario) {
   return std::get<SlidingParameters>(scenario.control->law);
 }
 
-/// Whether effects leave the command and the measured angle alone.
-bool is_direct(const Effects<double>& effects) {
+bool has_sensor(const Effects<double>& effects) {
   bool sensor = false;
   effects.for_each([&]<class E>(const std::optional<E>& effect) {
     if (effect && E::place == Place::sensor) sensor = true;
   });
-  return !sensor && std::isinf(effects.torque_limit()) && effects.delay() <= 0.0 && effects.lag() <= 0.0;
+  return sensor;
 }
 
 }  // namespace
 
+bool has_lane_plant(const Scenario& scenario) {
+  const Effects<double>& on = scenario.effects;
+  return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
+         std::holds_alternative<GravityArm>(scenario.load) && scenario.motor.terms.empty() && !has_elastic_teeth(on) &&
+         std::isinf(on.torque_limit()) && on.delay() <= 0.0 && on.lag() <= 0.0;
+}
+
 bool fits_lane(const Scenario& scenario) {
   const auto& control = scenario.control;
-  return control && std::holds_alternative<SlidingParameters>(control->law) &&
-         scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
-         std::holds_alternative<GravityArm>(scenario.load) && scenario.motor.terms.empty() &&
+  return control && std::holds_alternative<SlidingParameters>(control->law) && has_lane_plant(scenario) &&
          control->sampling.delay <= 0.5 && control->sensor.counts <= 0.0 && control->sensor.noise <= 0.0 &&
-         !control->sensor.exact_speed && control->disturbance.deviation <= 0.0 &&
-         !has_elastic_teeth(scenario.effects) && is_direct(scenario.effects);
+         !control->sensor.exact_speed && control->disturbance.deviation <= 0.0 && !has_sensor(scenario.effects);
 }
 
 bool share_samples(const Scenario& a, const Scenario& b) {

@@ -7,6 +7,9 @@
 
 namespace wormdrive {
 
+/// Whether torques that are held reach the mesh of a scenario as they are, and nothing but an arm under gravity loads
+/// it.
+bool has_lane_plant(const Scenario& scenario);
 /// Whether a scenario can run in a lane: nothing between angle and torque but the sliding controller, nothing but the
 /// mesh, dry bearings and an arm under gravity between torque and angle.
 bool fits_lane(const Scenario& scenario);

@@ -17,6 +17,7 @@
 #include "output/program.hpp"
 #include "simulation/load_scenario.hpp"
 #include "simulation/steady_scenario.hpp"
+#include "simulation/stepping/stepped_drive.hpp"
 
 namespace py = pybind11;
 using namespace wormdrive;
@@ -109,6 +110,7 @@ PYBIND11_MODULE(_core, m) {
       .def("parameters", [](const Scenario& s) { return as_dict(parameters(s)); })
       .def("derived", [](const Scenario& s) { return as_dict(derived(s)); })
       .def("warnings", &warnings)
+      .def("set_aside", &set_aside)
       .def(py::pickle([](const Scenario& s) { return py::make_tuple(to_toml(s)); },
                       [](const py::tuple& state) {
                         return std::make_shared<Scenario>(
@@ -116,4 +118,5 @@ PYBIND11_MODULE(_core, m) {
                       }));
   add_sweep(m);
   add_diagnosis(m);
+  add_stepping(m);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,7 @@ namespace wormdrive {
 /// An array that looks into memory of C++, which its owner keeps. It is read-only: whoever else looks there is not to
 /// see it change, and NumPy does not let it be made writable again.
 template <class T>
-pybind11::array view(const std::vector<T>& values, const pybind11::object& owner) {
+pybind11::array view(std::span<const T> values, const pybind11::object& owner) {
   pybind11::array_t<T> array(static_cast<pybind11::ssize_t>(values.size()), values.data(), owner);
   pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
@@ -27,7 +28,7 @@ pybind11::array own(std::vector<T>&& values) {
   auto kept = std::make_unique<std::vector<T>>(std::move(values));
   const std::vector<T>& column = *kept;
   const pybind11::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return view(column, owner);
+  return view(std::span(column), owner);
 }
 
 /// (name, units, long_name, flag_meanings, flag_values, array): a column as wormdrive/__init__.py takes it.

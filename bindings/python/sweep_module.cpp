@@ -26,7 +26,7 @@ py::list trials(const py::object& self) {
   const auto& result = self.cast<const SweepResult&>();
   py::list list;
   for (std::size_t k = 0; k < result.columns().size(); ++k) {
-    list.append(described(result.columns()[k], view(result.column(k), self)));
+    list.append(described(result.columns()[k], view(std::span(result.column(k)), self)));
   }
   return list;
 }

@@ -45,4 +45,17 @@ void take_samples(LaneKind kind, const LaneBatch& batch, std::span<const LaneSam
   }
 }
 
+void take_step(LaneKind kind, const StepBatch& batch) {
+  switch (kind) {
+    case LaneKind::plain: return take_step_plain(batch);
+#if defined(__x86_64__)
+    case LaneKind::avx2: return take_step_avx2(batch);
+    case LaneKind::avx512: return take_step_avx512(batch);
+#else
+    case LaneKind::avx2:
+    case LaneKind::avx512: return;
+#endif
+  }
+}
+
 }  // namespace wormdrive

@@ -1,4 +1,5 @@
 #pragma once
+#include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 
 // Included by one file for each instruction set, which instantiates it with a type of its own: nothing that is compiled
@@ -49,32 +50,10 @@ class LaneKernel {
     }
   }
 
-  /// Trials alone, in memory.
-  struct Each {
-    alignas(64) double of[Width::lanes];
-    explicit Each(const V& v) { __builtin_memcpy(of, &v, sizeof of); }
-  };
+  using Each = EachLane<Width>;
 
   [[gnu::always_inline]] static SineAndCosineOf<V> sine_and_cosine(const LaneBatch& batch, int r, const V& angle) {
-    const unsigned distant = set_bits(!(abs(angle) < quarter_turn::furthest)) & batch.alive[r];
-    const Both<V> found = quarter_turn::within(angle);
-    if (distant == 0U) [[likely]]
-      return {found[0], found[1]};
-    return far(batch, angle, {found[0], found[1]}, distant);
-  }
-  [[gnu::noinline]] static SineAndCosineOf<V> far(const LaneBatch& batch, const V& angle,
-                                                  const SineAndCosineOf<V>& near, unsigned lanes) {
-    Each angles(angle), sine(near.sine), cosine(near.cosine);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const int lane = __builtin_ctz(lanes);
-      const SineAndCosine found = batch.sine_and_cosine(angles.of[lane]);
-      sine.of[lane] = found.sine;
-      cosine.of[lane] = found.cosine;
-    }
-    SineAndCosineOf<V> all;
-    __builtin_memcpy(&all.sine, sine.of, sizeof sine.of);
-    __builtin_memcpy(&all.cosine, cosine.of, sizeof cosine.of);
-    return all;
+    return wormdrive::sine_and_cosine<Width>(angle, batch.alive[r], batch.sine_and_cosine);
   }
 
   [[gnu::noinline]] static void note(const LaneBatch& batch, int r, unsigned lanes, const ControlRecordOf<V>& record) {

@@ -9,6 +9,7 @@
 
 #include "control/lanes/kernel.hpp"
 #include "control/lanes/kernels.hpp"
+#include "control/lanes/step_kernel.hpp"
 
 namespace wormdrive {
 namespace {
@@ -28,6 +29,7 @@ struct Width {
 void take_samples_avx512(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end) {
   LaneKernel<Width>::take(batch, begin, end);
 }
+void take_step_avx512(const StepBatch& batch) { StepKernel<Width>::take(batch); }
 
 }  // namespace wormdrive
 #endif

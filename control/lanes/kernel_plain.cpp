@@ -6,6 +6,7 @@
 
 #include "control/lanes/kernel.hpp"
 #include "control/lanes/kernels.hpp"
+#include "control/lanes/step_kernel.hpp"
 
 namespace wormdrive {
 namespace {
@@ -29,5 +30,6 @@ struct Width {
 void take_samples_plain(const LaneBatch& batch, const LaneSample* begin, const LaneSample* end) {
   LaneKernel<Width>::take(batch, begin, end);
 }
+void take_step_plain(const StepBatch& batch) { StepKernel<Width>::take(batch); }
 
 }  // namespace wormdrive

@@ -4,7 +4,7 @@
   commands  code blocks marked `sh test` or `python test` run, page by page, in a folder with a copy of scenarios/
   output    a block marked `text test` is what they print, numbers aside, `...` is what was left out; `$ COMMAND` runs it
   pictures  each picture on a page in docs/ is made by commands of that page
-  code      what stands between // [howto] and // [/howto] in tests/docs/NAME.cpp stands in docs/howto/NAME.md
+  code      what stands between // [howto] and // [/howto] in tests/docs/NAME.cpp or NAME.c stands in docs/howto/NAME.md
   links     every link between pages leads to a file, and to a heading in it
 
 One line per fault, exit status 1 if there is any. With PICTURES, a folder, blocks marked `sh pictures`, which take longer,
@@ -99,7 +99,7 @@ def link_faults(page, text):
 
 def code_faults():
     """Yields the marked code that its page does not show."""
-    for source in sorted((ROOT / "tests/docs").glob("*.cpp")):
+    for source in sorted((ROOT / "tests/docs").glob("*.c*")):
         page = (ROOT / "docs/howto" / source.stem).with_suffix(".md")
         for code in MARKED.findall(source.read_text(encoding="utf-8")):
             if code not in page.read_text(encoding="utf-8"):

@@ -29,7 +29,7 @@ except ImportError as error:
 from ._core import InputError, OutputError, SimulationHalted
 
 __all__ = ["run", "steady", "check", "sweep", "summary", "diagnose", "Scenario", "Result", "Sweep", "Diagnosis", "Table",
-           "InputError", "OutputError", "SimulationHalted"]
+           "Drive", "Drives", "State", "InputError", "OutputError", "SimulationHalted"]
 __version__ = _core.version().split()[1]
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scenario"]
@@ -373,3 +373,6 @@ def _assignments(tables: Mapping[str, Any], path: str = "") -> Iterator[str]:
             yield from _assignments(value, f"{path}{key}.")
         else:
             yield f"{path}{key}={_toml(value)}"
+
+
+from .stepping import Drive, Drives, State  # noqa: E402  (they take scenarios as this module reads them)

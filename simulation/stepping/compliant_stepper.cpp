@@ -1,0 +1,13 @@
+#include "core/elastic/elastic_teeth.hpp"
+#include "description/build.hpp"
+#include "simulation/stepping/drive_stepper.hpp"
+
+namespace wormdrive {
+
+std::unique_ptr<SteppedDrive> make_compliant_stepper(const Scenario& scenario) {
+  return with_drive(scenario, [&](auto& rigid) {
+    return stepper_of(CompliantDrive(std::move(rigid), tooth_contact(scenario.effects)), scenario, false);
+  });
+}
+
+}  // namespace wormdrive
