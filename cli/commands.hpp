@@ -134,6 +134,16 @@ struct WorstOptions {
 };
 int worst_command(const WorstOptions& options);
 
+struct RareOptions {
+  std::string study;
+  std::string metric;              ///< of the limit; empty: of the first one
+  std::uint64_t per_level = 2000;  ///< points of a level of the subset simulation
+  std::uint64_t samples = 2000;    ///< around the design point
+  unsigned threads = 0;
+  bool json = false;
+};
+int rare_command(const RareOptions& options);
+
 struct FmuOptions {
   ScenarioOptions scenario;
   std::string output;  ///< empty: named after the scenario

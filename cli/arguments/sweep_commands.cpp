@@ -52,6 +52,21 @@ void add_worst(CommandSet& commands) {
   add_force(command, options.replace);
 }
 
+void add_rare(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("rare", "estimate how rarely the drives of a study miss a limit, down to 1e-9", rare_command);
+  command.add_option("study", options.study, "study (.toml); its design does not matter")->required();
+  command.add_option("--metric", options.metric, "metric of the limit; default: that of the first [[threshold]]");
+  command.add_option("--per-level", options.per_level, "runs of each level of the subset simulation")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  command.add_option("--samples", options.samples, "runs around the design point")
+      ->check(CLI::Range(100, 10000000))
+      ->capture_default_str();
+  add_threads(command, options.threads);
+  add_json(command, options.json);
+}
+
 void add_replay(CommandSet& commands) {
   auto [command, options] =
       commands.add("replay", "run one trial of a sweep again and write its trajectory", replay_command);
@@ -77,6 +92,7 @@ void add_sweep_commands(CommandSet& commands) {
   add_sweep(commands);
   add_summary(commands);
   add_worst(commands);
+  add_rare(commands);
   add_replay(commands);
   add_merge(commands);
 }

@@ -1,0 +1,103 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/describe/drive.hpp"
+#include "cli/describe/sweep.hpp"
+#include "statistics/normal.hpp"
+#include "statistics/threads.hpp"
+#include "sweep/rare/rare_event.hpp"
+#include "sweep/study/load_study.hpp"
+
+namespace wormdrive {
+namespace {
+
+const Metric& metric_of(const Study& study, const std::string& name) {
+  return *std::find_if(study.metrics.begin(), study.metrics.end(), [&](const Metric& m) { return m.name == name; });
+}
+
+std::string words_of(const RareEstimate& p) {
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}] (95 % interval)", p.probability, p.low, p.high);
+}
+
+nlohmann::ordered_json as_json(const RareEstimate& p) {
+  return {{"probability", p.probability},
+          {"low", p.low},
+          {"high", p.high},
+          {"variation", p.variation},
+          {"evaluations", p.evaluations}};
+}
+
+nlohmann::ordered_json as_json(const RareEvent& event, const Study& study) {
+  nlohmann::ordered_json made{{"title", study.title},
+                              {"metric", event.threshold.metric},
+                              {event.threshold.above ? "above" : "below", event.threshold.limit},
+                              {"unit", metric_of(study, event.threshold.metric).unit.symbol},
+                              {"subset_simulation", as_json(event.subset.estimate)},
+                              {"levels", nlohmann::ordered_json::array()},
+                              {"plain_trials", event.plain_trials()},
+                              {"median_misses", event.median_misses}};
+  for (const SubsetLevel& level : event.subset.levels)
+    made["levels"].push_back({{"distance", level.threshold}, {"share", level.share}, {"acceptance", level.acceptance}});
+  if (event.median_misses) return made;
+  made["beta"] = event.design.beta;
+  made["converged"] = event.design.converged;
+  for (std::size_t k = 0; k < study.parameters.size(); ++k)
+    made["design_point"][study.parameters[k].name] = {
+        {"value", event.likely.parameters[k]},
+        {"unit", study.parameters[k].si_unit.symbol},
+        {"importance", event.design.direction.empty() ? 0.0 : event.design.direction[k] * event.design.direction[k]}};
+  made["importance_sampling"] = as_json(event.importance);
+  made["agrees"] = event.agrees();
+  return made;
+}
+
+/// The drive that misses most likely, and what each parameter has to do with it.
+void print_design_point(const RareEvent& event, const Study& study) {
+  print_item("design",
+             fmt::format("beta {:.4g}, FORM {:.3g}{}", event.design.beta, normal_probability(-event.design.beta),
+                         event.design.converged ? "" : "; the search has not converged"));
+  for (std::size_t k = 0; k < study.parameters.size(); ++k)
+    print_item(
+        k == 0 ? "with" : "",
+        fmt::format(
+            "{} {:.6g}{}{}", study.parameters[k].name, event.likely.parameters[k], in_unit(study.parameters[k].si_unit),
+            event.design.direction.empty()
+                ? ""
+                : fmt::format(", importance {:.0f} %", 100.0 * event.design.direction[k] * event.design.direction[k])));
+}
+
+}  // namespace
+
+int rare_command(const RareOptions& options) {
+  const Study study = load_study(options.study);
+  const RareEvent event = estimate_rare_event(
+      study, options.study, {options.metric, options.per_level, options.samples, threads_for(options.threads)});
+  if (options.json) {
+    fmt::print("{}\n", as_json(event, study).dump(2));
+    return 0;
+  }
+  const Threshold& limit = event.threshold;
+  const RareEstimate& p = event.subset.estimate;
+  fmt::print("{}\n", study.title);
+  print_item("limit", fmt::format("{} at {} {:g}{}", limit.metric, limit.above ? "most" : "least", limit.limit,
+                                  in_unit(metric_of(study, limit.metric).unit)));
+  print_item("subset", fmt::format("missed with probability {}, {} levels, {} runs", words_of(p),
+                                   event.subset.levels.size(), p.evaluations));
+  print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
+  if (event.median_misses) {
+    print_item("design", "the median drive misses the limit: a miss is not rare, and plain sampling serves");
+    return 0;
+  }
+  print_design_point(event, study);
+  print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
+                                   words_of(event.importance), event.importance.evaluations));
+  print_item("check", event.agrees() ? "the two intervals overlap"
+                                     : "the two intervals do not overlap: drives miss in other ways than at the design "
+                                       "point, which samples around it do not see; the subset simulation stands");
+  return 0;
+}
+
+}  // namespace wormdrive
