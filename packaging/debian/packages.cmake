@@ -88,3 +88,12 @@ ${long}
   set(CPACK_DEBIAN_PYTHON3-WORMDRIVE_PACKAGE_CONTROL_EXTRA "${DEB}/postinst;${DEB}/prerm")
 endif()
 include(CPack)
+
+# Outside the tests: needs root, and Debian's mmdebstrap and lintian.
+add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} -G DEB WORKING_DIRECTORY ${CMAKE_BINARY_DIR} VERBATIM
+                  DEPENDS wormdrive wormdrive_fmu manual ${LIBRARIES})
+if(WORMDRIVE_BINDINGS_PYTHON)
+  add_dependencies(packages wormdrive_python)
+endif()
+add_custom_target(check_packages COMMAND ${CMAKE_SOURCE_DIR}/tools/check_packages ${CMAKE_BINARY_DIR} VERBATIM)
+add_dependencies(check_packages packages)
