@@ -73,7 +73,7 @@ class Zip {
 
 /// The library of the model, as the build made it.
 std::string read_library() {
-  const std::string path = resource("lib/wormdrive/wormdrive_fmu.so");
+  const std::string path = resource("lib/wormdrive/fmi/wormdrive_fmu.so");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw OutputFault(fmt::format("cannot make an FMU: cannot read {}", path));
   return {std::istreambuf_iterator<char>(file), {}};

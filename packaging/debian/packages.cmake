@@ -8,7 +8,8 @@ file(READ ${CMAKE_SOURCE_DIR}/LICENSE DEB_LICENSE)
 file(READ ${DYGRAPHS_NOTICE} DEB_DYGRAPHS)
 configure_file(${DEB}/copyright.in ${BUILT}/copyright @ONLY)
 configure_file(${DEB}/changelog.in ${BUILT}/changelog.Debian @ONLY)
-execute_process(COMMAND gzip -9nf ${BUILT}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
+configure_file(${CMAKE_SOURCE_DIR}/CHANGELOG.md ${BUILT}/changelog COPYONLY)
+execute_process(COMMAND gzip -9nf ${BUILT}/changelog.Debian ${BUILT}/changelog COMMAND_ERROR_IS_FATAL ANY)
 
 set(DEB_PACKAGES wormdrive libwormdrive-dev)
 set(COMPONENTS_wormdrive program documentation)
@@ -26,8 +27,8 @@ endif()
 
 set(CPACK_COMPONENTS_ALL "")
 foreach(package ${DEB_PACKAGES})
-  install(FILES ${BUILT}/copyright ${BUILT}/changelog.Debian.gz DESTINATION share/doc/${package}
-          COMPONENT doc_${package} EXCLUDE_FROM_ALL)
+  install(FILES ${BUILT}/copyright ${BUILT}/changelog.Debian.gz ${BUILT}/changelog.gz
+          DESTINATION share/doc/${package} COMPONENT doc_${package} EXCLUDE_FROM_ALL)
   foreach(component ${COMPONENTS_${package}} doc_${package})
     list(APPEND CPACK_COMPONENTS_ALL ${component})
     string(TOUPPER ${component} upper)
@@ -45,13 +46,13 @@ set(CPACK_PRE_BUILD_SCRIPTS ${DEB}/strip_archives.cmake)
 set(CPACK_PACKAGE_CONTACT ${WORMDRIVE_MAINTAINER})
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0.1)  # not one of Debian's own, which begin with 1
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-set(long " Self-locking, stick, break-in and the change of the tooth flank that carries
- the load are events of a hybrid system, located to the accuracy of the solver.
- Uncertain parameters are swept over any number of drives, and measured data
- are diagnosed: which effects a scenario lacks.")
+set(long "Self-locking, stick, break-in and the change of the tooth flank that carries
+the load are events of a hybrid system, located to the accuracy of the solver.
+Uncertain parameters are swept over any number of drives, and measured data
+are diagnosed: which effects a scenario lacks.")
 set(CPACK_DEBIAN_WORMDRIVE_DESCRIPTION "simulator of worm-gear drives
 ${long}")
 set(CPACK_DEBIAN_WORMDRIVE_PACKAGE_SECTION science)
@@ -62,8 +63,8 @@ set(CPACK_DEBIAN_WORMDRIVE_PACKAGE_SUGGESTS "openmpi-bin, python3-wormdrive, lib
 
 set(CPACK_DEBIAN_LIBWORMDRIVE-DEV_DESCRIPTION "simulator of worm-gear drives (C++ libraries and headers)
 ${long}
- .
- This package has the libraries, their headers and the package for CMake.")
+
+This package has the libraries, their headers and the package for CMake.")
 set(CPACK_DEBIAN_LIBWORMDRIVE-DEV_PACKAGE_SECTION libdevel)
 set(dev libboost-dev libceres-dev libeigen3-dev libfmt-dev libhdf5-dev libnlopt-dev librandom123-dev libsundials-dev
         libtomlplusplus-dev nlohmann-json3-dev)
@@ -78,8 +79,8 @@ if(WORMDRIVE_BINDINGS_PYTHON)
   math(EXPR next "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON3-WORMDRIVE_DESCRIPTION "simulator of worm-gear drives (Python module)
 ${long}
- .
- This package has the module for Python: runs as NumPy arrays.")
+
+This package has the module for Python: runs as NumPy arrays.")
   set(CPACK_DEBIAN_PYTHON3-WORMDRIVE_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3-WORMDRIVE_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON3-WORMDRIVE_PACKAGE_DEPENDS
@@ -90,8 +91,9 @@ endif()
 include(CPack)
 
 # Outside the tests: needs root, and Debian's mmdebstrap and lintian.
-add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} -G DEB WORKING_DIRECTORY ${CMAKE_BINARY_DIR} VERBATIM
-                  DEPENDS wormdrive wormdrive_fmu manual ${LIBRARIES})
+add_custom_target(packages COMMAND ${CMAKE_COMMAND} -E rm -rf ${CPACK_PACKAGE_DIRECTORY}
+                  COMMAND ${CMAKE_CPACK_COMMAND} -G DEB WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
+                  VERBATIM DEPENDS wormdrive wormdrive_fmu manual ${LIBRARIES})
 if(WORMDRIVE_BINDINGS_PYTHON)
   add_dependencies(packages wormdrive_python)
 endif()
