@@ -23,6 +23,7 @@ packages=(
   libopenmpi-dev       # sweeps shared by several machines
   openmpi-bin          # mpirun
   libarchive-dev       # writes FMUs, which are zip archives
+  libmatio-dev         # runs as MAT-files
   libjs-dygraphs       # reports: goes into the program when it is built
   catch2               # unit tests
   pybind11-dev         # the Python module
