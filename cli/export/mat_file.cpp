@@ -51,12 +51,19 @@ std::vector<std::string> names_of(const ExportedTable& table) {
   return names;
 }
 
+std::size_t bytes_of(const std::vector<ExportedTable>& tables) {
+  std::size_t bytes = 0;
+  for (const ExportedTable& table : tables)
+    bytes += table.columns.size() * table.columns.front().values.size() * sizeof(double);
+  return bytes;
+}
+
 /// Whether a table can be read from the file as it is.
 bool readable(mat_t* file, const ExportedTable& table) {
   const MatVariable found(Mat_VarRead(file, table.name.c_str()), Mat_VarFree);
   return found && std::all_of(table.columns.begin(), table.columns.end(), [&](const ExportedColumn& column) {
            const matvar_t* const field = Mat_VarGetStructFieldByName(found.get(), column.name.c_str(), 0);
-           if (!field || field->nbytes != column.values.size() * sizeof(double)) return false;
+           if (!field || !field->data || field->nbytes != column.values.size() * sizeof(double)) return false;
            const auto* const values = static_cast<const double*>(field->data);
            return std::equal(column.values.begin(), column.values.end(), values);
          });
@@ -106,7 +113,8 @@ void write_mat(const std::string& link, const std::vector<ExportedTable>& tables
     bool whole = file && write_variables(file.get(), tables, texts);
     if (whole) {
       file.reset();  // matio does not tell whether the last bytes were written
-      file.reset(Mat_Open(part.c_str(), MAT_ACC_RDONLY));
+      // and crashes on a file that ends early
+      if (std::filesystem::file_size(part) > bytes_of(tables)) file.reset(Mat_Open(part.c_str(), MAT_ACC_RDONLY));
       whole = file && std::all_of(tables.begin(), tables.end(), [&](const auto& t) { return readable(file.get(), t); });
     }
     if (!whole)
