@@ -185,4 +185,12 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+struct ExportOptions {
+  std::string run;
+  bool csv = false, mat = false;  ///< one of them
+  std::string output;             ///< empty: named after the run
+  Replace replace = Replace::same_kind;
+};
+int export_command(const ExportOptions& options);
+
 }  // namespace wormdrive

@@ -25,6 +25,7 @@ packages=(
   libarchive-dev       # writes FMUs, which are zip archives
   libcpp-httplib-dev   # wormdrive view: serves its page on the loopback address
   pkgconf              # tells how cpp-httplib was compiled
+  libmatio-dev         # runs as MAT-files
   libjs-dygraphs       # reports: goes into the program when it is built
   catch2               # unit tests
   pybind11-dev         # the Python module

@@ -14,6 +14,7 @@
 #include "bindings/fmi/plant_json.hpp"
 #include "bindings/fmi/plant_parameters.hpp"
 #include "output/hdf5/hdf5.hpp"
+#include "output/resource.hpp"
 
 namespace wormdrive {
 namespace {
@@ -70,14 +71,12 @@ class Zip {
   bool finished_ = false;
 };
 
-/// The library of the model, beside the installed program or where the build left it.
+/// The library of the model, as the build made it.
 std::string read_library() {
-  for (const char* path : {WORMDRIVE_FMU_INSTALLED, WORMDRIVE_FMU_BUILT}) {
-    std::ifstream file(path, std::ios::binary);
-    if (file) return {std::istreambuf_iterator<char>(file), {}};
-  }
-  throw OutputFault(fmt::format("cannot make an FMU: neither {} nor {} can be read; install wormdrive again",
-                                WORMDRIVE_FMU_INSTALLED, WORMDRIVE_FMU_BUILT));
+  const std::string path = resource("lib/wormdrive/fmi/wormdrive_fmu.so");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw OutputFault(fmt::format("cannot make an FMU: cannot read {}", path));
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The name of the first file in an archive of this program, by which it is known.

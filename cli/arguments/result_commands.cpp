@@ -47,6 +47,20 @@ void add_diff(CommandSet& commands) {
   add_json(command, options.json);
 }
 
+void add_export(CommandSet& commands) {
+  auto [command, options] = commands.add("export", "write a run as CSV, or as a MAT-file for MATLAB", export_command);
+  command.add_option("run", options.run, "result of a run (.h5)")->required();
+  CLI::Option_group& format = *command.add_option_group("Format");
+  format.add_flag(
+      "--csv", options.csv,
+      "one file per table: NAME.csv has the trajectory, NAME_events.csv the events, NAME_controller.csv the "
+      "samples of a controller");
+  format.add_flag("--mat", options.mat, "one file (MAT, version 5) with a struct per table");
+  format.require_option(1);
+  command.add_option("-o,--output", options.output, "file; default: the result's name with .csv or .mat");
+  add_force(command, options.replace);
+}
+
 }  // namespace
 
 void add_result_commands(CommandSet& commands) {
@@ -54,6 +68,7 @@ void add_result_commands(CommandSet& commands) {
   add_plot(commands);
   add_report(commands);
   add_diff(commands);
+  add_export(commands);
 }
 
 }  // namespace wormdrive

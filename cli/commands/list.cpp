@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "description/keys.hpp"
 #include "description/toml/table_reader.hpp"
+#include "output/resource.hpp"
 #include "simulation/load_scenario.hpp"
 
 namespace wormdrive {
@@ -121,15 +122,13 @@ void list_references() {
   print_kinds<ReferenceTerm>("file (with x_column, y_column), or times_s and angles_rad");
 }
 
-/// The installed scenarios, or those of the source tree that built this program.
 void list_scenarios() {
-  const std::filesystem::path installed = WORMDRIVE_SCENARIOS_INSTALLED, source = WORMDRIVE_SCENARIOS_SOURCE;
-  const auto& folder = std::filesystem::exists(installed) ? installed : source;
+  const std::string folder = resource("share/wormdrive/scenarios");
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  fmt::print("scenarios in {}\n", folder.string());
+  fmt::print("scenarios in {}\n", folder);
   for (const auto& file : files)
     fmt::print("  {:<36} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
 }

@@ -8,17 +8,12 @@
 #include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/result_file.hpp"
+#include "output/resource.hpp"
 
 extern char** environ;
 
 namespace wormdrive {
 namespace {
-
-/// The installed script, or the one of the source tree that built this program.
-std::string script() {
-  const std::string installed = WORMDRIVE_PLOTS_INSTALLED "/plot.py";
-  return std::filesystem::exists(installed) ? installed : WORMDRIVE_PLOTS_SOURCE "/plot.py";
-}
 
 /// The picture that is written.
 std::string picture(const PlotOptions& options) {
@@ -28,7 +23,8 @@ std::string picture(const PlotOptions& options) {
 
 /// Runs the script that draws; its exit code.
 int run_script(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{WORMDRIVE_PYTHON, script()};
+  // -B: no __pycache__ beside the scripts, which a package would leave behind
+  std::vector<std::string> words{WORMDRIVE_PYTHON, "-B", resource("share/wormdrive/plots/plot.py")};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
