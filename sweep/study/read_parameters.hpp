@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "description/toml/table_reader.hpp"
+#include "sweep/study/data_columns.hpp"
 #include "sweep/study/study.hpp"
 
 namespace wormdrive {
@@ -14,8 +15,8 @@ struct StatedParameter {
   std::optional<double> levels;
 };
 
-/// Reads [[parameter]].
-std::vector<StatedParameter> read_parameters(TableReader& root);
+/// Reads [[parameter]]; data: the files that they may name.
+std::vector<StatedParameter> read_parameters(TableReader& root, DataColumns& data);
 
 /// Reads [[correlation]] between parameters.
 Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& parameters);
