@@ -113,6 +113,18 @@ struct SummaryOptions {
 };
 int summary_command(const SummaryOptions& options);
 
+struct ExportOptions {
+  std::string sweep;
+  std::string what = "trials";  ///< or "summary"
+  std::string output;           ///< empty: standard output
+  std::string metric;           ///< of the summary, as there
+  bool done_only = false;
+  bool quiet = false;
+  Replace replace = Replace::same_kind;
+};
+/// Writes a table of a sweep as CSV.
+int export_command(const ExportOptions& options);
+
 struct WorstOptions {
   std::string sweep;
   std::string metric;  ///< empty: the one by which trials are ranked

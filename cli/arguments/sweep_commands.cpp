@@ -34,6 +34,20 @@ void add_summary(CommandSet& commands) {
   add_json(command, options.json);
 }
 
+void add_export(CommandSet& commands) {
+  auto [command, options] = commands.add("export", "write the trials of a sweep or its summary as CSV", export_command);
+  command.add_option("sweep", options.sweep, "result of a sweep (.h5)")->required();
+  command.add_option("--what", options.what, "which table")
+      ->check(CLI::IsMember({"trials", "summary"}))
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output, "CSV file; default: standard output");
+  command.add_option("--metric", options.metric,
+                     "metric that ranks the parameters of the summary; default: as in summary");
+  command.add_flag("--done-only", options.done_only, "leave refused and halted trials out of the summary");
+  add_quiet(command, options.quiet);
+  add_force(command, options.replace);
+}
+
 void add_worst(CommandSet& commands) {
   auto [command, options] =
       commands.add("worst", "search the uncertain parameters of a sweep for the worst drive", worst_command);
@@ -76,6 +90,7 @@ void add_sweep_commands(CommandSet& commands) {
   commands.begin_group("Vary uncertain parameters");
   add_sweep(commands);
   add_summary(commands);
+  add_export(commands);
   add_worst(commands);
   add_replay(commands);
   add_merge(commands);

@@ -19,15 +19,12 @@ std::uint64_t count(const Grid& design, std::size_t) {
 std::uint64_t count(const OneAtATime& design, std::size_t) {
   return std::accumulate(design.levels.begin(), design.levels.end(), std::uint64_t{1});
 }
+std::uint64_t count(const TableOfPoints& design, std::size_t) { return design.trials; }
 
 /// Coordinates that the sequence of a design needs; 1 for a design that has none, for 0 is refused.
 std::size_t sequence_dimension(const DesignSettings& settings, std::size_t parameters) {
   if (std::holds_alternative<SobolSequence>(settings)) return parameters;
   return std::holds_alternative<Saltelli>(settings) ? 2 * parameters : 1;
-}
-
-bool on_levels(const DesignSettings& settings) {
-  return std::holds_alternative<Grid>(settings) || std::holds_alternative<OneAtATime>(settings);
 }
 
 }  // namespace
@@ -36,9 +33,15 @@ double middle_of(std::uint64_t level, std::uint64_t levels) {
   return (static_cast<double>(level) + 0.5) / static_cast<double>(levels);
 }
 
-bool is_sample(const DesignSettings& settings) { return !on_levels(settings); }
+bool goes_by_levels(const DesignSettings& settings) {
+  return std::holds_alternative<Grid>(settings) || std::holds_alternative<OneAtATime>(settings);
+}
 bool allows_correlation(const DesignSettings& settings) {
-  return !on_levels(settings) && !std::holds_alternative<Saltelli>(settings);
+  return std::holds_alternative<MonteCarlo>(settings) || std::holds_alternative<LatinHypercube>(settings) ||
+         std::holds_alternative<SobolSequence>(settings);
+}
+bool is_sample(const DesignSettings& settings) {
+  return allows_correlation(settings) || std::holds_alternative<Saltelli>(settings);
 }
 
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {
@@ -124,6 +127,10 @@ std::vector<double> Design::at(const OneAtATime& design, std::uint64_t trial) co
       break;
     }
   return u;
+}
+
+std::vector<double> Design::at(const TableOfPoints& design, std::uint64_t trial) const {
+  return std::vector<double>(parameters_, middle_of(trial, design.trials));
 }
 
 }  // namespace wormdrive

@@ -50,13 +50,22 @@ struct OneAtATime {
   std::vector<double> medians;  ///< the coordinates at which they are
 };
 
-using DesignSettings = std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime>;
+/// The rows of a table, whose columns stand as the values of discrete parameters, one after the other.
+struct TableOfPoints {
+  static constexpr std::string_view kind = "table";
+  std::uint64_t trials{};
+};
+
+using DesignSettings =
+    std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime, TableOfPoints>;
 
 /// The coordinate at which a level stands: in the middle of the stratum that is its own.
 double middle_of(std::uint64_t level, std::uint64_t levels);
 
 /// Whether the points are a sample of the parameters' distribution, so that shares of them are probabilities.
 bool is_sample(const DesignSettings& settings);
+/// Whether every parameter has levels of its own.
+bool goes_by_levels(const DesignSettings& settings);
 /// Whether coordinates may be made dependent afterwards.
 bool allows_correlation(const DesignSettings& settings);
 
@@ -84,6 +93,7 @@ class Design {
   std::vector<double> at(const Saltelli&, std::uint64_t trial);
   std::vector<double> at(const Grid& design, std::uint64_t trial) const;
   std::vector<double> at(const OneAtATime& design, std::uint64_t trial) const;
+  std::vector<double> at(const TableOfPoints& design, std::uint64_t trial) const;
   double draw(std::uint64_t trial, std::size_t parameter) const;
   /// A row of the sequence under one of its shifts.
   std::vector<double> sobol(std::uint64_t row, std::uint64_t replicate);

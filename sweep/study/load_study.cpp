@@ -30,7 +30,11 @@ using ScenarioSource = std::function<Scenario(const std::vector<Setting>&)>;
 class StudyReader {
  public:
   StudyReader(const toml::table& root, const std::string& name, Diagnostics& faults, DataColumns& data)
-      : name_(name), root_(&root, "", Axis::rotary, faults, {name}), faults_(faults), data_(data) {
+      : name_(name),
+        root_(&root, "", Axis::rotary, faults, {name}),
+        faults_(faults),
+        data_(data),
+        in_table_(root["sweep"]["design"].value<std::string>() == TableOfPoints::kind) {
     root_.set_whole("the study");
   }
 
@@ -42,14 +46,11 @@ class StudyReader {
       root_.lacks("'scenario' (the file of the scenario, relative to the folder of the study)");
     for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});
     root_.table("data");
-    stated_ = read_parameters(root_, data_);
-    std::vector<std::optional<double>> levels;
-    for (const StatedParameter& stated : stated_) {
-      study_.parameters.push_back(stated.parameter);
-      levels.push_back(stated.levels);
-    }
+    stated_ = read_parameters(root_, data_, in_table_);
+    for (const StatedParameter& stated : stated_) study_.parameters.push_back(stated.parameter);
     study_.copula = read_correlations(root_, stated_);
-    root_.section("sweep", [&](TableReader& table) { read_design(table, study_, levels); });
+    root_.section("sweep", [&](TableReader& table) { read_design(table, study_, stated_, data_); });
+    for (std::size_t k = 0; in_table_ && k < stated_.size(); ++k) stated_[k].parameter = study_.parameters[k];
     if (!root_.has("sweep")) root_.lacks("a [sweep] table with design and trials");
     if (faults_.empty()) {  // only then can the scenario be judged
       read_scenario(source);
@@ -104,7 +105,9 @@ class StudyReader {
     try {
       source(settings);
     } catch (const InputFault& fault) {
-      for (const Fault& f : fault.faults) faults_.add(f.where, f.what + "; use \"discrete\" with whole values");
+      for (const Fault& f : fault.faults)
+        faults_.add(f.where, f.what + (in_table_ ? "; the column of the table must hold whole values"
+                                                 : "; use \"discrete\" with whole values"));
     }
   }
 
@@ -170,6 +173,7 @@ class StudyReader {
   TableReader root_;
   Diagnostics& faults_;
   DataColumns& data_;
+  bool in_table_;  ///< the parameters have the values of a table
   Study study_;
   std::vector<Setting> settings_;
   std::vector<StatedParameter> stated_;

@@ -35,11 +35,23 @@ void read_distribution(TableReader& table, Empirical& distribution, DataColumns&
   std::sort(distribution.values.begin(), distribution.values.end());
 }
 
-StatedParameter read_parameter(TableReader& table, const std::string& name, DataColumns& data) {
-  StatedParameter stated{{}, table.where("path"), {}};
+StatedParameter read_parameter(TableReader& table, const std::string& name, DataColumns& data, bool in_table) {
+  StatedParameter stated{{}, table.where("path"), {}, {}};
   const auto path = table.text("path");
   if (!table.has("path")) table.lacks("'path' (the number that is uncertain, as --set takes it)");
   stated.parameter.path = path.value_or("");
+  if (in_table) {
+    stated.column = table.text("column").value_or(stated.parameter.path);
+    if (table.has("distribution")) {
+      table.fault("distribution",
+                  fmt::format("{}.distribution is stated, but sweep.design = \"table\" takes the values "
+                              "of a parameter from its file; remove it",
+                              name));
+      table.ignore_unknown();
+    }
+    table.finish();
+    return stated;
+  }
   stated.levels = table.number("levels", unit::none, bounds::between(1, 1e6), Presence::optional, "levels of a grid");
   require_whole(table, "levels", stated.levels.value_or(1.0));
   const auto kind = table.choice("distribution", kinds_of<Distribution>(), Presence::required);
@@ -67,13 +79,13 @@ std::vector<double> read_list(TableReader& table, const std::string& key, Presen
   return spelling ? table.numbers(*spelling).value_or(std::vector<double>{}) : std::vector<double>{};
 }
 
-std::vector<StatedParameter> read_parameters(TableReader& root, DataColumns& data) {
+std::vector<StatedParameter> read_parameters(TableReader& root, DataColumns& data, bool in_table) {
   std::vector<StatedParameter> list;
   const std::vector<const toml::table*> tables = root.tables("parameter");
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const std::string name = fmt::format("parameter[{}]", k);
     TableReader table(tables[k], name, root.axis(), root.faults(), root.where());
-    list.push_back(read_parameter(table, name, data));
+    list.push_back(read_parameter(table, name, data, in_table));
   }
   if (!root.has("parameter")) root.lacks("a [[parameter]] to vary");
   return list;

@@ -63,4 +63,82 @@ TEST_CASE("of a bad data file every fault is one line", "[sweep]") {
         "study.toml:8:1: error: parameter[0] lacks 'column' (the column of the file with the values)\n");
 }
 
+namespace {
+
+const std::string table_study = R"(title = "A table"
+scenario = "s.toml"
+set = ["run.solver=taylor", "run.report_interval_s=0.01"]
+[sweep]
+design = "table"
+file = "points.csv"
+[[parameter]]
+path = "mesh.friction"
+[[parameter]]
+path = "effect.worm_coulomb.torque_Nm"
+column = "bearing"
+[[threshold]]
+metric = "final_gear_speed"
+below_rad_per_s = -2.5
+)";
+
+}  // namespace
+
+TEST_CASE("a design that is a table takes every row once, in its order, and has no intervals", "[sweep]") {
+  const StudyFolder folder(table_study);
+  folder.write("points.csv", "run,bearing,mesh.friction\na,0.001,0.3\nb,0.004,0.25\nc,0.002,0.3\n");
+  const Outcome outcome = folder.sweep({"-o", "o.h5"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  CHECK(outcome.out.find("study    table of 2 parameters, 3 trials, seed 0") != std::string::npos);
+  CHECK(folder.column("o.h5", "mesh.friction") == std::vector<double>{0.3, 0.25, 0.3});
+  CHECK(folder.column("o.h5", "effect.worm_coulomb.torque") == std::vector<double>{0.001, 0.004, 0.002});
+  const Outcome summary = folder.run({"summary", "o.h5"});
+  CHECK(summary.out.find("interval") == std::string::npos);
+  CHECK(folder.sweep({"--shard", "2/2", "-o", "part.h5"}).exit == 0);
+  CHECK(folder.run({"worst", "o.h5", "-o", "w.h5"}).err ==
+        "o.h5: error: comes from a table of points, which states no distributions to search; sweep a study that has "
+        "some\n");
+
+  // an exported sweep is a table of points
+  CHECK(folder.run({"export", "o.h5", "-o", "points.csv", "--force"}).exit == 0);
+  folder.write("study.toml", edited(table_study, "column = \"bearing\"\n", ""));
+  CHECK(folder.sweep({"-o", "again.h5"}).exit == 0);
+  CHECK(folder.rows("again.h5") == folder.rows("o.h5"));
+}
+
+TEST_CASE("what a table of points cannot have is rejected", "[sweep]") {
+  struct BadTable {
+    std::string part, by, message;
+  };
+  const std::vector<BadTable> cases{
+      {"file = \"points.csv\"\n", "",
+       "study.toml:4:1: error: [sweep] lacks 'file' (a CSV file with a column for each parameter, relative to the "
+       "folder "
+       "of the study)\n"},
+      {"column = \"bearing\"", "column = \"bearings\"",
+       "points.csv:1: error: no column 'bearings'; the header line names mesh.friction, bearing (sweep.file at "
+       "study.toml:6:8)\n"},
+      {"\"points.csv\"", "\"point.csv\"",
+       "study.toml:6:8: error: sweep.file = \"point.csv\" cannot be read: No such file or directory\n"},
+      {"column = \"bearing\"", "column = \"bearing\"\ndistribution = \"uniform\"\nlow = 0\nhigh = 1",
+       "study.toml:12:16: error: parameter[1].distribution is stated, but sweep.design = \"table\" takes the values of "
+       "a "
+       "parameter from its file; remove it\n"},
+      {"column = \"bearing\"", "column = \"bearing\"\nlevels = 3",
+       "study.toml:12:1: error: unknown key 'levels' in parameter[1]; valid keys: path, column\n"},
+      {"[[threshold]]",
+       "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
+       "[[threshold]]",
+       "study.toml:5:10: error: sweep.design = \"table\" needs independent parameters, but there is a [[correlation]]; "
+       "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\"\n"}};
+  for (const BadTable& bad : cases) {
+    const StudyFolder folder(edited(table_study, bad.part, bad.by));
+    folder.write("points.csv", "mesh.friction,bearing\n0.3,0.001\n");
+    const Outcome outcome = folder.sweep({});
+    INFO("expected:\n" << bad.message << "\nfound:\n" << outcome.err);
+    CHECK(outcome.err == bad.message);
+    CHECK(outcome.exit == 2);
+  }
+}
+
 }  // namespace wormdrive::test::sweep_data_files
