@@ -38,6 +38,13 @@ struct Saltelli {
   static constexpr std::uint64_t replicates = 16;
   std::uint64_t samples{};
 };
+/// Trajectories through a grid of levels, along each of which every parameter changes once, by half of the levels
+/// [Morris1991]: (parameters + 1) trials each. The levels are in the middle of equally likely strata, so that
+/// distributions without limits have them, too.
+struct Morris {
+  static constexpr std::string_view kind = "morris";
+  std::uint64_t trajectories{}, levels{};
+};
 /// Every combination of levels.
 struct Grid {
   static constexpr std::string_view kind = "grid";
@@ -57,7 +64,7 @@ struct TableOfPoints {
 };
 
 using DesignSettings =
-    std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime, TableOfPoints>;
+    std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime, TableOfPoints, Morris>;
 
 /// The coordinate at which a level stands: in the middle of the stratum that is its own.
 double middle_of(std::uint64_t level, std::uint64_t levels);
@@ -73,7 +80,7 @@ bool allows_correlation(const DesignSettings& settings);
 std::uint64_t size(const DesignSettings& settings, std::size_t parameters);
 
 /// The trial whose noise a trial has: itself, but where a row of a Saltelli design is A with one parameter from B that
-/// of A, so that nothing but the parameter is another one.
+/// of A, and of a trajectory of Morris its first one, so that nothing but the parameter is another one.
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial);
 
 /// Gives the points of a design, any of them in any order; a thread has its own.
@@ -94,6 +101,7 @@ class Design {
   std::vector<double> at(const Grid& design, std::uint64_t trial) const;
   std::vector<double> at(const OneAtATime& design, std::uint64_t trial) const;
   std::vector<double> at(const TableOfPoints& design, std::uint64_t trial) const;
+  std::vector<double> at(const Morris& design, std::uint64_t trial) const;
   double draw(std::uint64_t trial, std::size_t parameter) const;
   /// A row of the sequence under one of its shifts.
   std::vector<double> sobol(std::uint64_t row, std::uint64_t replicate);

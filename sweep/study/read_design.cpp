@@ -32,6 +32,18 @@ class DesignReader {
     design.samples = whole(table_, "samples", bounds::between(2, most_trials / 1e4),
                            "rows of each of the two samples; there are samples (parameters + 2) trials");
   }
+  void read(Morris& design) {
+    design.trajectories = whole(table_, "trajectories", bounds::between(2, most_trials / 1e4),
+                                "elementary effects of each parameter; there are trajectories (parameters + 1) trials");
+    constexpr double usual = 4.0;  // [Morris1991], and SALib after it
+    const double levels =
+        table_.number("levels", unit::none, bounds::between(2, 1e6), Presence::optional, "levels of each parameter")
+            .value_or(usual);
+    if (std::fmod(levels, 2.0) != 0.0)
+      table_.fault("levels",
+                   fmt::format("sweep.levels = {} must be even, for a parameter changes by half of them", levels));
+    design.levels = static_cast<std::uint64_t>(levels);
+  }
   void read(Grid& design) { read_levels(design); }
   void read(OneAtATime& design) { read_levels(design); }
   void read(TableOfPoints& design) {
@@ -126,8 +138,9 @@ void read_design(TableReader& table, Study& study, const std::vector<StatedParam
                                 .value_or(study.referee_tolerance);
   for (std::size_t k = 0; k < stated.size(); ++k)
     if (stated[k].levels && !goes_by_levels(study.design))
-      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels, but parameter '{}' states some", *kind,
-                                        study.parameters[k].path));
+      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels of single parameters, but parameter '{}' "
+                                        "states some",
+                                        *kind, study.parameters[k].path));
   if (!study.copula.independent() && !allows_correlation(study.design))
     table.fault(
         "design",

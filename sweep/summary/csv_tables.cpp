@@ -111,6 +111,15 @@ std::string summary_csv(const SweepReader& sweep, const SweepSummary& summary) {
     rows.add("sobol_first", i.sobol->first, "1");
     rows.add("sobol_total", i.sobol->total, "1");
   }
+  for (std::size_t m = 0; m < summary.screenings.size(); ++m)
+    for (std::size_t k = 0; k < summary.screenings[m].of.size(); ++k) {
+      const Metric& metric = summary.metrics[m].metric;
+      const ElementaryEffects& effects = summary.screenings[m].of[k];
+      rows.of("morris", sweep.study().parameters[k].path, metric.name);
+      rows.add("mu", effects.mu, metric.unit.symbol);
+      rows.add("mu_star", effects.mu_star, metric.unit.symbol);
+      rows.add("sigma", effects.sigma, metric.unit.symbol);
+    }
   return rows.take();
 }
 

@@ -32,7 +32,7 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
       {"trials = 200", "trials = 2.5", "study.toml:6:10: error: sweep.trials = 2.5 must be a whole number"},
       {"design = \"monte_carlo\"", "design = \"random\"",
        "study.toml:5:10: error: sweep.design = \"random\" must be one of \"monte_carlo\", \"latin_hypercube\", "
-       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\""},
+       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\", \"morris\""},
       {"distribution = \"lognormal\"", "distribution = \"gauss\"",
        "study.toml:16:16: error: parameter[1].distribution = \"gauss\" must be one of \"uniform\", \"normal\", "
        "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\", "
