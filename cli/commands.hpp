@@ -151,8 +151,11 @@ struct ListOptions {
 };
 int list_command(const ListOptions& options);
 
-/// Prints the JSON schema of scenarios.
-int schema_command();
+struct SchemaOptions {
+  std::string kind = "scenario";  ///< or "study"
+};
+/// Prints the JSON schema of scenarios or of studies.
+int schema_command(const SchemaOptions& options);
 
 struct NewOptions {
   std::string file;
