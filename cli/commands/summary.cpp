@@ -115,7 +115,10 @@ void print_influences(const SweepSummary& summary) {
       fmt::print("  {:<44} mu* {:<30} mu {:<12.4g} sigma {:.4g}{}\n", i.parameter, with_interval(i.effects->mu_star),
                  i.effects->mu, i.effects->sigma, in_unit(ranked->metric.unit));
     else
-      fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
+      fmt::print("  {:<44} rank correlation {:+.3f}{}\n", i.parameter, i.rank_correlation.value,
+                 i.rank_correlation.has_interval()
+                     ? fmt::format(" [{:+.3f}, {:+.3f}]", i.rank_correlation.low, i.rank_correlation.high)
+                     : "");
   if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
     fmt::print("  {} of {} samples are left out of the Sobol indices because one of their trials has no value\n",
                sobol.left_out, sobol.used + sobol.left_out);

@@ -182,12 +182,15 @@ class Summariser {
     const RankScale metric(last_of({ranked_by}), count);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
       const std::string& name = study_.parameters[k].name;
-      Influence influence{study_.parameters[k].path, 0.0, {}, {}};
-      influence.rank_correlation = rank_correlation(
+      const RankScale parameter(last_of({ranked_by, name}), count);
+      const double correlation = rank_correlation(
           [&](const TakePairs& take) {
             for_each_part({ranked_by, name}, [&](const auto& chosen) { take(chosen.front(), chosen.back()); });
           },
-          metric, RankScale(last_of({ranked_by, name}), count));
+          metric, parameter);
+      const bool varies = metric.squares() > 0.0 && parameter.squares() > 0.0;
+      const SampleEstimate estimate = told(rank_correlation_estimate(correlation, count));
+      Influence influence{study_.parameters[k].path, varies ? estimate : estimate.without_interval(), {}, {}};
       if (!sobol.empty()) influence.sobol = sobol[k];
       if (screening && !screening->of.empty()) influence.effects = screening->of[k];
       summary.influences.push_back(std::move(influence));

@@ -50,11 +50,11 @@ struct ThresholdSummary {
 /// How much a parameter matters for the metric by which trials are ranked.
 struct Influence {
   std::string parameter;
-  double rank_correlation{};
+  SampleEstimate rank_correlation{};
   std::optional<SobolIndex> sobol;
   std::optional<ElementaryEffects> effects;  ///< of a Morris design
   double size() const {
-    return sobol ? sobol->total.value : effects ? effects->mu_star.value : std::abs(rank_correlation);
+    return sobol ? sobol->total.value : effects ? effects->mu_star.value : std::abs(rank_correlation.value);
   }
 };
 

@@ -43,7 +43,9 @@ nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summar
                                   {"share", as_json(t.share)},
                                   {"not_kept", as_json(t.not_kept)}});
   for (const Influence& i : summary.influences) {
-    nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation}};
+    nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation.value}};
+    if (const SampleEstimate& r = i.rank_correlation; r.has_interval())
+      influence["rank_correlation_interval"] = {r.low, r.high};
     if (i.sobol) influence["sobol"] = {{"first", as_json(i.sobol->first)}, {"total", as_json(i.sobol->total)}};
     if (i.effects) influence["morris"] = as_json(*i.effects);
     json["influences"].push_back(std::move(influence));

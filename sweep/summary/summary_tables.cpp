@@ -184,7 +184,7 @@ void write_thresholds(hid_t file, const SweepSummary& summary, const Study& stud
 void write_influences(hid_t file, const SweepSummary& summary, const Study& study) {
   Rows rows(file, influence_table(study));
   for (const Influence& i : summary.influences) {
-    std::vector<double> row{rows.next(), i.rank_correlation};
+    std::vector<double> row{rows.next(), i.rank_correlation.value};
     const SampleEstimate unknown{none, none, none};
     append(row, i.sobol ? i.sobol->first : unknown);
     append(row, i.sobol ? i.sobol->total : unknown);
