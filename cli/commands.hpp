@@ -156,8 +156,11 @@ struct ListOptions {
 };
 int list_command(const ListOptions& options);
 
-/// Prints the JSON schema of scenarios.
-int schema_command();
+struct SchemaOptions {
+  std::string kind = "scenario";  ///< or "study"
+};
+/// Prints the JSON schema of scenarios or of studies.
+int schema_command(const SchemaOptions& options);
 
 struct NewOptions {
   std::string file;
@@ -186,11 +189,17 @@ struct ReportOptions {
 int report_command(const ReportOptions& options);
 
 struct ExportOptions {
-  std::string run;
-  bool csv = false, mat = false;  ///< one of them
-  std::string output;             ///< empty: named after the run
+  std::string file;               ///< result of a run or of a sweep
+  bool csv = false, mat = false;  ///< of a run: one of them
+  std::string what = "trials";    ///< of a sweep: or "summary"
+  std::string output;             ///< empty: named after the run; of a sweep standard output
+  std::string metric;             ///< of the summary, as there
+  bool done_only = false;
+  bool quiet = false;
   Replace replace = Replace::same_kind;
 };
 int export_command(const ExportOptions& options);
+/// Writes a table of a sweep as CSV.
+int export_sweep(const ExportOptions& options);
 
 }  // namespace wormdrive

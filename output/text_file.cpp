@@ -13,15 +13,35 @@
 
 namespace wormdrive {
 
-void write_text_file(const std::string& link, const std::string& text) {
+void write_text_file(const std::string& path, const std::string& text) {
+  write_text_file(path, [&](const auto& put) { put(text); });
+}
+
+void write_text_file(const std::string& link,
+                     const std::function<void(const std::function<void(std::string_view)>&)>& write) {
   const std::string path = followed(link), part = path + ".part";
   reject_unless_plain_file(path);
   reject_unless_plain_file(part);
   errno = 0;
   std::FILE* const file = std::fopen(part.c_str(), "wb");
-  bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file) written = std::fclose(file) == 0 && written;
-  const int reason = errno;
+  bool written = file != nullptr;
+  int reason = errno;
+  const auto put = [&](std::string_view text) {
+    if (!written || std::fwrite(text.data(), 1, text.size(), file) == text.size()) return;
+    written = false;
+    reason = errno;
+  };
+  try {
+    if (file) write(put);
+  } catch (...) {
+    std::fclose(file);
+    std::remove(part.c_str());
+    throw;
+  }
+  if (file && std::fclose(file) != 0 && written) {
+    written = false;
+    reason = errno;
+  }
   try {
     if (written) synchronise(part);
   } catch (const OutputFault&) {

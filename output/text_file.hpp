@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace wormdrive {
 
@@ -7,6 +9,9 @@ namespace wormdrive {
 /// partial file, and a symbolic link stays one. What may be replaced is up to the caller. Throws OutputFault naming the
 /// file and the reason.
 void write_text_file(const std::string& path, const std::string& text);
+/// The same of a text that is too long to be held: write() hands its parts to what it is given, one after the other.
+void write_text_file(const std::string& path,
+                     const std::function<void(const std::function<void(std::string_view)>&)>& write);
 
 /// Makes a folder with its parents, if it is not there. Throws OutputFault.
 void make_folder(const std::string& path);

@@ -85,6 +85,10 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
   const SweepSummary summary =
       summarise(sweep, {.ranked_by = settings.metric, .worst = starts, .done_only = settings.done_only});
   const Study& study = sweep.study();
+  if (std::holds_alternative<TableOfPoints>(study.design))
+    reject({sweep.path()},
+           "comes from a table of points, which states no distributions to search; sweep a study that "
+           "has some");
   if (summary.worst.empty())
     reject({sweep.path()},
            fmt::format("has no trial to start a search from{}", settings.done_only ? ": none ran to the end" : ""));

@@ -27,6 +27,14 @@ void add_check(CommandSet& commands) {
   add_scenario_options(command, options);
 }
 
+void add_schema(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("schema", "print the JSON schema of scenarios or studies, for editors", schema_command);
+  command.add_option("--kind", options.kind, "what the schema is of")
+      ->check(CLI::IsMember({"scenario", "study"}))
+      ->capture_default_str();
+}
+
 void add_run(CommandSet& commands) {
   auto [command, options] = commands.add("run", "simulate a scenario and write the result (HDF5)", run_command);
   add_scenario_options(command, options.scenario);
@@ -93,7 +101,7 @@ void add_drive_commands(CommandSet& commands) {
   add_new(commands);
   add_list(commands);
   add_check(commands);
-  commands.add("schema", "print the JSON schema of scenarios, for editors", schema_command);
+  add_schema(commands);
   commands.begin_group("Simulate it");
   add_run(commands);
   add_view(commands);

@@ -48,16 +48,25 @@ void add_diff(CommandSet& commands) {
 }
 
 void add_export(CommandSet& commands) {
-  auto [command, options] = commands.add("export", "write a run as CSV, or as a MAT-file for MATLAB", export_command);
-  command.add_option("run", options.run, "result of a run (.h5)")->required();
+  auto [command, options] =
+      commands.add("export", "write a run as CSV or as a MAT-file, or a sweep as CSV", export_command);
+  command.add_option("file", options.file, "result of a run or of a sweep (.h5)")->required();
   CLI::Option_group& format = *command.add_option_group("Format");
   format.add_flag(
       "--csv", options.csv,
       "one file per table: NAME.csv has the trajectory, NAME_events.csv the events, NAME_controller.csv the "
-      "samples of a controller");
-  format.add_flag("--mat", options.mat, "one file (MAT, version 5) with a struct per table");
-  format.require_option(1);
-  command.add_option("-o,--output", options.output, "file; default: the result's name with .csv or .mat");
+      "samples of a controller; of a sweep one table");
+  format.add_flag("--mat", options.mat, "a run as one file (MAT, version 5) with a struct per table");
+  format.require_option(0, 1);
+  command.add_option("--what", options.what, "which table of a sweep")
+      ->check(CLI::IsMember({"trials", "summary"}))
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output,
+                     "file; default: the run's name with .csv or .mat, of a sweep standard output");
+  command.add_option("--metric", options.metric,
+                     "metric that ranks the parameters of a summary; default: as in summary");
+  command.add_flag("--done-only", options.done_only, "leave refused and halted trials out of a summary");
+  add_quiet(command, options.quiet);
   add_force(command, options.replace);
 }
 

@@ -8,6 +8,7 @@
 #include "description/diagnostics.hpp"
 #include "output/replacing.hpp"
 #include "output/text_file.hpp"
+#include "sweep/file/so_far.hpp"
 
 namespace wormdrive {
 namespace {
@@ -19,13 +20,10 @@ std::string csv_file(const std::filesystem::path& output, const std::string& tab
   return (output.parent_path() / name).string();
 }
 
-}  // namespace
-
-int export_command(const ExportOptions& options) {
-  const ResultFile run(options.run);
-  if (const std::string kind = run.attribute("/", "kind"); kind != "run")
-    reject({options.run}, fmt::format("is a result of '{}'; wormdrive export takes the result of a run", kind));
-  const std::filesystem::path beside(options.run);
+int export_run(const ResultFile& run, const ExportOptions& options) {
+  if (!options.csv && !options.mat)
+    reject({options.file}, "is a result of a run; --csv or --mat says how to export it");
+  const std::filesystem::path beside(options.file);
   const std::string output =
       options.output.empty() ? std::filesystem::path(beside).replace_extension(options.mat ? ".mat" : ".csv").string()
                              : options.output;
@@ -47,6 +45,17 @@ int export_command(const ExportOptions& options) {
     print_item("wrote", file);
   }
   return 0;
+}
+
+}  // namespace
+
+int export_command(const ExportOptions& options) {
+  const SweepSoFar so_far(options.file);
+  const ResultFile result(so_far.path());
+  const std::string kind = result.attribute("/", "kind");
+  if (kind == "run") return export_run(result, options);
+  if (kind == "sweep") return export_sweep(options);
+  reject({options.file}, fmt::format("is a result of '{}'; wormdrive export takes that of a run or of a sweep", kind));
 }
 
 }  // namespace wormdrive

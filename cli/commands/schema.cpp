@@ -1,9 +1,9 @@
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/describe/schema_table.hpp"
+#include "cli/describe/study_schema.hpp"
 #include "description/keys.hpp"
 #include "description/scenario.hpp"
 #include "description/variant_kinds.hpp"
@@ -11,102 +11,17 @@
 namespace wormdrive {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json any_text(const std::string& description) { return {{"type", "string"}, {"description", description}}; }
-Json words(const std::vector<std::string>& list, const std::string& description) {
-  return {{"enum", list}, {"description", description}};
-}
-/// A choice whose first word holds where nothing is stated.
-Json choice(const std::vector<std::string>& list, const std::string& description) {
-  Json one = words(list, description);
-  one["default"] = list.front();
-  return one;
-}
-Json numbers(const Spelling& s) {
-  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"description", fmt::format("[{}]", s.unit.symbol)}};
-}
-
-/// The schema of one table on an axis.
-class Table {
- public:
-  explicit Table(Axis axis, const std::string& description = "")
-      : axis_(axis), json_{{"type", "object"}, {"additionalProperties", false}} {
-    if (!description.empty()) json_["description"] = description;
-    json_["properties"] = Json::object();
-  }
-
-  Table& with(const std::string& key, Json value) {
-    json_["properties"][key] = std::move(value);
-    return *this;
-  }
-  Table& requires_key(const std::string& key) {
-    json_["required"].push_back(key);
-    return *this;
-  }
-  /// Every field of a parameter struct, in each of its spellings, with its bounds in that unit.
-  template <class Parameters>
-  Table& fields() {
-    const Parameters defaults{};
-    for_each_field<Parameters>([&](const auto& field) {
-      const std::optional<double> value = defaults.*field.member;
-      const std::vector<Spelling> all = spellings(field.name, field.unit, axis_);
-      for (const Spelling& s : all) with(s.key, number(field, s, value));
-      if (field.presence == Presence::required) required(all);
-    });
-    return *this;
-  }
-  /// A function that a file or two arrays state.
-  Table& pairs(const std::string& x, const Unit& x_unit, const std::string& y, const Unit& y_unit) {
-    with("file", any_text("CSV file, relative to the folder of the scenario"))
-        .with("x_column", any_text("its column of " + x));
-    with("y_column", any_text("its column of " + y));
-    const auto x_spellings = spellings(x, x_unit, axis_), y_spellings = spellings(y, y_unit, axis_);
-    for (const auto& list : {x_spellings, y_spellings})
-      for (const Spelling& s : list) with(s.key, numbers(s));
-    return *this;
-  }
-  Json json() const { return json_; }
-
- private:
-  template <class Field>
-  Json number(const Field& field, const Spelling& s, const std::optional<double>& value) const {
-    std::string description = in_words_of(axis_, field.meaning);
-    if (!s.unit.suffix.empty()) description += fmt::format(" [{}]", s.unit.symbol);
-    Json one{{"type", "number"}, {"description", description}};
-    const auto bound = [&](double si, bool exclusive, const std::string& inclusive_key, const std::string& key) {
-      if (std::isfinite(si)) one[exclusive ? key : inclusive_key] = si / s.unit.si;
-    };
-    bound(field.bounds.low, field.bounds.low_exclusive, "minimum", "exclusiveMinimum");
-    bound(field.bounds.high, field.bounds.high_exclusive, "maximum", "exclusiveMaximum");
-    if (field.presence == Presence::optional && value && std::isfinite(*value)) one["default"] = *value / s.unit.si;
-    return one;
-  }
-  void required(const std::vector<Spelling>& all) {
-    if (all.size() == 1) {
-      requires_key(all.front().key);
-      return;
-    }
-    Json any = Json::array();
-    for (const Spelling& s : all) any.push_back({{"required", Json::array({s.key})}});
-    json_["allOf"].push_back({{"anyOf", any}});
-  }
-
-  Axis axis_;
-  Json json_;
-};
-
 /// One kind of torque, load, reference or controller.
 template <class Kind>
-Table kind_table(Axis axis) {
-  Table table(axis, std::string(Kind::meaning));
+SchemaTable kind_table(Axis axis) {
+  SchemaTable table(axis, std::string(Kind::meaning));
   table.with("kind", {{"const", Kind::kind}}).requires_key("kind");
   if constexpr (requires { Kind::fields(); }) table.template fields<Kind>();
   return table;
 }
 template <class Kind>
 Json function_of_time(Axis axis) {
-  Table table = kind_table<Kind>(axis);
+  SchemaTable table = kind_table<Kind>(axis);
   if constexpr (requires { Kind::interpolation; }) {
     table.pairs("times", unit::second, "torques", unit::newton_metre);
     table.with("interpolation", choice({"hold", "linear"}, "between the times"));
@@ -126,19 +41,13 @@ std::vector<Json> any_kind(Axis axis) {
   (std::make_index_sequence<std::variant_size_v<Variant>>());
   return list;
 }
-Json one_of(const std::vector<Json>& kinds) {
-  Json one = Json::object();
-  one["oneOf"] = kinds;
-  return one;
-}
-Json several(const Json& one) { return {{"type", "array"}, {"minItems", 1}, {"items", one}}; }
 Json only_one(const Json& one) { return {{"type", "array"}, {"minItems", 1}, {"maxItems", 1}, {"items", one}}; }
 /// One table, or several that add up.
 Json one_or_several(const std::vector<Json>& kinds) { return one_of({one_of(kinds), several(one_of(kinds))}); }
 Json torque(Axis axis) { return one_or_several(any_kind<SignalTerm>(axis)); }
 
 Json mesh(Axis axis) {
-  const Json linear = Table(axis, "a mass that moves")
+  const Json linear = SchemaTable(axis, "a mass that moves")
                           .with("kind", {{"const", "none"}})
                           .with("axis", {{"const", "linear"}})
                           .requires_key("kind")
@@ -147,8 +56,8 @@ Json mesh(Axis axis) {
                           .json();
   if (axis == Axis::linear) return linear;
   const Json worm =
-      Table(axis, "worm and gear").with("kind", {{"const", "worm"}}).fields<MeshParameters<double>>().json();
-  const Json none = Table(axis, "a single inertia without a gear")
+      SchemaTable(axis, "worm and gear").with("kind", {{"const", "worm"}}).fields<MeshParameters<double>>().json();
+  const Json none = SchemaTable(axis, "a single inertia without a gear")
                         .with("kind", {{"const", "none"}})
                         .with("axis", {{"const", "rotary"}})
                         .requires_key("kind")
@@ -162,7 +71,7 @@ Json load(Axis axis) {
   const Json sum = several(one_of(single));
   for_each_load([&]<class Load>() {
     if (axis == Axis::linear && std::is_same_v<Load, GravityArm>) return;
-    Table table = kind_table<Load>(axis);
+    SchemaTable table = kind_table<Load>(axis);
     if constexpr (!requires { Load::fields(); }) table.pairs("angles", unit::degrees, "torques", unit::newton_metre);
     single.push_back(table.json());
   });
@@ -173,9 +82,9 @@ Json load(Axis axis) {
 }
 
 Json effects(Axis axis) {
-  Table all(axis, "what extends the nominal drive");
+  SchemaTable all(axis, "what extends the nominal drive");
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
-    Table one(axis, fmt::format("{}: {}", name(Effect::place), Effect::cause));
+    SchemaTable one(axis, fmt::format("{}: {}", name(Effect::place), Effect::cause));
     one.with("on", {{"type", "boolean"}, {"default", true}, {"description", "false switches it off"}});
     all.with(std::string(Effect::id), one.fields<Effect>().json());
   });
@@ -184,7 +93,7 @@ Json effects(Axis axis) {
 
 /// What the columns of recordings are called.
 Json recorded_names(Axis axis) {
-  Table table(axis, "column names of the recordings, if they are not the usual ones");
+  SchemaTable table(axis, "column names of the recordings, if they are not the usual ones");
   for (const RecordedColumn& column : recorded_columns) {
     Json name = any_text("its column in the files");
     name["minLength"] = 1;
@@ -197,10 +106,11 @@ Json controller() {
   std::vector<Json> kinds;
   const Axis axis = Axis::rotary;
   const auto add = [&]<class Law>() {
-    Table table = kind_table<Law>(axis);
+    SchemaTable table = kind_table<Law>(axis);
     table.fields<SamplingSettings>();
-    table.with("nominal", Table(axis, "the controller's model of the drive").fields<NominalSettings>().json());
-    table.with("variation", Table(axis, "variations that the controller must withstand").fields<Variations>().json());
+    table.with("nominal", SchemaTable(axis, "the controller's model of the drive").fields<NominalSettings>().json());
+    table.with("variation",
+               SchemaTable(axis, "variations that the controller must withstand").fields<Variations>().json());
     if constexpr (!requires { Law::fields(); }) table.with("torque", torque(axis)).requires_key("torque");
     kinds.push_back(table.json());
   };
@@ -213,35 +123,39 @@ Json controller() {
 
 /// All tables of a scenario on an axis.
 Json tables(Axis axis) {
-  Table root(axis);
+  SchemaTable root(axis);
   root.with("title", any_text("one line"));
   root.with("mesh", mesh(axis)).requires_key("mesh");
-  root.with("motor", Table(axis, "motor torque in open loop").with("torque", torque(axis)).json());
+  root.with("motor", SchemaTable(axis, "motor torque in open loop").with("torque", torque(axis)).json());
   root.with("load", load(axis)).with("effect", effects(axis));
-  root.with("initial", Table(axis, "where the run starts").fields<InitialState<double>>().json());
-  root.with("run", Table(axis, "duration and accuracy")
+  root.with("initial", SchemaTable(axis, "where the run starts").fields<InitialState<double>>().json());
+  root.with("run", SchemaTable(axis, "duration and accuracy")
                        .fields<RunSettings>()
                        .with("solver", choice({"cvode", "taylor"}, "taylor is fast but supports rigid teeth only"))
                        .with("method", choice({"bdf", "adams"}, "integration method of cvode"))
                        .json());
-  root.with("tolerance", Table(axis, "standard deviations of stated numbers").fields<Tolerances>().json());
+  root.with("tolerance", SchemaTable(axis, "standard deviations of stated numbers").fields<Tolerances>().json());
   root.with("data", recorded_names(axis));
   if (axis == Axis::rotary) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));
-    root.with("sensor", Table(axis, "what the controller measures")
+    root.with("sensor", SchemaTable(axis, "what the controller measures")
                             .with("speed", choice({"difference", "exact"}, "how the speed is obtained"))
                             .fields<SensorSettings>()
                             .json());
-    root.with("disturbance", Table(axis, "a random torque on the worm").fields<DisturbanceSettings>().json());
-    root.with("metrics", Table(axis, "time window of the metrics").fields<MetricsWindow>().json());
+    root.with("disturbance", SchemaTable(axis, "a random torque on the worm").fields<DisturbanceSettings>().json());
+    root.with("metrics", SchemaTable(axis, "time window of the metrics").fields<MetricsWindow>().json());
   }
   return root.json();
 }
 
 }  // namespace
 
-int schema_command() {
+int schema_command(const SchemaOptions& options) {
+  if (options.kind == "study") {
+    fmt::print("{}\n", study_schema().dump(1));
+    return 0;
+  }
   const Json on_linear_axis{
       {"properties",
        {{"mesh", {{"properties", {{"axis", {{"const", "linear"}}}}}, {"required", Json::array({"axis"})}}}}},

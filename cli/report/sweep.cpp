@@ -129,7 +129,7 @@ ReportTable influence_table(const SweepSummary& summary) {
   const bool sobol = !summary.influences.empty() && summary.influences.front().sobol;
   if (sobol) table.heads.insert(table.heads.end(), {{"Sobol index, total [interval]"}, {"first [interval]"}});
   for (const Influence& i : summary.influences) {
-    table.rows.push_back({i.parameter, i.rank_correlation});
+    table.rows.push_back({i.parameter, i.rank_correlation.value});
     if (i.sobol)
       table.rows.back().insert(table.rows.back().end(), {with_interval(i.sobol->total), with_interval(i.sobol->first)});
   }

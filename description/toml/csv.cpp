@@ -22,17 +22,28 @@ std::string trimmed(std::string cell) {
   return cell;
 }
 
-/// Takes what stands before the next mark off a text, and the mark with it.
-std::string_view take(std::string_view& text, char mark) {
-  const std::string_view part = text.substr(0, text.find(mark));
+/// Takes what stands before a place off a text, and the mark that stands there with it.
+std::string_view take_to(std::string_view& text, std::size_t place) {
+  const std::string_view part = text.substr(0, place);
   text.remove_prefix(std::min(part.size() + 1, text.size()));
   return part;
+}
+std::string_view take(std::string_view& text, char mark) { return take_to(text, text.find(mark)); }
+
+/// The next cell of a line; commas between quotes are part of it.
+std::string_view take_cell(std::string_view& line) {
+  bool quoted = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"') quoted = !quoted;
+    if (line[k] == ',' && !quoted) return take_to(line, k);
+  }
+  return quoted ? take(line, ',') : take_to(line, line.size());  // a quote that is not closed is a character
 }
 
 std::vector<std::string> split(std::string_view line) {
   std::vector<std::string> cells;
   const bool ends_empty = line.ends_with(',');
-  while (!line.empty()) cells.push_back(trimmed(std::string(take(line, ','))));
+  while (!line.empty()) cells.push_back(trimmed(std::string(take_cell(line))));
   if (ends_empty) cells.emplace_back();
   return cells;
 }

@@ -19,24 +19,18 @@ Pairs from_file(TableReader& table, const PairSource& source, const std::string&
   for (const Name& name : {source.x, source.y})
     if (const auto both = table.stated(name.stem, name.unit))
       table.fault(both->key, fmt::format("{} is stated along with 'file'; keep one", table.path_of(both->key)));
-  const std::string stated = fmt::format("{} = \"{}\"", table.path_of("file"), file);
-  try {
+  Pairs pairs;
+  tell_faults_of_file(table, "file", file, [&] {
     const Csv csv = read_csv((std::filesystem::path(folder) / file).string());
-    const Pairs pairs{csv.numbers(x_column), csv.numbers(y_column)};
-    require_increasing(csv, x_column, pairs.x);
-    if (pairs.x.size() >= source.at_least) return pairs;
-    table.fault("file", fmt::format("{} has {} below its header line; at least {} are needed", stated,
-                                    count(pairs.x.size(), "row"), source.at_least));
-  } catch (const InputFault& fault) {
-    // A wrong line is put right in the file, a wrong name in the scenario.
-    for (const Fault& f : fault.faults)
-      if (f.where.line > 0)
-        table.faults().add(f.where,
-                           fmt::format("{} ({} at {})", f.what, table.path_of("file"), to_string(table.where("file"))));
-      else
-        table.fault("file", fmt::format("{} {}", stated, f.what));
-  }
-  return {};
+    Pairs found{csv.numbers(x_column), csv.numbers(y_column)};
+    require_increasing(csv, x_column, found.x);
+    if (found.x.size() >= source.at_least)
+      pairs = std::move(found);
+    else
+      table.fault("file", fmt::format("{} = \"{}\" has {} below its header line; at least {} are needed",
+                                      table.path_of("file"), file, count(found.x.size(), "row"), source.at_least));
+  });
+  return pairs;
 }
 
 Pairs inline_pairs(TableReader& table, const PairSource& source) {
@@ -70,6 +64,21 @@ Pairs inline_pairs(TableReader& table, const PairSource& source) {
 }
 
 }  // namespace
+
+void tell_faults_of_file(TableReader& table, const std::string& key, const std::string& file,
+                         const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const InputFault& fault) {
+    // A wrong line is put right in the file, a wrong name where it is stated.
+    for (const Fault& f : fault.faults)
+      if (f.where.line > 0)
+        table.faults().add(f.where,
+                           fmt::format("{} ({} at {})", f.what, table.path_of(key), to_string(table.where(key))));
+      else
+        table.fault(key, fmt::format("{} = \"{}\" {}", table.path_of(key), file, f.what));
+  }
+}
 
 Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder) {
   if (!table.has("file")) return inline_pairs(table, source);

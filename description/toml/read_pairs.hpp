@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,5 +29,10 @@ struct PairSource {
 
 /// Reads x and y, of which x must increase; CSV files are looked for in `folder`. Diagnostics leave both empty.
 Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder);
+
+/// Calls read(), which reads the CSV file that a key of a table names; what is wrong with the file is noted where it
+/// stands, and the key that has named it.
+void tell_faults_of_file(TableReader& table, const std::string& key, const std::string& file,
+                         const std::function<void()>& read);
 
 }  // namespace wormdrive

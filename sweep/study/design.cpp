@@ -19,15 +19,13 @@ std::uint64_t count(const Grid& design, std::size_t) {
 std::uint64_t count(const OneAtATime& design, std::size_t) {
   return std::accumulate(design.levels.begin(), design.levels.end(), std::uint64_t{1});
 }
+std::uint64_t count(const Morris& design, std::size_t parameters) { return design.trajectories * (parameters + 1); }
+std::uint64_t count(const TableOfPoints& design, std::size_t) { return design.trials; }
 
 /// Coordinates that the sequence of a design needs; 1 for a design that has none, for 0 is refused.
 std::size_t sequence_dimension(const DesignSettings& settings, std::size_t parameters) {
   if (std::holds_alternative<SobolSequence>(settings)) return parameters;
   return std::holds_alternative<Saltelli>(settings) ? 2 * parameters : 1;
-}
-
-bool on_levels(const DesignSettings& settings) {
-  return std::holds_alternative<Grid>(settings) || std::holds_alternative<OneAtATime>(settings);
 }
 
 }  // namespace
@@ -36,12 +34,19 @@ double middle_of(std::uint64_t level, std::uint64_t levels) {
   return (static_cast<double>(level) + 0.5) / static_cast<double>(levels);
 }
 
-bool is_sample(const DesignSettings& settings) { return !on_levels(settings); }
+bool goes_by_levels(const DesignSettings& settings) {
+  return std::holds_alternative<Grid>(settings) || std::holds_alternative<OneAtATime>(settings);
+}
 bool allows_correlation(const DesignSettings& settings) {
-  return !on_levels(settings) && !std::holds_alternative<Saltelli>(settings);
+  return std::holds_alternative<MonteCarlo>(settings) || std::holds_alternative<LatinHypercube>(settings) ||
+         std::holds_alternative<SobolSequence>(settings);
+}
+bool is_sample(const DesignSettings& settings) {
+  return allows_correlation(settings) || std::holds_alternative<Saltelli>(settings);
 }
 
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {
+  if (std::holds_alternative<Morris>(settings)) return trial - trial % (parameters + 1);
   const std::uint64_t block = trial % (parameters + 2);
   return std::holds_alternative<Saltelli>(settings) && block >= 2 ? trial - block : trial;
 }
@@ -123,6 +128,37 @@ std::vector<double> Design::at(const OneAtATime& design, std::uint64_t trial) co
       u[k] = middle_of(left, design.levels[k]);
       break;
     }
+  return u;
+}
+
+std::vector<double> Design::at(const TableOfPoints& design, std::uint64_t trial) const {
+  return std::vector<double>(parameters_, middle_of(trial, design.trials));
+}
+
+std::vector<double> Design::at(const Morris& design, std::uint64_t trial) const {
+  const std::uint64_t trajectory = trial / (parameters_ + 1), step = trial % (parameters_ + 1),
+                      half = design.levels / 2;
+  struct Course {
+    std::uint64_t turn;  ///< the parameter with the least one changes first
+    std::size_t parameter;
+    std::uint64_t lower;  ///< of the two levels
+    bool rises;
+  };
+  std::vector<Course> courses;
+  for (std::size_t k = 0; k < parameters_; ++k) {
+    const auto [level, direction, turn, unused] = random_bits(seed_, SweepStream::draws, trajectory, k);
+    const auto lower = static_cast<std::uint64_t>(to_unit_interval(level) * static_cast<double>(half));
+    courses.push_back({turn, k, std::min(lower, half - 1), direction % 2 == 0});
+  }
+  std::sort(courses.begin(), courses.end(), [](const Course& a, const Course& b) {
+    return std::pair(a.turn, a.parameter) < std::pair(b.turn, b.parameter);
+  });
+  std::vector<double> u(parameters_);
+  for (std::uint64_t place = 0; place < parameters_; ++place) {
+    const Course& course = courses[place];
+    const bool up = (place < step) == course.rises;
+    u[course.parameter] = middle_of(course.lower + (up ? half : 0), design.levels);
+  }
   return u;
 }
 

@@ -38,6 +38,13 @@ struct Saltelli {
   static constexpr std::uint64_t replicates = 16;
   std::uint64_t samples{};
 };
+/// Trajectories through a grid of levels, along each of which every parameter changes once, by half of the levels
+/// [Morris1991]: (parameters + 1) trials each. The levels are in the middle of equally likely strata, so that
+/// distributions without limits have them, too.
+struct Morris {
+  static constexpr std::string_view kind = "morris";
+  std::uint64_t trajectories{}, levels{};
+};
 /// Every combination of levels.
 struct Grid {
   static constexpr std::string_view kind = "grid";
@@ -50,13 +57,22 @@ struct OneAtATime {
   std::vector<double> medians;  ///< the coordinates at which they are
 };
 
-using DesignSettings = std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime>;
+/// The rows of a table, whose columns stand as the values of discrete parameters, one after the other.
+struct TableOfPoints {
+  static constexpr std::string_view kind = "table";
+  std::uint64_t trials{};
+};
+
+using DesignSettings =
+    std::variant<MonteCarlo, LatinHypercube, SobolSequence, Saltelli, Grid, OneAtATime, TableOfPoints, Morris>;
 
 /// The coordinate at which a level stands: in the middle of the stratum that is its own.
 double middle_of(std::uint64_t level, std::uint64_t levels);
 
 /// Whether the points are a sample of the parameters' distribution, so that shares of them are probabilities.
 bool is_sample(const DesignSettings& settings);
+/// Whether every parameter has levels of its own.
+bool goes_by_levels(const DesignSettings& settings);
 /// Whether coordinates may be made dependent afterwards.
 bool allows_correlation(const DesignSettings& settings);
 
@@ -64,7 +80,7 @@ bool allows_correlation(const DesignSettings& settings);
 std::uint64_t size(const DesignSettings& settings, std::size_t parameters);
 
 /// The trial whose noise a trial has: itself, but where a row of a Saltelli design is A with one parameter from B that
-/// of A, so that nothing but the parameter is another one.
+/// of A, and of a trajectory of Morris its first one, so that nothing but the parameter is another one.
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial);
 
 /// Gives the points of a design, any of them in any order; a thread has its own.
@@ -84,6 +100,8 @@ class Design {
   std::vector<double> at(const Saltelli&, std::uint64_t trial);
   std::vector<double> at(const Grid& design, std::uint64_t trial) const;
   std::vector<double> at(const OneAtATime& design, std::uint64_t trial) const;
+  std::vector<double> at(const TableOfPoints& design, std::uint64_t trial) const;
+  std::vector<double> at(const Morris& design, std::uint64_t trial) const;
   double draw(std::uint64_t trial, std::size_t parameter) const;
   /// A row of the sequence under one of its shifts.
   std::vector<double> sobol(std::uint64_t row, std::uint64_t replicate);

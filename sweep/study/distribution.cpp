@@ -6,18 +6,35 @@
 
 #include <fmt/format.h>
 
+#include "statistics/beta.hpp"
 #include "statistics/normal.hpp"
 
 namespace wormdrive {
+namespace {
 
-std::string Uniform::refusal() const {
+std::string refusal_of_limits(double low, double high) {
   return low < high ? "" : fmt::format("low = {} must be less than high = {}", low, high);
 }
+std::string refusal_of_limits(double low, double mode, double high) {
+  if (low < high && low <= mode && mode <= high) return "";
+  return fmt::format("low = {}, mode = {}, high = {} must not decrease, and low must be less than high", low, mode,
+                     high);
+}
+
+/// Of equally likely values the one at a probability.
+double equally_likely(const std::vector<double>& values, double u) {
+  const auto k = static_cast<std::size_t>(u * static_cast<double>(values.size()));
+  return values[std::min(k, values.size() - 1)];
+}
+
+}  // namespace
+
+std::string Uniform::refusal() const { return refusal_of_limits(low, high); }
 
 double Normal::quantile(double u) const { return mean + deviation * normal_quantile(u); }
 
 std::string TruncatedNormal::refusal() const {
-  if (!(low < high)) return fmt::format("low = {} must be less than high = {}", low, high);
+  if (!(low < high)) return refusal_of_limits(low, high);
   const double a = (low - mean) / deviation, b = (high - mean) / deviation;
   const double nearest = a > 0.0 ? a : b < 0.0 ? -b : 0.0;
   if (nearest <= 30.0) return "";
@@ -37,16 +54,47 @@ double TruncatedNormal::quantile(double u) const {
 
 double Lognormal::quantile(double u) const { return median * portable::exp(log_deviation * normal_quantile(u)); }
 
-std::string Triangular::refusal() const {
-  if (low < high && low <= mode && mode <= high) return "";
-  return fmt::format("low = {}, mode = {}, high = {} must not decrease, and low must be less than high", low, mode,
-                     high);
-}
+std::string Triangular::refusal() const { return refusal_of_limits(low, mode, high); }
 
 double Triangular::quantile(double u) const {
   const double width = high - low, rise = mode - low, fall = high - mode;
   return u * width < rise ? low + std::sqrt(u * width * rise) : high - std::sqrt((1.0 - u) * width * fall);
 }
+
+std::string LogUniform::refusal() const { return refusal_of_limits(low, high); }
+
+double LogUniform::quantile(double u) const {
+  // from the nearer end, which is met exactly
+  const double width = portable::log(high) - portable::log(low);
+  const double value = u <= 0.5 ? low * portable::exp(u * width) : high * portable::exp((u - 1.0) * width);
+  return std::clamp(value, low, high);
+}
+
+std::string Beta::refusal() const { return refusal_of_limits(low, high); }
+
+double Beta::quantile(double u) const {
+  const double width = high - low;
+  const double value = u <= 0.5 ? low + width * lower_beta_quantile(alpha, beta, u)
+                                : high - width * lower_beta_quantile(beta, alpha, 1.0 - u);
+  return std::clamp(value, low, high);
+}
+
+std::string Pert::refusal() const { return refusal_of_limits(low, mode, high); }
+
+double Pert::quantile(double u) const {
+  const double rise = (mode - low) / (high - low), fall = (high - mode) / (high - low);
+  return Beta{1.0 + 4.0 * rise, 1.0 + 4.0 * fall, low, high}.quantile(u);
+}
+
+double Gumbel::quantile(double u) const {
+  // near 1 the distance to 1 is what counts
+  const double minus_log = u < 0.5 ? -portable::log(u) : -log_of_complement(1.0 - u);
+  return mode - scale * portable::log(minus_log);
+}
+
+double Weibull::quantile(double u) const { return low + scale * portable::pow(-log_of_complement(u), 1.0 / shape); }
+
+double Empirical::quantile(double u) const { return equally_likely(values, u); }
 
 std::string Discrete::refusal() const {
   if (values.empty()) return "values must hold at least one number";
@@ -59,10 +107,7 @@ std::string Discrete::refusal() const {
 }
 
 double Discrete::quantile(double u) const {
-  if (weights.empty()) {
-    const auto k = static_cast<std::size_t>(u * static_cast<double>(values.size()));
-    return values[std::min(k, values.size() - 1)];
-  }
+  if (weights.empty()) return equally_likely(values, u);
   double left = u * std::accumulate(weights.begin(), weights.end(), 0.0);
   std::size_t last = 0;  // with a weight: rounding must not choose one without
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -102,6 +147,14 @@ double QuantileTable::quantile(double u) const {
   const auto k = static_cast<std::size_t>(next - probabilities.begin());
   const double share = (u - probabilities[k - 1]) / (probabilities[k] - probabilities[k - 1]);
   return values[k - 1] + share * (values[k] - values[k - 1]);
+}
+
+bool only_whole_numbers(const Distribution& distribution) {
+  const auto* const discrete = std::get_if<Discrete>(&distribution);
+  const auto* const empirical = std::get_if<Empirical>(&distribution);
+  if (!discrete && !empirical) return false;
+  const std::vector<double>& values = discrete ? discrete->values : empirical->values;
+  return std::all_of(values.begin(), values.end(), [](double v) { return v == std::round(v); });
 }
 
 }  // namespace wormdrive

@@ -88,6 +88,76 @@ struct Triangular {
   double quantile(double u) const;
 };
 
+/// Every ratio of two values is as likely anywhere between two limits: the logarithm is uniform.
+struct LogUniform {
+  static constexpr std::string_view kind = "log_uniform";
+  double low{}, high{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&LogUniform::low, "low", unit::none, bounds::positive, "lowest value"},
+                      Field{&LogUniform::high, "high", unit::none, bounds::positive, "highest value"}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// Between two limits, with a density like (x - low)^(alpha - 1) (high - x)^(beta - 1).
+struct Beta {
+  static constexpr std::string_view kind = "beta";
+  double alpha{}, beta{}, low{}, high{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&Beta::alpha, "alpha", unit::none, bounds::positive, "shape at the lowest value"},
+                      Field{&Beta::beta, "beta", unit::none, bounds::positive, "shape at the highest value"},
+                      Field{&Beta::low, "low", unit::none, bounds::any, "lowest value"},
+                      Field{&Beta::high, "high", unit::none, bounds::any, "highest value"}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// An expert's three numbers: the beta distribution with mean (low + 4 mode + high) / 6 [Malcolm1959].
+struct Pert {
+  static constexpr std::string_view kind = "pert";
+  double low{}, mode{}, high{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&Pert::low, "low", unit::none, bounds::any, "lowest value"},
+                      Field{&Pert::mode, "mode", unit::none, bounds::any, "most likely value"},
+                      Field{&Pert::high, "high", unit::none, bounds::any, "highest value"}};
+  }
+  std::string refusal() const;
+  double quantile(double u) const;
+};
+
+/// The largest of many: with probability exp(-exp(-(x - mode) / scale)) below x.
+struct Gumbel {
+  static constexpr std::string_view kind = "gumbel";
+  double mode{}, scale{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&Gumbel::mode, "mode", unit::none, bounds::any, "most likely value"},
+                      Field{&Gumbel::scale, "scale", unit::none, bounds::positive, "deviation over pi / sqrt(6)"}};
+  }
+  std::string refusal() const { return ""; }
+  double quantile(double u) const;
+};
+
+/// The smallest of many: with probability exp(-((x - low) / scale)^shape) above x.
+struct Weibull {
+  static constexpr std::string_view kind = "weibull";
+  double shape{}, scale{}, low{};
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{&Weibull::shape, "shape", unit::none, bounds::positive, "exponent"},
+        Field{&Weibull::scale, "scale", unit::none, bounds::positive, "63.2 % lie less than this above the lowest"},
+        Field{&Weibull::low, "low", unit::none, bounds::any, "lowest value", Presence::optional}};
+  }
+  std::string refusal() const { return ""; }
+  double quantile(double u) const;
+};
+
 /// One of several values, equally likely unless weights say otherwise.
 struct Discrete {
   static constexpr std::string_view kind = "discrete";
@@ -108,11 +178,25 @@ struct QuantileTable {
   double quantile(double u) const;
 };
 
+/// What was measured, each value as likely as the others: a column of a file.
+struct Empirical {
+  static constexpr std::string_view kind = "empirical";
+  std::vector<double> values;  ///< in rising order
+
+  std::string refusal() const { return ""; }  // whoever reads the file says what is wrong with it
+  /// Of n values the k-th for (k - 1)/n <= u < k/n.
+  double quantile(double u) const;
+};
+
 /// A new distribution is a struct like these and one entry here.
-using Distribution = std::variant<Uniform, Normal, TruncatedNormal, Lognormal, Triangular, Discrete, QuantileTable>;
+using Distribution = std::variant<Uniform, Normal, TruncatedNormal, Lognormal, Triangular, Discrete, QuantileTable,
+                                  LogUniform, Beta, Pert, Gumbel, Weibull, Empirical>;
 
 inline double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return d.quantile(u); }, distribution);
 }
+
+/// Whether only single values can be drawn, all of them whole.
+bool only_whole_numbers(const Distribution& distribution);
 
 }  // namespace wormdrive

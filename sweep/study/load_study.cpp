@@ -29,8 +29,12 @@ using ScenarioSource = std::function<Scenario(const std::vector<Setting>&)>;
 
 class StudyReader {
  public:
-  StudyReader(const toml::table& root, const std::string& name, Diagnostics& faults)
-      : name_(name), root_(&root, "", Axis::rotary, faults, {name}), faults_(faults) {
+  StudyReader(const toml::table& root, const std::string& name, Diagnostics& faults, DataColumns& data)
+      : name_(name),
+        root_(&root, "", Axis::rotary, faults, {name}),
+        faults_(faults),
+        data_(data),
+        in_table_(root["sweep"]["design"].value<std::string>() == TableOfPoints::kind) {
     root_.set_whole("the study");
   }
 
@@ -41,14 +45,12 @@ class StudyReader {
     if (!root_.has("scenario"))
       root_.lacks("'scenario' (the file of the scenario, relative to the folder of the study)");
     for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});
-    stated_ = read_parameters(root_);
-    std::vector<std::optional<double>> levels;
-    for (const StatedParameter& stated : stated_) {
-      study_.parameters.push_back(stated.parameter);
-      levels.push_back(stated.levels);
-    }
+    root_.table("data");
+    stated_ = read_parameters(root_, data_, in_table_);
+    for (const StatedParameter& stated : stated_) study_.parameters.push_back(stated.parameter);
     study_.copula = read_correlations(root_, stated_);
-    root_.section("sweep", [&](TableReader& table) { read_design(table, study_, levels); });
+    root_.section("sweep", [&](TableReader& table) { read_design(table, study_, stated_, data_); });
+    for (std::size_t k = 0; in_table_ && k < stated_.size(); ++k) stated_[k].parameter = study_.parameters[k];
     if (!root_.has("sweep")) root_.lacks("a [sweep] table with design and trials");
     if (faults_.empty()) {  // only then can the scenario be judged
       read_scenario(source);
@@ -97,15 +99,15 @@ class StudyReader {
 
   /// Some numbers have to be whole: they are refused when they are moved by a hair, and nothing else is.
   void reject_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
-    if (const auto* const discrete = std::get_if<Discrete>(&stated.parameter.distribution))
-      if (std::all_of(discrete->values.begin(), discrete->values.end(), [](double v) { return v == std::round(v); }))
-        return;
+    if (only_whole_numbers(stated.parameter.distribution)) return;
     std::vector<Setting> settings = settings_;
     settings.push_back(setting(stated, quantile(stated.parameter.distribution, 0.5) * (1.0 + 0x1p-30) + 0x1p-40));
     try {
       source(settings);
     } catch (const InputFault& fault) {
-      for (const Fault& f : fault.faults) faults_.add(f.where, f.what + "; use \"discrete\" with whole values");
+      for (const Fault& f : fault.faults)
+        faults_.add(f.where, f.what + (in_table_ ? "; the column of the table must hold whole values"
+                                                 : "; use \"discrete\" with whole values"));
     }
   }
 
@@ -170,12 +172,15 @@ class StudyReader {
   std::string name_;
   TableReader root_;
   Diagnostics& faults_;
+  DataColumns& data_;
+  bool in_table_;  ///< the parameters have the values of a table
   Study study_;
   std::vector<Setting> settings_;
   std::vector<StatedParameter> stated_;
 };
 
-Study read(const std::string& text, const std::string& name,
+/// folder: that of the files that the study names; nothing where its text has all of them.
+Study read(const std::string& text, const std::string& name, const std::optional<std::string>& folder,
            const std::function<Scenario(const std::string& scenario, const std::vector<Setting>&)>& source) {
   const toml::table root = parse_document(text, name, {});
   if (root.contains("mesh") && !root.contains("sweep"))
@@ -184,9 +189,13 @@ Study read(const std::string& text, const std::string& name,
            "scenario = \"FILE.toml\", [sweep], [[parameter]]");
   Diagnostics faults;
   const std::string scenario = root["scenario"].value_or(std::string());
-  Study study = StudyReader(root, name, faults).read([&](const auto& settings) { return source(scenario, settings); });
+  DataColumns data(root, folder);
+  Study study =
+      StudyReader(root, name, faults, data).read([&](const auto& settings) { return source(scenario, settings); });
   faults.raise();
   study.text = text;
+  if (const std::string columns = data.text(); !columns.empty())
+    study.text += (text.ends_with('\n') ? "" : "\n") + columns;
   return study;
 }
 
@@ -220,10 +229,11 @@ void flatten(const toml::node& node, const std::string& path, std::map<std::stri
 Study load_study(const std::string& path) { return read_study(read_text(path), path); }
 
 Study read_study(const std::string& text, const std::string& path) {
-  return read(text, path, [&](const std::string& scenario, const std::vector<Setting>& settings) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return read(text, path, folder.string(), [&](const std::string& scenario, const std::vector<Setting>& settings) {
     std::vector<std::string> overrides;
     for (const Setting& setting : settings) overrides.push_back(setting.assignment);
-    const std::filesystem::path file = std::filesystem::path(path).parent_path() / scenario;
+    const std::filesystem::path file = folder / scenario;
     try {
       return load_scenario(file.string(), overrides, Purpose::run);
     } catch (const InputFault& fault) {
@@ -233,7 +243,7 @@ Study read_study(const std::string& text, const std::string& path) {
 }
 
 Study parse_study(const std::string& text, const std::string& scenario, const std::string& name) {
-  return read(text, name, [&](const std::string&, const std::vector<Setting>&) {
+  return read(text, name, std::nullopt, [&](const std::string&, const std::vector<Setting>&) {
     return parse_scenario(scenario, name, {}, Purpose::run);
   });
 }

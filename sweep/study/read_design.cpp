@@ -8,7 +8,6 @@
 #include "description/toml/read_reference.hpp"
 #include "description/variant_kinds.hpp"
 #include "statistics/random.hpp"
-#include "sweep/study/read_parameters.hpp"
 
 namespace wormdrive {
 namespace {
@@ -23,8 +22,8 @@ std::uint64_t whole(TableReader& table, const std::string& key, const Bounds& bo
 
 class DesignReader {
  public:
-  DesignReader(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels)
-      : table_(table), study_(study), levels_(levels) {}
+  DesignReader(TableReader& table, Study& study, const std::vector<StatedParameter>& stated, DataColumns& data)
+      : table_(table), study_(study), stated_(stated), data_(data) {}
 
   void read(MonteCarlo& design) { read_trials(design); }
   void read(LatinHypercube& design) { read_trials(design); }
@@ -33,8 +32,30 @@ class DesignReader {
     design.samples = whole(table_, "samples", bounds::between(2, most_trials / 1e4),
                            "rows of each of the two samples; there are samples (parameters + 2) trials");
   }
+  void read(Morris& design) {
+    design.trajectories = whole(table_, "trajectories", bounds::between(2, most_trials / 1e4),
+                                "elementary effects of each parameter; there are trajectories (parameters + 1) trials");
+    constexpr double usual = 4.0;  // [Morris1991], and SALib after it
+    const double levels =
+        table_.number("levels", unit::none, bounds::between(2, 1e6), Presence::optional, "levels of each parameter")
+            .value_or(usual);
+    if (std::fmod(levels, 2.0) != 0.0)
+      table_.fault("levels",
+                   fmt::format("sweep.levels = {} must be even, for a parameter changes by half of them", levels));
+    design.levels = static_cast<std::uint64_t>(levels);
+  }
   void read(Grid& design) { read_levels(design); }
   void read(OneAtATime& design) { read_levels(design); }
+  void read(TableOfPoints& design) {
+    const auto file = table_.text("file");
+    if (!table_.has("file"))
+      table_.lacks("'file' (a CSV file with a column for each parameter, relative to the folder of the study)");
+    for (std::size_t k = 0; file && k < stated_.size(); ++k) {
+      Discrete column{data_.read(table_, "file", *file, stated_[k].column), {}};
+      design.trials = column.values.size();
+      study_.parameters[k].distribution = std::move(column);
+    }
+  }
 
  private:
   template <class Sampled>
@@ -48,14 +69,14 @@ class DesignReader {
     const auto common = table_.number("levels", unit::none, range, Presence::optional, "levels of each parameter");
     require_whole(table_, "levels", common.value_or(1.0));
     double combinations = 1.0;
-    for (std::size_t k = 0; k < levels_.size(); ++k) {
+    for (std::size_t k = 0; k < stated_.size(); ++k) {
       UncertainParameter& parameter = study_.parameters[k];
-      double levels = levels_[k].value_or(common.value_or(5.0)), median = 0.5;
+      double levels = stated_[k].levels.value_or(common.value_or(5.0)), median = 0.5;
       if (auto* const discrete = std::get_if<Discrete>(&parameter.distribution)) {
         const double at_median = discrete->quantile(0.5);
         *discrete = discrete->each_once();
         const std::vector<double>& values = discrete->values;
-        if (levels_[k].value_or(static_cast<double>(values.size())) != static_cast<double>(values.size()))
+        if (stated_[k].levels.value_or(static_cast<double>(values.size())) != static_cast<double>(values.size()))
           table_.fault("design",
                        fmt::format("sweep.design = \"{}\" takes every value of a discrete parameter once, but "
                                    "'{}' has {} values but states levels = {}; remove them",
@@ -77,7 +98,8 @@ class DesignReader {
 
   TableReader& table_;
   Study& study_;
-  const std::vector<std::optional<double>>& levels_;
+  const std::vector<StatedParameter>& stated_;
+  DataColumns& data_;
 };
 
 void read_kept(TableReader& table, Study& study) {
@@ -100,7 +122,7 @@ void read_kept(TableReader& table, Study& study) {
 
 }  // namespace
 
-void read_design(TableReader& table, Study& study, const std::vector<std::optional<double>>& levels) {
+void read_design(TableReader& table, Study& study, const std::vector<StatedParameter>& stated, DataColumns& data) {
   study.seed = static_cast<std::uint64_t>(
       table.number("seed", unit::none, seeds, Presence::optional, "seed of all draws").value_or(0.0));
   require_whole(table, "seed", static_cast<double>(study.seed));
@@ -108,23 +130,23 @@ void read_design(TableReader& table, Study& study, const std::vector<std::option
   const auto kind = table.choice("design", kinds_of<DesignSettings>(), Presence::required);
   if (!kind) return table.ignore_unknown();  // which keys it may have hangs on its kind
   study.design = make_kind<DesignSettings>(*kind);
-  std::visit([&](auto& design) { DesignReader(table, study, levels).read(design); }, study.design);
+  std::visit([&](auto& design) { DesignReader(table, study, stated, data).read(design); }, study.design);
   if (table.faults().empty()) read_kept(table, study);
   study.referee_tolerance = table
                                 .number("referee_tolerance", unit::radian, bounds::positive, Presence::optional,
                                         "difference of the gear angle beyond which the referee disagrees")
                                 .value_or(study.referee_tolerance);
-  const bool by_levels = !is_sample(study.design);
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    if (levels[k] && !by_levels)
-      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels, but parameter '{}' states some", *kind,
-                                        study.parameters[k].path));
+  for (std::size_t k = 0; k < stated.size(); ++k)
+    if (stated[k].levels && !goes_by_levels(study.design))
+      table.fault("design", fmt::format("sweep.design = \"{}\" has no levels of single parameters, but parameter '{}' "
+                                        "states some",
+                                        *kind, study.parameters[k].path));
   if (!study.copula.independent() && !allows_correlation(study.design))
     table.fault(
         "design",
         fmt::format("sweep.design = \"{}\" needs independent parameters, but there is a [[correlation]]; {}", *kind,
-                    by_levels ? "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""
-                              : "Sobol indices of dependent parameters do not add up to the variance"));
+                    is_sample(study.design) ? "Sobol indices of dependent parameters do not add up to the variance"
+                                            : "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""));
   const auto* const latin = std::get_if<LatinHypercube>(&study.design);
   if (!latin || study.copula.independent() || !table.faults().empty()) return;
   if (latin->trials > CorrelatedStrata::most_trials)

@@ -14,23 +14,44 @@ namespace wormdrive {
 namespace {
 
 template <class Parametric>
-void read_distribution(TableReader& table, Parametric& distribution) {
+void read_distribution(TableReader& table, Parametric& distribution, DataColumns&) {
   table.read_fields(distribution);
 }
-void read_distribution(TableReader& table, Discrete& distribution) {
+void read_distribution(TableReader& table, Discrete& distribution, DataColumns&) {
   distribution.values = read_list(table, "values", Presence::required);
   distribution.weights = read_list(table, "weights", Presence::optional);
 }
-void read_distribution(TableReader& table, QuantileTable& distribution) {
+void read_distribution(TableReader& table, QuantileTable& distribution, DataColumns&) {
   distribution.values = read_list(table, "values", Presence::required);
   distribution.probabilities = read_list(table, "probabilities", Presence::required);
 }
 
-StatedParameter read_parameter(TableReader& table, const std::string& name) {
-  StatedParameter stated{{}, table.where("path"), {}};
+void read_distribution(TableReader& table, Empirical& distribution, DataColumns& data) {
+  const auto file = table.text("file"), column = table.text("column");
+  if (!table.has("file")) table.lacks("'file' (a CSV file, relative to the folder of the study)");
+  if (!table.has("column")) table.lacks("'column' (the column of the file with the values)");
+  if (!file || !column) return;
+  distribution.values = data.read(table, "file", *file, *column);
+  std::sort(distribution.values.begin(), distribution.values.end());
+}
+
+StatedParameter read_parameter(TableReader& table, const std::string& name, DataColumns& data, bool in_table) {
+  StatedParameter stated{{}, table.where("path"), {}, {}};
   const auto path = table.text("path");
   if (!table.has("path")) table.lacks("'path' (the number that is uncertain, as --set takes it)");
   stated.parameter.path = path.value_or("");
+  if (in_table) {
+    stated.column = table.text("column").value_or(stated.parameter.path);
+    if (table.has("distribution")) {
+      table.fault("distribution",
+                  fmt::format("{}.distribution is stated, but sweep.design = \"table\" takes the values "
+                              "of a parameter from its file; remove it",
+                              name));
+      table.ignore_unknown();
+    }
+    table.finish();
+    return stated;
+  }
   stated.levels = table.number("levels", unit::none, bounds::between(1, 1e6), Presence::optional, "levels of a grid");
   require_whole(table, "levels", stated.levels.value_or(1.0));
   const auto kind = table.choice("distribution", kinds_of<Distribution>(), Presence::required);
@@ -41,7 +62,7 @@ StatedParameter read_parameter(TableReader& table, const std::string& name) {
   stated.parameter.distribution = make_kind<Distribution>(*kind);
   std::visit(
       [&](auto& distribution) {
-        read_distribution(table, distribution);
+        read_distribution(table, distribution, data);
         table.finish();
         if (const std::string why = distribution.refusal(); !why.empty() && table.faults().empty())
           table.fault("distribution", fmt::format("{} of '{}': {}", name, stated.parameter.path, why));
@@ -58,13 +79,13 @@ std::vector<double> read_list(TableReader& table, const std::string& key, Presen
   return spelling ? table.numbers(*spelling).value_or(std::vector<double>{}) : std::vector<double>{};
 }
 
-std::vector<StatedParameter> read_parameters(TableReader& root) {
+std::vector<StatedParameter> read_parameters(TableReader& root, DataColumns& data, bool in_table) {
   std::vector<StatedParameter> list;
   const std::vector<const toml::table*> tables = root.tables("parameter");
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const std::string name = fmt::format("parameter[{}]", k);
     TableReader table(tables[k], name, root.axis(), root.faults(), root.where());
-    list.push_back(read_parameter(table, name));
+    list.push_back(read_parameter(table, name, data, in_table));
   }
   if (!root.has("parameter")) root.lacks("a [[parameter]] to vary");
   return list;

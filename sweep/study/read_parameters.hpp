@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "description/toml/table_reader.hpp"
+#include "sweep/study/data_columns.hpp"
 #include "sweep/study/study.hpp"
 
 namespace wormdrive {
@@ -12,10 +13,12 @@ struct StatedParameter {
   UncertainParameter parameter;  ///< without name and unit
   Location where;                ///< of its path
   std::optional<double> levels;
+  std::string column;  ///< of the file of a design that is a table
 };
 
-/// Reads [[parameter]].
-std::vector<StatedParameter> read_parameters(TableReader& root);
+/// Reads [[parameter]]; data: the files that they may name. in_table: the design is a table of their values, and they
+/// have no distributions.
+std::vector<StatedParameter> read_parameters(TableReader& root, DataColumns& data, bool in_table);
 
 /// Reads [[correlation]] between parameters.
 Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& parameters);

@@ -27,6 +27,14 @@ QuantileRanks quantile_ranks(std::uint64_t n, double p) {
   return ranks;
 }
 
+SampleEstimate rank_correlation_estimate(double r, std::uint64_t n) {
+  const SampleEstimate estimate{r, 0.0, 0.0};
+  if (n < 4 || !(std::abs(r) < 1.0)) return estimate.without_interval();
+  constexpr double widths = 1.959963984540054;  // of half an interval: the normal quantile of 0.975
+  const double z = std::atanh(r), half = widths * std::sqrt((1.0 + 0.5 * r * r) / (static_cast<double>(n) - 3.0));
+  return {r, std::tanh(z - half), std::tanh(z + half)};
+}
+
 SampleEstimate probability(std::uint64_t k, std::uint64_t n) {
   using Binomial = boost::math::binomial_distribution<double>;
   if (n == 0) return {std::nan(""), 0.0, 1.0};

@@ -46,6 +46,10 @@ SampleEstimate sample_quantile(const QuantileRanks& ranks, At&& at) {
 /// Probability of what happened k times in n independent trials, with the exact binomial interval [ClopperPearson1934].
 SampleEstimate probability(std::uint64_t k, std::uint64_t n);
 
+/// Spearman's rank correlation of n independent pairs with the interval of Fisher's z, whose variance is (1 + r^2/2)
+/// over n - 3 [BonettWright2000]; none for fewer than four pairs, or where ranks agree completely.
+SampleEstimate rank_correlation_estimate(double r, std::uint64_t n);
+
 /// What share of a metric's variance a parameter makes.
 struct SobolIndex {
   SampleEstimate first, total;              ///< alone; with all it takes part in

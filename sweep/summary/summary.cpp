@@ -170,29 +170,38 @@ class Summariser {
   void influences(SweepSummary& summary) const {
     const std::string& ranked_by = settings_.ranked_by;
     if (stride_ > 1 && sweep_.range().first == 0)
-      summary.sobol = sobol_indices(of_all_trials(), study_.parameters.size());
+      summary.sobol = sobol_indices(of_all_trials(ranked_by), study_.parameters.size());
+    if (std::holds_alternative<Morris>(study_.design) && sweep_.range().first == 0)
+      for (const Metric& m : study_.metrics)
+        summary.screenings.push_back(
+            elementary_effects(of_all_trials(m.name), study_.design, study_.parameters.size(), study_.seed));
+    const MorrisScreening* const screening = summary.screening_of(ranked_by);
     const std::vector<SobolIndex>& sobol = summary.sobol.of;
     const MetricSummary& any = summary.metrics.front();
     const std::uint64_t count = any.count + any.without;
     const RankScale metric(last_of({ranked_by}), count);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
       const std::string& name = study_.parameters[k].name;
-      Influence influence{study_.parameters[k].path, 0.0, {}};
-      influence.rank_correlation = rank_correlation(
+      const RankScale parameter(last_of({ranked_by, name}), count);
+      const double correlation = rank_correlation(
           [&](const TakePairs& take) {
             for_each_part({ranked_by, name}, [&](const auto& chosen) { take(chosen.front(), chosen.back()); });
           },
-          metric, RankScale(last_of({ranked_by, name}), count));
+          metric, parameter);
+      const bool varies = metric.squares() > 0.0 && parameter.squares() > 0.0;
+      const SampleEstimate estimate = told(rank_correlation_estimate(correlation, count));
+      Influence influence{study_.parameters[k].path, varies ? estimate : estimate.without_interval(), {}, {}};
       if (!sobol.empty()) influence.sobol = sobol[k];
+      if (screening && !screening->of.empty()) influence.effects = screening->of[k];
       summary.influences.push_back(std::move(influence));
     }
     std::stable_sort(summary.influences.begin(), summary.influences.end(),
                      [](const Influence& a, const Influence& b) { return a.size() > b.size(); });
   }
-  /// The metric by which trials are ranked, not a number where a trial is missing or not done.
-  Column of_all_trials() const {
-    return [this](const TakeValues& take) {
-      sweep_.for_each_block({settings_.ranked_by}, [&](const Block& block) {
+  /// A metric, not a number where a trial is missing or not done.
+  Column of_all_trials(const std::string& metric) const {
+    return [this, metric](const TakeValues& take) {
+      sweep_.for_each_block({metric}, [&](const Block& block) {
         std::vector<double> values = block.columns.front();
         for (std::size_t row = 0; row < values.size(); ++row)
           if (!done(block, row)) values[row] = std::numeric_limits<double>::quiet_NaN();
@@ -223,6 +232,12 @@ class Summariser {
 };
 
 }  // namespace
+
+const MorrisScreening* SweepSummary::screening_of(const std::string& metric) const {
+  for (std::size_t k = 0; k < screenings.size(); ++k)
+    if (metrics[k].metric.name == metric) return &screenings[k];
+  return nullptr;
+}
 
 std::string default_ranking(const Study& study) {
   if (!study.thresholds.empty()) return study.thresholds.front().metric;

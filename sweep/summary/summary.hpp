@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep/file/sweep_file.hpp"
+#include "sweep/summary/elementary_effects.hpp"
 #include "sweep/summary/statistics.hpp"
 
 namespace wormdrive {
@@ -49,9 +50,12 @@ struct ThresholdSummary {
 /// How much a parameter matters for the metric by which trials are ranked.
 struct Influence {
   std::string parameter;
-  double rank_correlation{};
+  SampleEstimate rank_correlation{};
   std::optional<SobolIndex> sobol;
-  double size() const { return sobol ? sobol->total.value : std::abs(rank_correlation); }
+  std::optional<ElementaryEffects> effects;  ///< of a Morris design
+  double size() const {
+    return sobol ? sobol->total.value : effects ? effects->mu_star.value : std::abs(rank_correlation.value);
+  }
 };
 
 /// For the values of how many trials that are done a condition of Lemma 1 does not hold.
@@ -68,11 +72,16 @@ struct SweepSummary {
   std::vector<MetricSummary> metrics;
   std::vector<ThresholdSummary> thresholds;
   std::string ranked_by;
-  std::vector<Influence> influences;         ///< greatest first
+  std::vector<Influence> influences;  ///< greatest first
+  /// Elementary effects of every metric, in their order, on parameters as the study states them; none of another
+  /// design than Morris.
+  std::vector<MorrisScreening> screenings;
   SobolIndices sobol;                        ///< of the parameters as the study states them; none of another design
   std::vector<Trial> worst;                  ///< the worst first
   std::vector<ConditionSummary> conditions;  ///< every one, in the order of the metrics
 
+  /// Null if there are none.
+  const MorrisScreening* screening_of(const std::string& metric) const;
   std::uint64_t with(TrialStatus status) const {
     switch (status) {
       case TrialStatus::done: return done;

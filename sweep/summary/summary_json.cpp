@@ -10,6 +10,9 @@ nlohmann::json as_json(const SampleEstimate& e) {
   if (!e.has_interval()) return {{"value", e.value}};
   return {{"value", e.value}, {"low", e.low}, {"high", e.high}};
 }
+nlohmann::json as_json(const ElementaryEffects& e) {
+  return {{"mu", e.mu}, {"mu_star", as_json(e.mu_star)}, {"sigma", e.sigma}};
+}
 
 }  // namespace
 
@@ -40,12 +43,22 @@ nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summar
                                   {"share", as_json(t.share)},
                                   {"not_kept", as_json(t.not_kept)}});
   for (const Influence& i : summary.influences) {
-    nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation}};
+    nlohmann::json influence{{"parameter", i.parameter}, {"rank_correlation", i.rank_correlation.value}};
+    if (const SampleEstimate& r = i.rank_correlation; r.has_interval())
+      influence["rank_correlation_interval"] = {r.low, r.high};
     if (i.sobol) influence["sobol"] = {{"first", as_json(i.sobol->first)}, {"total", as_json(i.sobol->total)}};
+    if (i.effects) influence["morris"] = as_json(*i.effects);
     json["influences"].push_back(std::move(influence));
   }
   if (!summary.sobol.of.empty())
     json["sobol"] = {{"samples", summary.sobol.used}, {"left_out", summary.sobol.left_out}};
+  for (std::size_t m = 0; m < summary.screenings.size(); ++m) {
+    const MorrisScreening& screening = summary.screenings[m];
+    nlohmann::json& found = json["morris"][summary.metrics[m].metric.name];
+    found = {{"trajectories", screening.used}, {"left_out", screening.left_out}};
+    for (std::size_t k = 0; k < screening.of.size(); ++k)
+      found["parameters"][study.parameters[k].path] = as_json(screening.of[k]);
+  }
   for (const Trial& trial : summary.worst) {
     nlohmann::json worst{{"trial", trial.index}, {"status", name(trial.status)}};
     if (!trial.reason.empty()) worst["reason"] = trial.reason;

@@ -110,10 +110,22 @@ SummaryTable condition_table(const Study& study) {
           {{"rule", "the condition in words"}}};
 }
 
+SummaryTable screening_table(const Study& study) {
+  const bool screens = std::holds_alternative<Morris>(study.design);
+  SummaryTable table{"morris",
+                     screens ? study.metrics.size() * study.parameters.size() : 0,
+                     {{"index", "1", "number of the row"}, {"mu", "", "mean of the elementary effects"}},
+                     {{"metric", "name of the metric"}, {"parameter", "path of the parameter"}}};
+  add_estimate(table, "mu_star", "", "mean of the absolute elementary effects, in the unit of the metric");
+  table.columns.push_back({"sigma", "", "standard deviation of the elementary effects"});
+  return table;
+}
+
 /// Those that a study has.
 std::vector<SummaryTable> summary_tables(const Study& study) {
   std::vector<SummaryTable> tables{status_table(),         metric_table(study), threshold_table(study),
-                                   influence_table(study), worst_table(study),  condition_table(study)};
+                                   influence_table(study), worst_table(study),  condition_table(study),
+                                   screening_table(study)};
   std::erase_if(tables, [](const SummaryTable& table) { return table.rows == 0; });
   return tables;
 }
@@ -172,7 +184,7 @@ void write_thresholds(hid_t file, const SweepSummary& summary, const Study& stud
 void write_influences(hid_t file, const SweepSummary& summary, const Study& study) {
   Rows rows(file, influence_table(study));
   for (const Influence& i : summary.influences) {
-    std::vector<double> row{rows.next(), i.rank_correlation};
+    std::vector<double> row{rows.next(), i.rank_correlation.value};
     const SampleEstimate unknown{none, none, none};
     append(row, i.sobol ? i.sobol->first : unknown);
     append(row, i.sobol ? i.sobol->total : unknown);
@@ -203,6 +215,24 @@ void write_conditions(hid_t file, const SweepSummary& summary, const Study& stud
   Rows rows(file, condition_table(study));
   for (const ConditionSummary& c : summary.conditions)
     rows.add({rows.next(), static_cast<double>(c.trials), static_cast<double>(c.of)}, {c.rule});
+}
+
+void write_screenings(hid_t file, const SweepSummary& summary, const Study& study) {
+  const SummaryTable table = screening_table(study);
+  if (table.rows == 0) return;
+  Rows rows(file, table);
+  for (std::size_t m = 0; m < study.metrics.size(); ++m)
+    for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+      std::vector<double> row{rows.next()};
+      if (m < summary.screenings.size() && !summary.screenings[m].of.empty()) {
+        const ElementaryEffects& effects = summary.screenings[m].of[k];
+        row.push_back(effects.mu);
+        append(row, effects.mu_star);
+        row.push_back(effects.sigma);
+      }
+      row.resize(table.columns.size(), none);
+      rows.add(row, {study.metrics[m].name, study.parameters[k].path});
+    }
 }
 
 }  // namespace
@@ -238,6 +268,7 @@ void write_summary_tables(hid_t file, const SweepSummary& summary, const Study& 
   write_influences(file, summary, study);
   write_worst(file, summary, study);
   write_conditions(file, summary, study);
+  write_screenings(file, summary, study);
 }
 
 }  // namespace wormdrive

@@ -258,8 +258,8 @@ TEST_CASE("help groups the commands by what the user wants to do") {
   for (const std::string words :
        {"\nDescribe a drive:\n  new ", "\n  list ", "\n  check ", "\n  schema ", "\nSimulate it:\n  run ",
         "\n  statics ", "\n  steady ", "\n  fmu ", "\nLook at results:\n  plot ", "\n  report ", "\n  diff ",
-        "\nVary uncertain parameters:\n  sweep ", "\n  summary ", "\n  worst ", "\n  replay ", "\n  merge ",
-        "\nExplain measured data:\n  diagnose ", "\nwormdrive COMMAND --help explains a command."}) {
+        "\nVary uncertain parameters:\n  sweep ", "\n  summary ", "\n  export ", "\n  worst ", "\n  replay ",
+        "\n  merge ", "\nExplain measured data:\n  diagnose ", "\nwormdrive COMMAND --help explains a command."}) {
     INFO(words);
     const std::size_t found = help.find(words, at);
     REQUIRE(found != std::string::npos);

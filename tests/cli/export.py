@@ -71,7 +71,7 @@ def main():
     # what is no run, what is in the way, what is not asked for
     wormdrive("statics", SCENARIOS / "fig09_switching.toml", "-q", "-o", "statics.h5")
     assert wormdrive("export", "statics.h5", "--csv", expect=2) == (
-        "statics.h5: error: is a result of 'statics'; wormdrive export takes the result of a run")
+        "statics.h5: error: is a result of 'statics'; wormdrive export takes that of a run or of a sweep")
     assert not Path("statics.csv").exists()
     Path("mine.csv").write_text("a,b\n1,2\n")
     wormdrive("export", "run.h5", "--csv", "-o", "mine.csv", expect=4)

@@ -171,6 +171,40 @@ TEST_CASE("the schema accepts every shipped scenario, with and without its defau
   CHECK(count > 15);
 }
 
+TEST_CASE("the schema of studies accepts what the reader accepts, and every distribution and design") {
+  const json studies = json::parse(Folder().run({"schema", "--kind", "study"}).out);
+  const auto why = [&](const std::string& text) { return broken(studies, as_json(toml::parse(text)), "study"); };
+  for (const auto& entry : std::filesystem::directory_iterator(WORMDRIVE_SCENARIOS "/studies"))
+    if (entry.path().extension() == ".toml") {
+      INFO(entry.path());
+      CHECK(why(read_text(entry.path().string())) == "");
+    }
+  const std::string begin = "scenario = \"s.toml\"\n", path = "\n[[parameter]]\npath = \"mesh.friction\"\n",
+                    uniform = path + "distribution = \"uniform\"\nlow = 0.1\nhigh = 0.2\n",
+                    draws = "[sweep]\ndesign = \"monte_carlo\"\ntrials = 5\n";
+  for (const char* const keys :
+       {"\"uniform\"\nlow = 0\nhigh = 1", "\"normal\"\nmean = 0\ndeviation = 1",
+        "\"truncated_normal\"\nmean = 0\ndeviation = 1\nlow = 0", "\"lognormal\"\nmedian = 1\nlog_deviation = 1",
+        "\"triangular\"\nlow = 0\nmode = 0\nhigh = 1", "\"discrete\"\nvalues = [1]",
+        "\"table\"\nvalues = [1, 2]\nprobabilities = [0, 1]", "\"log_uniform\"\nlow = 1\nhigh = 2",
+        "\"beta\"\nalpha = 1\nbeta = 2\nlow = 0\nhigh = 1", "\"pert\"\nlow = 0\nmode = 0\nhigh = 1",
+        "\"gumbel\"\nmode = 0\nscale = 1", "\"weibull\"\nshape = 1\nscale = 1",
+        "\"empirical\"\nfile = \"m.csv\"\ncolumn = \"mu\""}) {
+    INFO(keys);
+    CHECK(why(begin + draws + path + "distribution = " + keys + "\n") == "");
+    CHECK(why(begin + draws + path + "distribution = " + keys + "\nmedain = 1\n") != "");
+  }
+  for (const char* const keys :
+       {"\"latin_hypercube\"\ntrials = 5", "\"sobol\"\ntrials = 5", "\"saltelli\"\nsamples = 2", "\"grid\"",
+        "\"one_at_a_time\"\nlevels = 2", "\"morris\"\ntrajectories = 4\nlevels = 6"}) {
+    INFO(keys);
+    CHECK(why(begin + "[sweep]\ndesign = " + keys + "\n" + uniform) == "");
+    CHECK(why(begin + "[sweep]\nsead = 1\ndesign = " + keys + "\n" + uniform) != "");
+  }
+  CHECK(why(begin + "[sweep]\ndesign = \"table\"\nfile = \"p.csv\"" + path + "column = \"mu\"\n") == "");
+  CHECK(why(begin + draws) != "");
+}
+
 TEST_CASE("the schema accepts every table that the reader accepts, on either axis") {
   for (const auto& [axis, drive] : {std::pair{Axis::rotary, good_scenario}, {Axis::linear, sledge}}) {
     const std::string text = drive + every_table(axis);

@@ -32,10 +32,11 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
       {"trials = 200", "trials = 2.5", "study.toml:6:10: error: sweep.trials = 2.5 must be a whole number"},
       {"design = \"monte_carlo\"", "design = \"random\"",
        "study.toml:5:10: error: sweep.design = \"random\" must be one of \"monte_carlo\", \"latin_hypercube\", "
-       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\""},
+       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\", \"morris\""},
       {"distribution = \"lognormal\"", "distribution = \"gauss\"",
        "study.toml:16:16: error: parameter[1].distribution = \"gauss\" must be one of \"uniform\", \"normal\", "
-       "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\""},
+       "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\", "
+       "\"log_uniform\", \"beta\", \"pert\", \"gumbel\", \"weibull\", \"empirical\""},
       {"deviation = 0.05", "deviation = 0",
        "study.toml:12:13: error: parameter[0].deviation = 0 must be greater than 0"},
       {"low = 0.1", "low = 0.1\nhigh = 0.05",

@@ -194,6 +194,30 @@ TEST_CASE("rank correlation depends on order alone, and equal values share ranks
   CHECK(close(spearman(rising, {1.0, 2.0, 2.0, 7.0}), 4.5 / std::sqrt(22.5), 1e-15));
 }
 
+TEST_CASE("intervals of rank correlations contain the true one in 95 % of samples", "[sweep]") {
+  // of a bivariate normal distribution with correlation c it is 6/pi asin(c/2) [Kruskal1958]
+  for (const double c : {0.0, 0.5, -0.9}) {
+    constexpr int samples = 1000;
+    constexpr std::size_t n = 60;
+    const double truth = 6.0 / std::numbers::pi * std::asin(0.5 * c);
+    int within = 0;
+    for (int s = 0; s < samples; ++s) {
+      std::vector<double> x, y;
+      for (std::uint64_t k = 0; k < n; ++k) {
+        const auto bits = random_bits(11, SweepStream::draws, static_cast<std::uint64_t>(s), k);
+        x.push_back(normal_quantile(to_unit_interval(bits[0])));
+        y.push_back(c * x.back() + std::sqrt(1.0 - c * c) * normal_quantile(to_unit_interval(bits[1])));
+      }
+      const SampleEstimate found = rank_correlation_estimate(spearman(x, y), n);
+      within += found.low <= truth && truth <= found.high;
+    }
+    INFO("correlation " << c);
+    CHECK(std::abs(within - 0.95 * samples) < 4.0 * std::sqrt(0.95 * 0.05 * samples));
+  }
+  CHECK_FALSE(rank_correlation_estimate(1.0, 10).has_interval());
+  CHECK_FALSE(rank_correlation_estimate(0.5, 3).has_interval());
+}
+
 TEST_CASE("rank correlation of more values than it stores is accurate enough", "[sweep]") {
   constexpr std::uint64_t n = 200'000;
   std::vector<double> x, y;

@@ -69,6 +69,15 @@ void print_design_point(const RareEvent& event, const Study& study) {
                 : fmt::format(", importance {:.0f} %", 100.0 * event.design.direction[k] * event.design.direction[k])));
 }
 
+std::string verdict_on(const RareEvent& event) {
+  if (!event.design.converged)
+    return "there is no design point that samples could be drawn around; the subset simulation stands";
+  if (event.agrees()) return "the two intervals overlap";
+  return "the two intervals do not overlap: drives miss in other ways than at the design point, which samples around "
+         "it do "
+         "not see; the subset simulation stands";
+}
+
 }  // namespace
 
 int rare_command(const RareOptions& options) {
@@ -94,9 +103,7 @@ int rare_command(const RareOptions& options) {
   print_design_point(event, study);
   print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
                                    words_of(event.importance), event.importance.evaluations));
-  print_item("check", event.agrees() ? "the two intervals overlap"
-                                     : "the two intervals do not overlap: drives miss in other ways than at the design "
-                                       "point, which samples around it do not see; the subset simulation stands");
+  print_item("check", verdict_on(event));
   return 0;
 }
 

@@ -105,15 +105,26 @@ void print_thresholds(const SweepSummary& summary, const Study& study) {
 
 void print_influences(const SweepSummary& summary) {
   fmt::print("\n  influence on {}, the largest first\n", summary.ranked_by);
+  const auto ranked = std::find_if(summary.metrics.begin(), summary.metrics.end(),
+                                   [&](const MetricSummary& m) { return m.metric.name == summary.ranked_by; });
   for (const Influence& i : summary.influences)
     if (i.sobol)
       fmt::print("  {:<44} Sobol index total {:<24} first {}\n", i.parameter, with_interval(i.sobol->total),
                  with_interval(i.sobol->first));
+    else if (i.effects)
+      fmt::print("  {:<44} mu* {:<30} mu {:<12.4g} sigma {:.4g}{}\n", i.parameter, with_interval(i.effects->mu_star),
+                 i.effects->mu, i.effects->sigma, in_unit(ranked->metric.unit));
     else
-      fmt::print("  {:<44} rank correlation {:+.3f}\n", i.parameter, i.rank_correlation);
+      fmt::print("  {:<44} rank correlation {:+.3f}{}\n", i.parameter, i.rank_correlation.value,
+                 i.rank_correlation.has_interval()
+                     ? fmt::format(" [{:+.3f}, {:+.3f}]", i.rank_correlation.low, i.rank_correlation.high)
+                     : "");
   if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
     fmt::print("  {} of {} samples are left out of the Sobol indices because one of their trials has no value\n",
                sobol.left_out, sobol.used + sobol.left_out);
+  if (const MorrisScreening* const found = summary.screening_of(summary.ranked_by); found && found->left_out > 0)
+    fmt::print("  {} of {} trajectories are left out because one of their trials has no value\n", found->left_out,
+               found->used + found->left_out);
 }
 
 void print_worst(const SweepReader& sweep, const SweepSummary& summary, const std::string& path) {
