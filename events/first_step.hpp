@@ -66,10 +66,14 @@ class FirstStep {
   static constexpr int leading = 4;  ///< coefficients that decide where the motion goes, and are more than rounding
   using Motion = Expansion<System::guard_count>;
 
-  /// Coefficients without those that decide nothing, as they were judged when the motion began; a value stays.
+  /// Coefficients without those that are rounding; a value is what it is. Before one that counts, none does that
+  /// whoever let the motion begin could not judge.
   static void take(const Series<double, order + 1>& from, const Series<Rounded, leading>& rounded, Coefficients& to) {
-    const auto counts = [&](int k) { return std::abs(rounded[k].value) > blur(rounded, k, 0.0); };
-    for (int k = 0; k <= order + 1; ++k) to[k] = k == 0 || k > leading || counts(k) ? from[k] : 0.0;
+    int decides = 1;
+    while (decides <= leading && std::abs(rounded[decides].value) <= blur(rounded, decides, 0.0)) ++decides;
+    if (decides > leading) decides = 1;
+    for (int k = 0; k <= order + 1; ++k)
+      to[k] = k > 0 && (k < decides || (k <= leading && rounded[k].vanishes())) ? 0.0 : from[k];
   }
 
   Instant after(double s) const {

@@ -51,13 +51,11 @@ void add_export(CommandSet& commands) {
   auto [command, options] =
       commands.add("export", "write a run as CSV or as a MAT-file, or a sweep as CSV", export_command);
   command.add_option("file", options.file, "result of a run or of a sweep (.h5)")->required();
-  CLI::Option_group& format = *command.add_option_group("Format");
-  format.add_flag(
+  CLI::Option& csv = *command.add_flag(
       "--csv", options.csv,
       "one file per table: NAME.csv has the trajectory, NAME_events.csv the events, NAME_controller.csv the "
       "samples of a controller; of a sweep one table");
-  format.add_flag("--mat", options.mat, "a run as one file (MAT, version 5) with a struct per table");
-  format.require_option(0, 1);
+  command.add_flag("--mat", options.mat, "a run as one file (MAT, version 5) with a struct per table")->excludes(&csv);
   command.add_option("--what", options.what, "which table of a sweep")
       ->check(CLI::IsMember({"trials", "summary"}))
       ->capture_default_str();

@@ -120,8 +120,12 @@ class TaylorAccuracy {
   static double guard_step(Expansion& e, int g, double h, Powers powers) {
     Polynomial c = e.guard(g);
     const double* last = &c[c.size() - window];
-    // one that starts as a power of the time has the roots of the rest; the terms that count are those behind its first
-    while (c.size() > 3 && c[0] == 0.0 && c[1] == 0.0) c = c.subspan(1);
+    // One that starts as a power of the time has the roots of the rest, and the terms that count are those behind its
+    // first. Behind the coefficients that are told from rounding this is no start.
+    constexpr std::size_t told = 4;
+    std::size_t first = 1;
+    while (first <= told && c[0] == 0.0 && c[first] == 0.0) ++first;
+    if (first <= told) c = c.subspan(first - 1);
     const int lowered = e.order + 1 - static_cast<int>(c.size());
     const int uncounted = lowered > 0 ? std::max(0, window + 2 - static_cast<int>(c.size())) : 0;
     for (double s = h;; powers = powers_of(s *= 0.5, e.order)) {

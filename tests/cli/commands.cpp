@@ -255,11 +255,27 @@ TEST_CASE("help groups the commands by what the user wants to do") {
   CHECK(help.starts_with(
       "wormdrive: simulate, sweep and diagnose worm-gear drives\nUsage: wormdrive [OPTIONS] COMMAND\n"));
   std::size_t at = 0;
-  for (const std::string words :
-       {"\nDescribe a drive:\n  new ", "\n  list ", "\n  check ", "\n  schema ", "\nSimulate it:\n  run ",
-        "\n  statics ", "\n  steady ", "\n  fmu ", "\nLook at results:\n  plot ", "\n  report ", "\n  diff ",
-        "\nVary uncertain parameters:\n  sweep ", "\n  summary ", "\n  export ", "\n  worst ", "\n  replay ",
-        "\n  merge ", "\nExplain measured data:\n  diagnose ", "\nwormdrive COMMAND --help explains a command."}) {
+  for (const std::string words : {"\nDescribe a drive:\n  new ",
+                                  "\n  list ",
+                                  "\n  check ",
+                                  "\n  schema ",
+                                  "\nSimulate it:\n  run ",
+                                  "\n  view ",
+                                  "\n  statics ",
+                                  "\n  steady ",
+                                  "\n  fmu ",
+                                  "\nLook at results:\n  plot ",
+                                  "\n  report ",
+                                  "\n  diff ",
+                                  "\n  export ",
+                                  "\nVary uncertain parameters:\n  sweep ",
+                                  "\n  summary ",
+                                  "\n  worst ",
+                                  "\n  rare ",
+                                  "\n  replay ",
+                                  "\n  merge ",
+                                  "\nExplain measured data:\n  diagnose ",
+                                  "\nwormdrive COMMAND --help explains a command."}) {
     INFO(words);
     const std::size_t found = help.find(words, at);
     REQUIRE(found != std::string::npos);

@@ -1,7 +1,6 @@
 #include <map>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "catch.hpp"
 #include "judge/judge.hpp"
@@ -34,14 +33,15 @@ TEST_CASE("near ties: 300 random drives at the edge of an event end as they must
 }
 
 TEST_CASE("near ties: what starts by less than its rounding starts, and goes on") {
-  // elastic teeth under a load at its crest, with and without a gap; torques in one phase on a rigid drive; friction
-  // that falls so fast that a rounding grows within nanoseconds
-  for (const auto& [seed, index] : {std::pair{78, 5736}, {78, 7227}, {78, 4010}, {92, 6202}}) {
-    const Judgement found = judgement(make_case(seed, index), false);
-    INFO("seed " << seed << ", case " << index << ": " << found.reason);
-    CHECK((found.verdict == Verdict::agree || found.verdict == Verdict::not_judged ||
-           found.verdict == Verdict::rounding));
+  for (const std::uint64_t index : {5736, 7227}) {  // elastic teeth under a load at its crest, with and without a gap
+    const Judgement found = judgement(make_case(78, index), false);
+    INFO("case " << index << ": " << found.reason);
+    CHECK((found.verdict == Verdict::agree || found.verdict == Verdict::rounding));
   }
+  // friction that falls so fast that a rounding grows within nanoseconds
+  const ProgramRun fast = near_ties::run(make_case(92, 6202), near_ties::By::taylor);
+  CHECK(fast.halt.empty());
+  CHECK(fast.omega < -1e6);
 }
 
 TEST_CASE("the judge of near ties has the events of fig. 9 to the last digit, and objects to a missed or a late one") {
