@@ -1,6 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "core/effects/actuator_delay.hpp"
@@ -9,6 +12,7 @@
 #include "core/effects/backlash.hpp"
 #include "core/effects/bearing_asymmetry.hpp"
 #include "core/effects/cogging.hpp"
+#include "core/effects/dc_motor.hpp"
 #include "core/effects/encoder_delay.hpp"
 #include "core/effects/encoder_offset.hpp"
 #include "core/effects/encoder_scale.hpp"
@@ -32,6 +36,7 @@
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_viscous.hpp"
+#include "core/states/effect_states.hpp"
 
 namespace wormdrive {
 
@@ -48,17 +53,27 @@ struct Optional {
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
 using EffectList =
-    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, TorqueGain, TorqueOffset, Cogging,  // actuator
-             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                          // worm shaft
+    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
+             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                                   // worm shaft
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift, StaticFriction,  // mesh
              TransmissionError, ToothCompliance, Backlash,                                                      // mesh
              GearCoulomb, GearViscous, GearInertia,                 // gear shaft
              LoadMagnitude, LoadAngle, LoadSpring,                  // load
              EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;  // sensor
 
+/// How many states all effects may have together.
+inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;
+
+/// A moment with the states of the effects.
+template <class S>
+struct MomentOfEffects : Moment<S> {
+  std::array<S, effect_state_count> states{};
+};
+
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
 struct Effects {
+  using EffectStates = StateLayout<EffectList<T>>;
   EffectList<T> list;
 
   /// Calls visit(optional effect) for every effect of the catalogue.
@@ -92,6 +107,47 @@ struct Effects {
     return through(command, [&](const auto& e, const S& torque) -> decltype(e.motor_torque(torque, at)) {
       return e.motor_torque(torque, at);
     });
+  }
+  /// The same where effects have states.
+  template <class S>
+  S motor_torque(const S& command, const MomentOfEffects<S>& at) const {
+    return through(command, [&]<class E>(const E& e, const S& torque) -> decltype(e.motor_torque(torque, at)) {
+      if constexpr (MayHaveStates<E>)
+        if (e.has_states()) return e.motor_torque(torque, at, EffectStates::template of<E>(at.states));
+      return e.motor_torque(torque, at);
+    });
+  }
+  /// The id of the first effect that has a state; empty if none has.
+  std::string_view first_with_states() const {
+    std::string_view id;
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (MayHaveStates<E>)
+        if (id.empty() && effect && effect->has_states()) id = E::id;
+    });
+    return id;
+  }
+  bool have_states() const { return !first_with_states().empty(); }
+  /// Rates of the states of the effects, for a command [N m].
+  template <class S>
+  std::array<S, effect_state_count> state_rates(const S& command, const MomentOfEffects<S>& at) const {
+    std::array<S, effect_state_count> rates{};
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (MayHaveStates<E>) {
+        if (!effect || !effect->has_states()) return;
+        const auto own = effect->state_rates(command, at, EffectStates::template of<E>(at.states));
+        std::copy(own.begin(), own.end(), rates.begin() + EffectStates::template first<E>());
+      }
+    });
+    return rates;
+  }
+  /// How fast the fastest of them settles [1/s], 0 without a state.
+  double fastest_state() const {
+    double fastest = 0.0;
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (MayHaveStates<E>)
+        if (effect && effect->has_states()) fastest = std::max(fastest, value_of(effect->fastest_state()));
+    });
+    return fastest;
   }
   /// Torque that the effects add on the worm shaft [N m].
   template <class S>

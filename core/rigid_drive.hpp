@@ -66,10 +66,13 @@ constexpr bool continuous(const Field<Owner, Value>& field) {
 }
 
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are
-/// on. Throws std::invalid_argument where the teeth are elastic: such a drive is not rigid.
+/// on. Throws std::invalid_argument where the teeth are elastic, for such a drive is not rigid, or an effect has a
+/// state.
 template <class Load>
 std::vector<Parameter> continuous_parameters(const RigidDrive<Load>& drive) {
   if (has_elastic_teeth(drive.effects)) throw std::invalid_argument("a drive with elastic teeth is not rigid");
+  if (const auto id = drive.effects.first_with_states(); !id.empty())
+    throw std::invalid_argument("effect." + std::string(id) + " has a state, which sensitivities do not follow");
   std::vector<Parameter> all;
   for_each_table(drive, [&]<class P>(std::string_view table, const P& parameters) {
     for_each_field<P>([&](const auto& field) {

@@ -65,6 +65,11 @@ class TorqueBalance {
   void disturb(double torque) { disturbance_ = torque; }
   /// What disturbs the worm's shaft now [N m].
   const double& disturbance() const { return disturbance_; }
+  /// What the motor is commanded at a time of the present pieces [N m].
+  template <class S>
+  S motor_command(const S& t) const {
+    return motor_(t);
+  }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
   /// First time after t at which an input jumps or bends.
@@ -101,13 +106,13 @@ class TorqueBalance {
   struct SideTorques {
     S worm, gear;
   };
-  /// Those of motor and load alone.
-  template <class S>
-  SideTorques<S> inputs(const Moment<S>& at) const {
+  /// Those of motor and load alone. M is a moment, with the states of effects or without.
+  template <class S, template <class> class M>
+  SideTorques<S> inputs(const M<S>& at) const {
     return {effects_.motor_torque(motor_(at.t), at), effects_.load_torque(load_, at)};
   }
-  template <class S>
-  SideTorques<S> side_torques(const Moment<S>& at, Motion motion) const {
+  template <class S, template <class> class M>
+  SideTorques<S> side_torques(const M<S>& at, Motion motion) const {
     return side_torques(inputs(at), at, motion);
   }
 
@@ -118,14 +123,14 @@ class TorqueBalance {
   }
 
   /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
-  template <class S>
-  S beyond_surface(const Moment<S>& at, Motion motion) const {
+  template <class S, template <class> class M>
+  S beyond_surface(const M<S>& at, Motion motion) const {
     return beyond_surface(side_torques(at, motion), at);
   }
 
   /// theta_g'' [rad/s^2] in a mode, 0 while stuck [YehWu2009, eq. 18-19].
-  template <class S>
-  S acceleration(const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  S acceleration(const M<S>& at, Mode mode) const {
     return mode.motion == Motion::stuck ? S(T(0)) : acceleration(side_torques(at, mode.motion), at, mode);
   }
 

@@ -35,6 +35,12 @@ inline constexpr Unit newton_metre_per_second{"Nm_per_s", "N m/s"};
 inline constexpr Unit newton_metre_per_radian{"Nm_per_rad", "N m/rad"};
 inline constexpr Unit newton_metre_second_per_radian{"Nms_per_rad", "N m s/rad"};
 inline constexpr Unit kilogram_square_metre{"kgm2", "kg m^2"};
+inline constexpr Unit volt{"V", "V"};
+inline constexpr Unit ampere{"A", "A"};
+inline constexpr Unit ohm{"ohm", "ohm"};
+inline constexpr Unit henry{"H", "H"};
+inline constexpr Unit newton_metre_per_ampere{"Nm_per_A", "N m/A"};
+inline constexpr Unit volt_per_newton_metre{"V_per_Nm", "V/(N m)"};
 }  // namespace unit
 
 }  // namespace wormdrive

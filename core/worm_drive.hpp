@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <type_traits>
 
 #include <Eigen/Core>
 #include <ceres/jet.h>
@@ -10,25 +11,31 @@
 #include "core/elastic/observation.hpp"
 #include "core/numbers/rounded.hpp"
 #include "core/numbers/series.hpp"
+#include "core/states/winding.hpp"
 #include "core/torque_balance.hpp"
 
 namespace wormdrive {
 
 /// The rigid worm drive as a hybrid system: in every mode its torque balance, between modes guards and a jump.
-template <class T, class Load>
+/// With states it carries those of its effects, which go on at rest: rest is then a mode to integrate as well.
+template <class T, class Load, bool with_states = false>
 class WormDrive : public TorqueBalance<T, Load> {
   using Balance = TorqueBalance<T, Load>;
 
  public:
   using Balance::acceleration, Balance::beyond_surface, Balance::effects, Balance::fastest_input, Balance::inputs,
-      Balance::Jg, Balance::mesh, Balance::moment, Balance::side_torques, Balance::signed_friction, Balance::surface;
+      Balance::Jg, Balance::mesh, Balance::moment, Balance::motor_command, Balance::side_torques,
+      Balance::signed_friction, Balance::surface;
   template <class S>
   using SideTorques = typename Balance::template SideTorques<S>;
 
-  static constexpr int state_size = 2;
-  using State = Eigen::Matrix<T, 2, 1>;     ///< theta_g [rad], theta_g' [rad/s]
-  using Jacobian = Eigen::Matrix<T, 2, 2>;  ///< d(theta_g', theta_g'')/d(theta_g, theta_g')
+  static constexpr int shaft_count = 1;
+  static constexpr int state_size = 2 + (with_states ? int{effect_state_count} : 0);
+  using State = Eigen::Matrix<T, state_size, 1>;              ///< theta_g [rad], theta_g' [rad/s], those of the effects
+  using Jacobian = Eigen::Matrix<T, state_size, state_size>;  ///< of the derivative to the state
   using Mode = wormdrive::Mode;
+  template <class S>
+  using MomentHere = std::conditional_t<with_states, MomentOfEffects<S>, Moment<S>>;
 
   static constexpr int guard_count = 2;
   static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
@@ -46,35 +53,63 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   // ---- continuous motion --------------------------------------------------------------------------------------
 
-  [[gnu::always_inline]] Moment<T> moment(const Instant& now) const {
-    return resting(moment(T(now.t), now.x[0], now.x[1]), now);
+  [[gnu::always_inline]] MomentHere<T> moment(const Instant& now) const {
+    return resting(moment_at(T(now.t), now.x), now);
   }
 
   State derivative(double t, const State& x, Mode mode) const {
-    return {mode.motion == Motion::stuck ? T(0) : x[1], acceleration(moment(T(t), x[0], x[1]), mode)};
+    const MomentHere<T> at = moment_at(T(t), x);
+    State rate;
+    rate[0] = mode.motion == Motion::stuck ? T(0) : x[1];
+    rate[1] = acceleration(at, mode);
+    if constexpr (with_states) {
+      const auto of_effects = state_rates(at);
+      std::copy(of_effects.begin(), of_effects.end(), rate.data() + 2);
+    }
+    return rate;
   }
 
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
   Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
-    using Jet = ceres::Jet<double, 2>;
-    const Jet a = acceleration(moment(Jet(t), Jet(x[0], 0), Jet(x[1], 1)), mode);
-    if (mode.motion == Motion::stuck) return Jacobian::Zero();
-    return (Jacobian() << 0.0, 1.0, a.v[0], a.v[1]).finished();
+    using Jet = ceres::Jet<double, state_size>;
+    std::array<Jet, state_size> state;
+    for (int k = 0; k < state_size; ++k) state[k] = Jet(x[k], k);
+    const MomentHere<Jet> at = moment_at(Jet(t), state);
+    const Jet a = acceleration(at, mode);
+    Jacobian J = Jacobian::Zero();
+    if (mode.motion != Motion::stuck) {
+      J(0, 1) = 1.0;
+      J.row(1) = a.v.transpose();
+    }
+    if constexpr (with_states) {
+      const auto of_effects = state_rates(at);
+      for (int k = 2; k < state_size; ++k) J.row(k) = of_effects[k - 2].v.transpose();
+    }
+    return J;
   }
 
-  /// Time, angle and speed along the motion in the present mode, as power series to order N; with Rounded for a scalar
-  /// every coefficient knows its rounding.
+  /// Time, angle, speed and the states of effects along the motion in the present mode, as power series to order N;
+  /// with Rounded for a scalar every coefficient knows its rounding.
   template <int N, class C = T>
-  Moment<Series<C, N>> ahead(const Instant& now) const {
+  MomentHere<Series<C, N>> ahead(const Instant& now) const {
     using Flow = Series<C, N>;
-    Moment<Flow> at = moment(Flow::variable(C(now.t)), Flow(now.x[0]), Flow(now.x[1]));
+    MomentHere<Flow> at = moment_at(Flow::variable(C(now.t)), now.x);
     if constexpr (N > 0) {
+      const MomentHere<C> here = resting(moment_at(C(now.t), now.x), now);
       at.theta_g[1] = now.x[1];
-      at.omega_g[1] = acceleration(resting(moment(C(now.t), C(now.x[0]), C(now.x[1])), now), now.mode);
+      at.omega_g[1] = acceleration(here, now.mode);
+      if constexpr (with_states) {
+        const auto rates = state_rates(here);
+        for (std::size_t j = 0; j < rates.size(); ++j) at.states[j][1] = rates[j];
+      }
       this->turn_worm(at);
     }
     for (int k = 1; k < N; ++k) {
       const Flow a = acceleration(at, now.mode);
+      if constexpr (with_states) {
+        const auto rates = state_rates(at);
+        for (std::size_t j = 0; j < rates.size(); ++j) at.states[j][k + 1] = rates[j][k] / C(k + 1);
+      }
       at.theta_g[k + 1] = at.omega_g[k] / C(k + 1);
       at.omega_g[k + 1] = a[k] / C(k + 1);
       this->turn_worm(at);
@@ -83,16 +118,19 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 
   /// The state at a moment, in the order of State.
-  template <class S>
-  static std::array<S, state_size> state_at(const Moment<S>& at) {
-    return {at.theta_g, at.omega_g};
+  template <class S, template <class> class M>
+  static std::array<S, state_size> state_at(const M<S>& at) {
+    std::array<S, state_size> state{at.theta_g, at.omega_g};
+    if constexpr (with_states) std::copy(at.states.begin(), at.states.end(), state.begin() + 2);
+    return state;
   }
 
   // ---- events -------------------------------------------------------------------------------------------------
 
-  static bool at_rest(Mode mode) { return mode.motion == Motion::stuck; }
+  /// Whether nothing changes but the inputs.
+  static bool at_rest(Mode mode) { return !with_states && mode.motion == Motion::stuck; }
   /// Whether the gear moves and has no speed yet.
-  static bool leaves_rest(const Instant& now) { return !at_rest(now.mode) && now.x[1] == T(0); }
+  static bool leaves_rest(const Instant& now) { return now.mode.motion != Motion::stuck && now.x[1] == T(0); }
 
   /// A state with its speed as the mode has it: rounding leaves it on either side of zero at a reversal.
   static Instant within_mode(Instant now) {
@@ -102,8 +140,8 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in
   /// its direction and the distance to the switching surface, while stuck the margins to break-in, in rad/s^2.
-  template <class S>
-  std::array<S, guard_count> guards(const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  std::array<S, guard_count> guards(const M<S>& at, Mode mode) const {
     if (mode.motion == Motion::stuck)
       return {-release_acceleration(at, Motion::forward), release_acceleration(at, Motion::backward)};
     const S speed = T(sign(mode.motion)) * at.omega_g;
@@ -112,7 +150,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 
   /// Sizes of the terms of which the guards of a moving drive are the sums: what their rounding is a share of.
-  std::array<double, guard_count> guard_terms(const Moment<double>& at,
+  std::array<double, guard_count> guard_terms(const MomentHere<double>& at,
                                               Mode mode) const requires std::same_as<T, double> {
     const SideTorques<double> tau = side_torques(at, mode.motion);
     return {std::abs(at.omega_g), std::abs(tau.worm) + std::abs(tau.worm - beyond_surface(tau, at))};
@@ -120,6 +158,7 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   /// Values and rates of the guards along the motion.
   std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
+    if constexpr (with_states) return guards(ahead<1>(now), now.mode);
     // what ahead<1> finds, without the rate of the acceleration, which would be thrown away
     Series<T, 1> theta_g(now.x[0]), omega_g(now.x[1]);
     theta_g[1] = now.x[1];
@@ -165,7 +204,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   // ---- what is reported ---------------------------------------------------------------------------------------
 
   Observation observe(const Instant& now) const requires std::same_as<T, double> {
-    const Moment<double> at = moment(now);
+    const MomentHere<double> at = moment(now);
     const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
     const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
     return {.theta_g = now.x[0],
@@ -175,20 +214,36 @@ class WormDrive : public TorqueBalance<T, Load> {
             .tau_l = input.gear,
             .normal_force = mesh().normal_force(this->along_gear(tau.worm, at), tau.gear, Jg() * alpha, now.mode,
                                                 signed_friction(at, now.mode)),
-            .mode = now.mode};
+            .mode = now.mode,
+            .winding = winding(effects(), motor_command(at.t), at)};
   }
 
  private:
+  /// A moment from a state, whatever its scalar.
+  template <class S, class X>
+  [[gnu::always_inline]] MomentHere<S> moment_at(const S& t, const X& x) const {
+    if constexpr (with_states) {
+      MomentHere<S> at{Balance::moment(t, S(x[0]), S(x[1])), {}};
+      for (std::size_t k = 0; k < at.states.size(); ++k) at.states[k] = S(x[2 + k]);
+      return at;
+    } else {
+      return Balance::moment(t, S(x[0]), S(x[1]));
+    }
+  }
   template <class S>
-  static Moment<S> resting(Moment<S> at, const Instant& now) {
+  auto state_rates(const MomentOfEffects<S>& at) const {
+    return effects().state_rates(motor_command(at.t), at);
+  }
+  template <class S, template <class> class M>
+  static M<S> resting(M<S> at, const Instant& now) {
     if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
     return at;
   }
   static constexpr int order = 3;  ///< of the series that decide what happens just after an event
 
   /// The acceleration that motion from rest would have, on the flank that this motion would load.
-  template <class S>
-  S release_acceleration(const Moment<S>& at, Motion motion) const {
+  template <class S, template <class> class M>
+  S release_acceleration(const M<S>& at, Motion motion) const {
     return acceleration(at, Mode{motion, flank_at(beyond_surface(at, motion))});
   }
   template <class S>
@@ -206,7 +261,8 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Whether the gear starts from rest in this direction. An acceleration that is not more than what is not known of it
   /// starts nothing: ties mean stick, and the guard of rest finds the moment at which they end.
   bool starts(const Instant& now, Motion motion) const {
-    const Instant rest{now.t, {now.x[0], T(0)}, {}, now.since};
+    Instant rest{now.t, now.x, {}, now.since};
+    rest.x[1] = T(0);
     const Series<Rounded, 1> a = release_acceleration(ahead<1, Rounded>(rest), motion);
     if (!(std::abs(a[0].value) > blur(a, 0, time_resolution(now.t)))) return false;
     return (a[0].value > 0.0) == (motion == Motion::forward);
@@ -216,7 +272,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   Mode moving(const Instant& now, Motion motion) const {
     using std::abs;
     if (!mesh().has_teeth) return {motion, Flank::none};
-    const Moment<T> at = moment(now);
+    const MomentHere<T> at = moment(now);
     const SideTorques<T> tau = side_torques(at, motion);
     const T distance = beyond_surface(tau, at);
     const Flank now_on = flank_at(distance);

@@ -16,30 +16,30 @@ inline GearMesh<double> stated_mesh(const Scenario& scenario) {
 }
 
 /// Builds the drive of a scenario with other effects and another motor torque. Of the effects it has those that are not
-/// taken up by mesh and load.
-template <class LoadParameters>
+/// taken up by mesh and load; without their states, what has a state follows at once.
+template <bool with_states = false, class LoadParameters>
 auto make_drive(const Scenario& scenario, const LoadParameters& parameters, const Effects<double>& effects,
                 const Signal& motor) {
   auto load = make_load(parameters);
   GearMesh<double> mesh = stated_mesh(scenario);
   const Effects<double> left = fold_into_parameters(effects, mesh, load);
-  return WormDrive<double, decltype(load)>(mesh, load, left, motor);
+  return WormDrive<double, decltype(load), with_states>(mesh, load, left, motor);
 }
 
 /// The same, and calls use(drive): its load's type is known from here on.
-template <class Use>
+template <bool with_states = false, class Use>
 decltype(auto) with_drive(const Scenario& scenario, const Effects<double>& effects, const Signal& motor, Use&& use) {
   return std::visit(
       [&](const auto& parameters) {
-        auto drive = make_drive(scenario, parameters, effects, motor);
+        auto drive = make_drive<with_states>(scenario, parameters, effects, motor);
         return use(drive);
       },
       scenario.load);
 }
 /// The same as the scenario states it.
-template <class Use>
+template <bool with_states = false, class Use>
 decltype(auto) with_drive(const Scenario& scenario, Use&& use) {
-  return with_drive(scenario, scenario.effects, scenario.motor, std::forward<Use>(use));
+  return with_drive<with_states>(scenario, scenario.effects, scenario.motor, std::forward<Use>(use));
 }
 
 /// The mesh of a scenario with what its effects add to the inertias and, at the start and after a long rest, to the

@@ -70,6 +70,14 @@ std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) 
   return "";
 }
 
+std::string refusal(const DcMotor<double>& motor, const Scenario& scenario) {
+  if (!motor.has_states() || !has_elastic_teeth(scenario.effects)) return "";
+  return fmt::format(
+      "has inductance_H = {:.6g} H, which makes its current a state, and elastic teeth carry no states of effects; set "
+      "inductance_H = 0, or switch effect.tooth_compliance off",
+      *motor.inductance);
+}
+
 /// Why an effect cannot be on along with another one that is; empty if it can.
 template <class Effect>
 std::string conflict(const Effects<double>& on) {
@@ -160,6 +168,11 @@ std::vector<ControllerRejection> controller_rejections(const Scenario& scenario)
     list.push_back(
         {"kind", "the weights have no stabilising gains in double precision; bring them closer to each other"});
   return list;
+}
+
+std::string taylor_without_states(std::string_view id) {
+  return fmt::format(
+      "run.solver = \"taylor\" carries no states of effects, but effect.{} has one; set run.solver = \"cvode\"", id);
 }
 
 std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {

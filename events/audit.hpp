@@ -133,6 +133,8 @@ class Audit {
     const double swing =
         std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
     steps = std::max(steps, std::lround(finer * swing * span / phase));
+    if constexpr (requires { system_.effects(); })  // a method without a Jacobian has to follow what settles fast
+      steps = std::max(steps, std::lround(finer * system_.effects().fastest_state() * span));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
@@ -165,7 +167,7 @@ class Audit {
     }
     judge(start, end, here, watched, mode_ended && !input_ended, span / static_cast<double>(std::max(1L, solver_steps)),
           std::max(h, 4.0 * time_resolution(end.t)));
-    for (int k = 0; k < System::state_size; k += 2) {
+    for (int k = 0; k < 2 * shaft_count<System>(); k += 2) {
       report_.largest_angle_error = std::max(report_.largest_angle_error, std::abs(now.x[k] - end.x[k]));
       report_.largest_speed_error = std::max(report_.largest_speed_error, std::abs(now.x[k + 1] - end.x[k + 1]));
     }

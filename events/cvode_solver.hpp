@@ -162,7 +162,7 @@ class CvodeSolver {
   }
   /// Whether a moving shaft is so slow that what CVODE may err by could turn it.
   bool creeps(const Instant& now) const {
-    for (int speed = 1; speed < System::state_size; speed += 2)
+    for (int speed = 1; speed < 2 * shaft_count<System>(); speed += 2)
       if (now.x[speed] != 0.0 && std::abs(now.x[speed]) < 100.0 * settings_.absolute_tolerance) return true;
     return false;
   }

@@ -41,6 +41,10 @@ class FirstStep {
       for (int g = 0; g < System::guard_count; ++g) take(guards[g], rounded_guards[g], e.guards[g]);
       h = accuracy_.step(e, h);
     }
+    for (int k = 0; k < others; ++k) {
+      take(flow[2 * shafts + k], rounded[2 * shafts + k], others_[k]);
+      rounding_[shafts + k] = roundings_of_series * rounded[2 * shafts + k][1].rounding;
+    }
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit - now.t ? now.t + h : limit;
     brief_ = end_ == now.t && moves(h);
@@ -62,7 +66,8 @@ class FirstStep {
   }
 
  private:
-  static constexpr int order = 8, shafts = System::state_size / 2;
+  static constexpr int order = 8, shafts = shaft_count<System>();
+  static constexpr int others = System::state_size - 2 * shafts;  ///< states behind those of the shafts
   static constexpr int leading = 4;  ///< coefficients that decide where the motion goes, and are more than rounding
   using Motion = Expansion<System::guard_count>;
 
@@ -83,6 +88,7 @@ class FirstStep {
       then.x[2 * shaft] = value(motion_[shaft].angle(), s);
       then.x[2 * shaft + 1] = value(motion_[shaft].speed(), s);
     }
+    for (int k = 0; k < others; ++k) then.x[2 * shafts + k] = value(Polynomial(others_[k].data(), order + 2), s);
     return system_.within_mode(then);
   }
   /// Whether a speed is another one after s.
@@ -98,17 +104,20 @@ class FirstStep {
     ++looks_;
     const Instant there = after(s);
     const auto rates = system_.derivative(there.t, there.x, there.mode);
-    for (int shaft = 0; shaft < shafts; ++shaft) {
-      const Coefficients& c = motion_[shaft].omega;
+    const auto follows = [&](const Coefficients& c, int state, double rounding) {
       double rate = 0.0, size = 0.0, power = 1.0;
       for (int k = 1; k <= order; ++k, power *= s) {
         rate += k * c[k] * power;
         size += std::abs(k * c[k] * power);
       }
-      const double found = rates[2 * shaft + 1], rounding = 64.0 * std::numeric_limits<double>::epsilon() * size;
-      const double allowed = order * accuracy_.allowed(there.x[2 * shaft + 1]) + accuracy_.relative() * size;
-      if (!(std::abs(found - rate) <= allowed + rounding + rounding_[shaft])) return false;
-    }
+      const double within = 64.0 * std::numeric_limits<double>::epsilon() * size;
+      const double allowed = order * accuracy_.allowed(there.x[state]) + accuracy_.relative() * size;
+      return std::abs(rates[state] - rate) <= allowed + within + rounding;
+    };
+    for (int shaft = 0; shaft < shafts; ++shaft)
+      if (!follows(motion_[shaft].omega, 2 * shaft + 1, rounding_[shaft])) return false;
+    for (int k = 0; k < others; ++k)
+      if (!follows(others_[k], 2 * shafts + k, rounding_[shafts + k])) return false;
     return true;
   }
 
@@ -129,8 +138,9 @@ class FirstStep {
   Instant begin_;
   TaylorAccuracy accuracy_;
   std::array<Motion, shafts> motion_{};
-  std::array<double, shafts> rounding_{};  ///< of the accelerations, whose torques may all but cancel [rad/s^2]
-  double end_ = 0.0, length_ = 0.0;        ///< [s]
+  std::array<Coefficients, others> others_{};
+  std::array<double, shafts + others> rounding_{};  ///< of the rates, whose terms may all but cancel
+  double end_ = 0.0, length_ = 0.0;                 ///< [s]
   bool brief_ = false;
   int fired_ = no_guard;
   long looks_ = 0;

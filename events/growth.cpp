@@ -5,5 +5,6 @@
 namespace wormdrive {
 
 double largest_growth(const Eigen::Matrix4d& J) { return J.eigenvalues().real().maxCoeff(); }
+double largest_growth(const Eigen::Matrix3d& J) { return J.eigenvalues().real().maxCoeff(); }
 
 }  // namespace wormdrive

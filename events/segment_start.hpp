@@ -13,6 +13,15 @@ concept Foresees = requires(const System& system, const typename System::Instant
   system.template ahead<4, Rounded>(now);
 };
 
+/// How many shafts move on their own; the first states are their angles and speeds in turn.
+template <class System>
+constexpr int shaft_count() {
+  if constexpr (requires { System::shaft_count; })
+    return System::shaft_count;
+  else
+    return System::state_size / 2;
+}
+
 /// The guards along the motion from now on as power series of order N, with their rounding.
 template <int N, Foresees System>
 auto guard_series(const System& system, const typename System::Instant& now) {

@@ -13,7 +13,9 @@ decltype(auto) with_solver(const System& system, const SolverSettings& settings,
       TaylorSolver<System> solver(system, settings);
       return use(solver);
     } else {
-      throw SolverFault("the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
+      throw SolverFault(shaft_count<System>() == 1
+                            ? "the solver \"taylor\" carries no states of effects; set run.solver = \"cvode\""
+                            : "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
     }
   }
   CvodeSolver<System> solver(system, settings);

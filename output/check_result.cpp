@@ -75,7 +75,8 @@ void check_diagnosis(hid_t file) {
 void check_run(hid_t file) {
   const StoredTable trajectory(file, "trajectory"), events(file, "events");
   const bool elastic = trajectory.has("gear_motion");
-  check_table(trajectory, descriptions(trajectory_columns(elastic), Axis::rotary), Range::rising, Range::finite);
+  check_table(trajectory, descriptions(trajectory_columns(elastic, trajectory.has("motor_current")), Axis::rotary),
+              Range::rising, Range::finite);
   check_table(events, descriptions(event_columns(elastic), Axis::rotary), Range::ordered, Range::finite);
   if (!has_member(file, "controller")) return;
   const StoredTable controller(file, "controller");

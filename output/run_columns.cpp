@@ -9,18 +9,18 @@ const std::vector<std::int8_t> signs{-1, 0, 1};
 constexpr const char* motions = "backward stuck forward";
 constexpr const char* flanks = "right none left";
 
-/// The columns of a rigid drive's table or, with those of elastic teeth behind them, of a compliant one's.
+/// The columns of a table, with more behind them where there is what they show.
 template <class Source>
-std::vector<RunColumn<Source>> joined(std::vector<RunColumn<Source>> columns, bool elastic,
-                                      const std::vector<RunColumn<Source>>& of_elastic_teeth) {
-  if (elastic) columns.insert(columns.end(), of_elastic_teeth.begin(), of_elastic_teeth.end());
+std::vector<RunColumn<Source>> joined(std::vector<RunColumn<Source>> columns, bool shown,
+                                      const std::vector<RunColumn<Source>>& more) {
+  if (shown) columns.insert(columns.end(), more.begin(), more.end());
   return columns;
 }
 /// Whose speed has the sign of the motion.
 std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
 
-std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic) {
-  const std::vector<RunColumn<Row>> columns{
+std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic, bool winding) {
+  std::vector<RunColumn<Row>> columns{
       {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
       {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
       {{"gear_speed", "rad/s", "gear speed theta_g'"}, [](const Row& r) { return r.at.omega_g; }},
@@ -31,18 +31,25 @@ std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic) {
       {{"motion", "", sign_of_speed(elastic), motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
       {{"flank", "", "flank that carries the load", flanks, signs},
        [](const Row& r) { return sign(r.at.mode.flank); }}};
-  return joined(columns, elastic,
-                {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Row& r) { return r.at.teeth->theta_w; }},
-                 {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Row& r) { return r.at.teeth->omega_w; }},
-                 {{"worm_acceleration", "rad/s^2", "worm acceleration theta_w''"},
-                  [](const Row& r) { return r.at.teeth->alpha_w; }},
-                 {{"deflection", "rad", "gear ahead of worm, theta_g - theta_w / i"},
-                  [](const Row& r) { return r.at.teeth->deflection; }},
-                 {{"friction_force", "N", "friction force Wf between the teeth, positive against forward motion"},
-                  [](const Row& r) { return r.at.teeth->friction; }},
-                 {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
-                   motions, signs},
-                  [](const Row& r) { return sign(r.at.teeth->gear); }}});
+  columns = joined(columns, elastic,
+                   {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Row& r) { return r.at.teeth->theta_w; }},
+                    {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Row& r) { return r.at.teeth->omega_w; }},
+                    {{"worm_acceleration", "rad/s^2", "worm acceleration theta_w''"},
+                     [](const Row& r) { return r.at.teeth->alpha_w; }},
+                    {{"deflection", "rad", "gear ahead of worm, theta_g - theta_w / i"},
+                     [](const Row& r) { return r.at.teeth->deflection; }},
+                    {{"friction_force", "N", "friction force Wf between the teeth, positive against forward motion"},
+                     [](const Row& r) { return r.at.teeth->friction; }},
+                    {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
+                      motions, signs},
+                     [](const Row& r) { return sign(r.at.teeth->gear); }}});
+  return joined(
+      columns, winding,
+      {{{"motor_voltage", "V", "voltage U on the motor's winding"}, [](const Row& r) { return r.at.winding->voltage; }},
+       {{"motor_current", "A", "current I through the motor's winding"},
+        [](const Row& r) { return r.at.winding->current; }},
+       {{"electrical_power", "W", "power U I out of the supply"}, [](const Row& r) { return r.at.winding->power(); }},
+       {{"winding_loss", "W", "heat in the motor's winding"}, [](const Row& r) { return r.at.winding->loss; }}});
 }
 
 /// The kinds of event that a drive can have, as flags: those of a rigid drive come first.
@@ -90,9 +97,11 @@ std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
 
 }  // namespace
 
-const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic) {
-  static const std::vector<RunColumn<Row>> columns[] = {make_trajectory_columns(false), make_trajectory_columns(true)};
-  return columns[elastic ? 1 : 0];
+const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic, bool winding) {
+  static const std::vector<RunColumn<Row>> columns[] = {
+      make_trajectory_columns(false, false), make_trajectory_columns(true, false), make_trajectory_columns(false, true),
+      make_trajectory_columns(true, true)};
+  return columns[(elastic ? 1 : 0) + (winding ? 2 : 0)];
 }
 const std::vector<RunColumn<Event>>& event_columns(bool elastic) {
   static const std::vector<RunColumn<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};

@@ -38,8 +38,8 @@ std::vector<std::vector<double>> values(const std::vector<RunColumn<Source>>& co
   return table;
 }
 
-/// The columns of a run's tables, those of elastic teeth included.
-const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic);
+/// The columns of a run's tables, with those of elastic teeth and of a motor's winding behind them.
+const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic, bool winding);
 const std::vector<RunColumn<Event>>& event_columns(bool elastic);
 const std::vector<RunColumn<ControlRecord>>& controller_columns();
 

@@ -18,6 +18,7 @@ namespace wormdrive {
 struct RunContents {
   bool controlled = false;  ///< there will be samples of a controller
   bool elastic = false;     ///< worm and gear move on their own
+  bool winding = false;     ///< the motor has one
 };
 
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.
@@ -41,7 +42,7 @@ class RunFile {
   using Clock = std::chrono::steady_clock;
 
   PartFile file_;
-  bool elastic_;
+  RunContents contents_;
   std::optional<GrowingTable> trajectory_, events_, controller_;
   Clock::time_point flushed_;
 };

@@ -51,7 +51,8 @@ class DriveRun {
       drive_.enter(0.0);
       start.x = carrying(drive_, 0.0, theta_g, omega_g);
     } else {
-      start.x = {theta_g, omega_g};
+      start.x[0] = theta_g;
+      start.x[1] = omega_g;
     }
     return start;
   }
@@ -143,5 +144,7 @@ RunSummary run_drive(Drive& drive, const Scenario& scenario, const RunListeners&
 
 /// Runs a scenario whose teeth are elastic.
 RunSummary run_compliant(const Scenario& scenario, const RunListeners& listeners);
+/// Runs a scenario whose effects have states.
+RunSummary run_with_states(const Scenario& scenario, const RunListeners& listeners);
 
 }  // namespace wormdrive

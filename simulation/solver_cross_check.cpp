@@ -73,7 +73,8 @@ Disagreement replayed(Drive& drive, const Scenario& scenario, const SolverCrossC
     sampling = {stated.period, stated.offset, drive.effects().measuring_delay()};
   }
   typename Drive::Instant start;
-  start.x = {scenario.initial.theta_g, scenario.initial.omega_g};
+  start.x[0] = scenario.initial.theta_g;
+  start.x[1] = scenario.initial.omega_g;
   Comparison comparison(told.rows);
   RecordedController recorded{told.samples};
   simulate(drive, solver, recorded, Timetable(0.0, scenario.run.duration, scenario.run.rows_every(), sampling), start,
@@ -104,7 +105,8 @@ Scenario with_cvode(Scenario scenario) {
 Disagreement cross_check(const Scenario& scenario) {
   const SolverCrossCheck told = testimony_of(scenario);
   const Scenario again = with_cvode(scenario);
-  return with_drive(again, [&](auto& drive) { return replayed(drive, again, told); });
+  const auto again_by = [&](auto& drive) { return replayed(drive, again, told); };
+  return again.effects.have_states() ? with_drive<true>(again, again_by) : with_drive(again, again_by);
 }
 
 LoopCrossCheck cross_check_in_the_loop(const Scenario& scenario) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/elastic/elastic_teeth.hpp"
+#include "core/states/winding.hpp"
 #include "description/build.hpp"
 #include "output/run_file.hpp"
 
@@ -12,6 +14,11 @@ namespace wormdrive {
 inline std::string describe_solver(const RunSettings& run) {
   if (run.solver == SolverKind::taylor) return fmt::format("taylor (rtol {:g})", run.relative_tolerance);
   return fmt::format("cvode ({}, rtol {:g})", run.method == Method::bdf ? "BDF" : "Adams", run.relative_tolerance);
+}
+
+/// What the run of a scenario will show.
+inline RunContents contents_of(const Scenario& scenario) {
+  return {scenario.control.has_value(), has_elastic_teeth(scenario.effects), dc_motor(scenario.effects).has_value()};
 }
 
 /// Writes the constants of a drive that readers of a run need beside its columns: surface and ratio, if it has a gear.

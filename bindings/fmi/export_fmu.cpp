@@ -89,6 +89,8 @@ constexpr std::string_view platform = sizeof(void*) == 8 ? "linux64" : "linux32"
 
 std::optional<std::string> not_exportable(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
+  if (const auto id = on.first_with_states(); !id.empty())
+    return fmt::format("effect.{} has a state, which the FMU does not carry; set effect.{}.inductance_H = 0", id, id);
   const char* what = on.delay() > 0.0             ? "actuator_delay"
                      : on.lag() > 0.0             ? "actuator_lag"
                      : on.measuring_delay() > 0.0 ? "encoder_delay"

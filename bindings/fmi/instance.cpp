@@ -21,6 +21,8 @@ void FmuInstance::begin() {
   stale_ = false;
   state_.run.reset();
   if (const auto why = why_the_drive_cannot_run(set_)) throw std::invalid_argument(*why);
+  if (const auto id = set_.effects.first_with_states(); !id.empty())
+    throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
   with_drive(set_, [&]<class Drive>(Drive& drive) {
     using Elastic = decltype(CompliantDrive(drive, tooth_contact(set_.effects)));
     if (has_elastic_teeth(set_.effects))

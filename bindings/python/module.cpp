@@ -82,11 +82,12 @@ PYBIND11_MODULE(_core, m) {
   py::class_<RunResult>(m, "Run")
       .def("trajectory",
            [](const RunResult& r) {
-             return table(trajectory_columns(r.elastic()), r.scenario().axis, r.trajectory().rows);
+             return table(trajectory_columns(r.contents().elastic, r.contents().winding), r.scenario().axis,
+                          r.trajectory().rows);
            })
       .def("events",
            [](const RunResult& r) {
-             return table(event_columns(r.elastic()), r.scenario().axis, r.trajectory().events);
+             return table(event_columns(r.contents().elastic), r.scenario().axis, r.trajectory().events);
            })
       .def("controller", [](const RunResult& r) { return table(controller_columns(), r.scenario().axis, r.samples()); })
       .def_property_readonly("controlled", [](const RunResult& r) { return r.scenario().control.has_value(); })

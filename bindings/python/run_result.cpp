@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/elastic/elastic_teeth.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "simulation/write_run.hpp"
 
@@ -47,7 +46,7 @@ void RunResult::run(std::function<void(double)> time) {
   }
 }
 
-bool RunResult::elastic() const { return has_elastic_teeth(scenario_->effects); }
+RunContents RunResult::contents() const { return contents_of(*scenario_); }
 
 std::map<std::string, double> RunResult::metrics() const {
   std::map<std::string, double> all;
@@ -74,7 +73,7 @@ std::map<std::string, long> RunResult::statistics() const {
 
 void RunResult::write(const std::string& path, const std::string& command_line, bool force) const {
   RunFile file(path, {"run", scenario_->title, to_toml(*scenario_), command_line}, scenario_->axis,
-               {scenario_->control.has_value(), elastic()}, force ? Replace::anything : Replace::same_kind);
+               contents_of(*scenario_), force ? Replace::anything : Replace::same_kind);
   write_drive(file.file().file(), *scenario_);
   file.append(trajectory_);
   file.append(samples_);

@@ -23,7 +23,7 @@ class RunResult {
   const Scenario& scenario() const { return *scenario_; }
   const Trajectory& trajectory() const { return trajectory_; }
   const std::vector<ControlRecord>& samples() const { return samples_; }
-  bool elastic() const;
+  RunContents contents() const;
   /// Why the run could not go on, if it could not.
   const std::optional<std::string>& halted() const { return halted_; }
   /// How well the controller did, by the names of the result file; nothing without a controller.

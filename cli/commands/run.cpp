@@ -70,7 +70,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
     for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   }
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
-               {scenario.control.has_value(), has_elastic_teeth(scenario.effects)}, options.replace);
+               contents_of(scenario), options.replace);
   RunSummary summary = run_in_sight(file, scenario, options);
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return summary;

@@ -9,11 +9,11 @@
 #include "cli/report/kinds.hpp"
 #include "cli/run_and_write.hpp"
 #include "cli/shell_words.hpp"
-#include "core/elastic/elastic_teeth.hpp"
 #include "description/diagnostics.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/write_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -64,8 +64,8 @@ ReportPage Viewer::page(const std::map<std::string, double>& values) {
   const Scenario scenario = load_scenario(file_, chosen, Purpose::run);
   const std::string path = folder_ / "run.h5";
   std::filesystem::remove(path);
-  RunFile run(path, {"run", scenario.title, to_toml(scenario), command}, scenario.axis,
-              {scenario.control.has_value(), has_elastic_teeth(scenario.effects)}, Replace::anything);
+  RunFile run(path, {"run", scenario.title, to_toml(scenario), command}, scenario.axis, contents_of(scenario),
+              Replace::anything);
   run_into(run, scenario, {.time = [&](double) {
              if (newest_ != mine) throw Superseded();
            }});

@@ -24,7 +24,6 @@ class CompliantDrive {
   using State = Eigen::Matrix<T, 4, 1>;     ///< theta_w, theta_w', theta_g, theta_g' [rad, rad/s]
   using Jacobian = Eigen::Matrix<T, 4, 4>;  ///< of the derivative to the state
   using Mode = CompliantMode;
-
   static constexpr int guard_count = 6;
 
   /// Time [s], state and mode: all that changes while a drive runs.
@@ -251,7 +250,8 @@ class CompliantDrive {
             .normal_force = Wn,
             .mode = now.mode,
             .teeth = ElasticTeeth{at.theta_w, at.omega_w, a.worm, at.theta_g - at.theta_w / mesh().i,
-                                  friction(at, now.mode, Wn), now.mode.gear}};
+                                  friction(at, now.mode, Wn), now.mode.gear},
+            .winding = winding(effects(), rigid_.motor_command(at.t), at)};
   }
 
  private:

@@ -34,7 +34,8 @@ Power power(const CompliantDrive<double, Load>& drive, const typename CompliantD
   for (const Flank flank : {Flank::left, Flank::right})
     if (const auto [d, v] = drive.penetration(at, flank); d > 0.0)
       loss += ((now.mode.contact == flank ? Wn : 0.0) - drive.contact().stiffness() * d) * v;
-  return {(input.worm + drive.rigid().disturbance()) * at.omega_w, input.gear * at.omega_g, loss};
+  return from_supply_on({(input.worm + drive.rigid().disturbance()) * at.omega_w, input.gear * at.omega_g, loss},
+                        drive.effects(), winding(drive.effects(), drive.rigid().motor_command(at.t), at), at.omega_w);
 }
 
 }  // namespace wormdrive

@@ -15,6 +15,15 @@ struct ElasticTeeth {
   Motion gear;        ///< sign of the gear speed; forward throughout where the gear shaft has no dry friction
 };
 
+/// What the winding of a motor shows beside, in SI.
+struct Winding {
+  double voltage;  ///< U [V]
+  double current;  ///< I [A]
+  double loss;     ///< heat, resistance I^2 [W]
+
+  double power() const { return voltage * current; }  ///< out of the supply [W]
+};
+
 /// What a drive shows at one instant, in SI.
 struct Observation {
   double theta_g;                       ///< gear angle [rad]
@@ -25,6 +34,7 @@ struct Observation {
   double normal_force;                  ///< Wn [N]
   Mode mode;                            ///< of elastic teeth the worm's motion
   std::optional<ElasticTeeth> teeth{};  ///< of elastic teeth only
+  std::optional<Winding> winding{};     ///< of a motor with a winding only
 };
 
 }  // namespace wormdrive

@@ -91,6 +91,9 @@ class ScenarioReader {
             "solver",
             "run.solver = \"taylor\" supports rigid teeth only, but effect.tooth_compliance makes them elastic; set "
             "run.solver = \"cvode\"");
+      if (const auto id = scenario_.effects.first_with_states();
+          purpose != Purpose::show && scenario_.run.solver == SolverKind::taylor && !id.empty())
+        run.fault("solver", taylor_without_states(id));
       scenario_.run.method =
           run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();

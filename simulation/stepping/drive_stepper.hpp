@@ -33,7 +33,7 @@ class DriveStepper final : public SteppedDrive {
   }
   StepPlace place() const override {
     const auto& x = progress_.now.x;
-    constexpr int gear = Drive::state_size - 2;
+    constexpr int gear = 2 * shaft_count<Drive>() - 2;
     return {x[gear], x[gear + 1], progress_.now.mode};
   }
   std::array<long, event_kind_count> events() const override {
@@ -90,10 +90,12 @@ class DriveStepper final : public SteppedDrive {
     drive_.rewind();
     drive_.enter(0.0);
     Instant start;
-    if constexpr (requires { carrying(drive_, 0.0, 0.0, 0.0); })
+    if constexpr (requires { carrying(drive_, 0.0, 0.0, 0.0); }) {
       start.x = carrying(drive_, 0.0, start_.theta_g, start_.omega_g);
-    else
-      start.x = {start_.theta_g, start_.omega_g};
+    } else {
+      start.x[0] = start_.theta_g;
+      start.x[1] = start_.omega_g;
+    }
     start.mode = drive_.settle(start);
     drive_.next_knot(0.0);
     progress_ = {Timetable(0.0, never, never), start, EventLog()};
@@ -105,7 +107,7 @@ class DriveStepper final : public SteppedDrive {
     const Instant& now = progress_.now;
     to.push_back(now.t);
     to.insert(to.end(), now.x.data(), now.x.data() + Drive::state_size);
-    if constexpr (Drive::state_size == 2) {
+    if constexpr (shaft_count<Drive>() == 1) {
       to.insert(to.end(), {double(sign(now.mode.motion)), double(sign(now.mode.flank)), now.since});
     } else {
       to.insert(to.end(), {double(sign(now.mode.worm)), double(sign(now.mode.contact)), double(sign(now.mode.gear))});
@@ -130,7 +132,7 @@ class DriveStepper final : public SteppedDrive {
     if (!is_sign(mode[0]) || !is_sign(mode[1])) return false;
     const auto motion = static_cast<Motion>(static_cast<int>(mode[0]));
     const auto flank = static_cast<Flank>(static_cast<int>(mode[1]));
-    if constexpr (Drive::state_size == 2) {
+    if constexpr (shaft_count<Drive>() == 1) {
       now.mode = {motion, flank};
       now.since = mode[2];
     } else {
@@ -177,5 +179,7 @@ std::unique_ptr<SteppedDrive> stepper_of(Drive drive, const Scenario& scenario, 
 
 /// The drive of a scenario whose teeth are elastic.
 std::unique_ptr<SteppedDrive> make_compliant_stepper(const Scenario& scenario);
+/// The drive of a scenario whose effects have states.
+std::unique_ptr<SteppedDrive> make_stepper_with_states(const Scenario& scenario);
 
 }  // namespace wormdrive

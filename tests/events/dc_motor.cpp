@@ -1,0 +1,160 @@
+#include <cmath>
+#include <complex>
+#include <optional>
+
+#include <Eigen/LU>
+
+#include "catch.hpp"
+#include "support.hpp"
+
+// A motor with a winding against closed forms: the linear machine, its torque-speed line, the rise of the current at
+// rest and the break-away that it brings.
+
+namespace wormdrive::test::events_dc_motor {
+
+namespace {
+
+/// A motor of some 30 W on its amplifier of 1 V per N m: commands are voltages.
+DcMotor<double> motor(double inductance) {
+  DcMotor<double> m;
+  m.resistance = 1.2;
+  m.torque_constant = 0.025;
+  m.inductance = inductance;
+  m.amplifier_gain = 1.0;
+  return m;
+}
+
+template <class Load>
+auto drive_with_states(const GearMesh<double>& mesh, const Load& load, const Signal& volts, const Effects<double>& on) {
+  using Made = decltype(make_load(load));
+  return WormDrive<double, Made, true>(mesh, make_load(load), on, volts);
+}
+
+/// x(t) of x' = A x + c from x(0), by the formula for two states.
+Eigen::Vector2d linear_motion(const Eigen::Matrix2d& A, const Eigen::Vector2d& c, const Eigen::Vector2d& start,
+                              double t) {
+  const Eigen::Vector2d rest = -A.inverse() * c;
+  const double s = 0.5 * A.trace();
+  const std::complex<double> q = std::sqrt(std::complex<double>(s * s - A.determinant()));
+  const double cosh = std::real(std::cosh(q * t)), sinh = std::real(std::sinh(q * t) / q);
+  const Eigen::Matrix2d e =
+      std::exp(s * t) * (cosh * Eigen::Matrix2d::Identity() + sinh * (A - s * Eigen::Matrix2d::Identity()));
+  return rest + e * (start - rest);
+}
+
+/// C of a signed friction m [YehWu2009, eq. 9].
+double torque_ratio(const MeshParameters<double>& p, double m) {
+  return p.lw / p.lg * (std::cos(p.phi_n) * std::sin(p.lambda) - m * std::cos(p.lambda)) /
+         (std::cos(p.phi_n) * std::cos(p.lambda) + m * std::sin(p.lambda));
+}
+
+}  // namespace
+
+TEST_CASE("speed and current of a motor on one inertia are those of the linear machine to 1e-9") {
+  const double J = 2e-4, b = 1e-5, U = 12.0;
+  const double L = 1.5e-3;
+  const DcMotor<double> m = motor(L);
+  const Effects<double> on = effects(m, WormViscous<double>{b});
+  const auto machine = drive_with_states(GearMesh<double>::without_teeth(J), Signal{}, constant(U), on);
+  const double R = m.resistance, K = m.torque_constant;
+  Eigen::Matrix2d A;
+  A << -b / J, K / J, -K / L, -R / L;
+  for (const By by : {bdf, adams}) {
+    const auto seen = run(machine, Timetable(0, 1, 0.01), {}, tight(by));
+    REQUIRE(seen.rows.size() > 100);
+    for (const auto& row : seen.rows) {
+      const Eigen::Vector2d x = linear_motion(A, {0.0, U / L}, {0.0, 0.0}, row.now.t);
+      REQUIRE(std::abs(row.now.x[1] - x[0]) <= 1e-9 * U / K);
+      REQUIRE(std::abs(row.now.x[2] - x[1]) <= 1e-9 * U / R);
+      REQUIRE(row.seen.winding->current == row.now.x[2]);
+      REQUIRE(row.seen.tau_m == K * row.now.x[2]);
+    }
+  }
+}
+
+TEST_CASE("so they are behind a gear with friction while it moves in one direction") {
+  const MeshParameters<double> p = table1();
+  const double U = 9.0, tau_l = -0.4, b = 1e-6, L = 1.5e-3;
+  const DcMotor<double> m = motor(L);
+  const auto machine =
+      drive_with_states(GearMesh<double>(p), constant(tau_l), constant(U), effects(m, WormViscous<double>{b}));
+  const double R = m.resistance, K = m.torque_constant;
+  typename decltype(machine)::Instant start;
+  start.x << 0.0, 1.0, 5.0;
+  for (const By by : {bdf, adams}) {
+    const auto seen = run(machine, Timetable(0, 0.5, 0.005), start, tight(by));
+    const Mode mode = seen.rows.back().now.mode;
+    REQUIRE(seen.events.size() == 1);  // from rest as stated into the mode
+    REQUIRE(mode.motion == Motion::forward);
+    const double C = torque_ratio(p, mode.product() * p.mu), M = p.Jw * p.i + C * p.Jg;
+    Eigen::Matrix2d A;
+    A << -b * p.i / M, K / M, -K * p.i / L, -R / L;
+    const Eigen::Vector2d c{C * tau_l / M, U / L};
+    for (const auto& row : seen.rows) {
+      const Eigen::Vector2d x = linear_motion(A, c, {1.0, 5.0}, row.now.t);
+      REQUIRE(std::abs(row.now.x[1] - x[0]) <= 1e-9 * U / (K * p.i));
+      REQUIRE(std::abs(row.now.x[2] - x[1]) <= 1e-9 * U / R);
+    }
+  }
+}
+
+TEST_CASE("a winding without inductance gives the torque-speed line, by every solver") {
+  const MeshParameters<double> p = table1();
+  for (const By by : every_solver)
+    for (const double U : {-12.0, -3.0, 6.0, 12.0}) {
+      const DcMotor<double> m = motor(0.0);
+      const auto seen =
+          run(drive(p, fig9_load(), constant(U), effects(m)), Timetable(0, 0.5, 0.01), {}, tight(by, 1e-12));
+      REQUIRE(std::abs(seen.end.x[1]) > 0.5 * std::abs(U) / (m.torque_constant * p.i));
+      for (const auto& row : seen.rows) {
+        const double omega_w = p.i * row.now.x[1], current = (U - m.torque_constant * omega_w) / m.resistance;
+        REQUIRE(std::abs(row.seen.tau_m - m.torque_constant * current) <= 1e-12);
+        REQUIRE(std::abs(row.seen.winding->current - current) <= 1e-12);
+        REQUIRE(row.seen.winding->voltage == U);
+      }
+    }
+}
+
+TEST_CASE("an inductance that falls leads to the motor without one, in proportion") {
+  const MeshParameters<double> p = table1();
+  const auto end_with = [&](double L) {
+    const auto machine = drive_with_states(GearMesh<double>(p), fig9_load(), constant(12.0), effects(motor(L)));
+    return run(machine, Timetable(0, 0.2, 0.2), {}, tight(bdf)).end.x[0];
+  };
+  const double without =
+      run(drive(p, fig9_load(), constant(12.0), effects(motor(0.0))), Timetable(0, 0.2, 0.2), {}, tight(bdf)).end.x[0];
+  const double far = end_with(2e-4) - without, near = end_with(1e-4) - without;
+  REQUIRE(far < 0.0);
+  REQUIRE(std::abs(far / near - 2.0) <= 0.04);
+}
+
+TEST_CASE("at rest the current rises by itself, and the gear breaks away when its torque is reached, also just so") {
+  const MeshParameters<double> p = table1();
+  const double tau_l = -0.5, L = 1.5e-3;
+  const DcMotor<double> m = motor(L);
+  const double R = m.resistance, K = m.torque_constant, tau = L / R;
+  const double needed = -torque_ratio(p, -p.mu) * tau_l / K;  // A
+  REQUIRE(needed > 0.1);
+  for (const By by : {bdf, adams})
+    for (const double excess : {1.0, 1e-3, 1e-6, 1e-9}) {
+      const double U = R * needed * (1.0 + excess);
+      const auto seen = run(drive_with_states(GearMesh<double>(p), constant(tau_l), constant(U), effects(m)),
+                            Timetable(0, 0.1, 1e-3), {}, tight(by));
+      REQUIRE(seen.events.size() >= 1);
+      const auto& away = seen.events.front();
+      REQUIRE(away.before.mode == Mode{});
+      REQUIRE(away.after.mode == Mode{Motion::forward, Flank::right});
+      const double expected = tau * std::log((1.0 + excess) / excess);
+      // what the current errs by, over how fast it approaches what is needed
+      REQUIRE(std::abs(away.before.t - expected) <= tau * 1e-12 * (1.0 + 1.0 / excess));
+      for (const auto& row : seen.rows)
+        if (row.now.t < away.before.t)
+          REQUIRE(std::abs(row.now.x[2] - U / R * (1.0 - std::exp(-row.now.t / tau))) <= 1e-11 * U / R);
+    }
+  const auto held =
+      run(drive_with_states(GearMesh<double>(p), constant(tau_l), constant(R * needed * (1.0 - 1e-9)), effects(m)),
+          Timetable(0, 1.0, 0.1), {}, tight(bdf));
+  REQUIRE(held.events.empty());
+}
+
+}  // namespace wormdrive::test::events_dc_motor
