@@ -23,7 +23,8 @@ struct DcMotor {
   static constexpr std::string_view law =
       "inductance I' = U - resistance I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain "
       "u within +-supply_voltage";
-  static constexpr std::string_view source = "W. Leonhard, Control of Electrical Drives, Springer 2001, section 5.1";
+  static constexpr std::string_view source =
+      "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};
   T torque_constant{};
   std::optional<T> inductance{};
