@@ -66,4 +66,19 @@ TEST_CASE("friction whose effects carry it below zero, to mu_g or beyond eq. 17 
        "s.toml:8:12: error: mesh.friction = 0.25, which may rise to 0.35 with its effects, violates eq. 17, C1 > -Jw i/Jg: C1 = *"}});
 }
 
+TEST_CASE("a motor whose current is a state is rejected with what cannot carry it") {
+  const std::string motor = "[effect.dc_motor]\nresistance_ohm = 1.2\ntorque_constant_Nm_per_A = 0.025\ninductance_H = 1e-3\n";
+  check_rejected(Folder(), {
+      {"power series", edited(with(motor), "duration_s = 0.01", "duration_s = 0.01\nsolver = \"taylor\""),
+       "s.toml:19:10: error: run.solver = \"taylor\" carries no states of effects, but effect.dc_motor has one; set run.solver = \"cvode\""},
+      {"elastic teeth", with(motor + "[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.dc_motor has inductance_H = 0.001 H, which makes its current a state, and elastic teeth carry no states of effects; set inductance_H = 0, or switch effect.tooth_compliance off"},
+      {"no resistance", with("[effect.dc_motor]\nresistance_ohm = 0\ntorque_constant_Nm_per_A = 0.025\n"),
+       "s.toml:20:18: error: effect.dc_motor.resistance_ohm = 0 ohm must be greater than 0 ohm"},
+      {"less than no inductance", with("[effect.dc_motor]\nresistance_ohm = 1\ntorque_constant_Nm_per_A = 0.025\ninductance_H = -1e-3\n"),
+       "s.toml:22:16: error: effect.dc_motor.inductance_H = -0.001 H must be at least 0 H"},
+      {"no torque constant", with("[effect.dc_motor]\nresistance_ohm = 1\n"),
+       "*"}});
+}
+
 }  // namespace wormdrive::test::cli_bad_effects

@@ -246,18 +246,26 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[referenc
 }
 
 TEST_CASE("what cannot be an FMU is refused with a way out, and nothing is written") {
-  check_rejected(Folder(),
-                 {{"a delay",
-                   good_scenario + "[effect.actuator_delay]\ndelay_s = 1e-3\n",
-                   "s.toml: error: effect.actuator_delay needs a memory of the past, which an FMU for model "
-                   "exchange does not have; switch it off (effect.actuator_delay.on = false) and add the delay "
-                   "or lag outside the FMU in the importing tool",
-                   {"fmu", "s.toml"},
-                   true},
-                  {"a place that cannot be written",
-                   good_scenario,
-                   "wormdrive: cannot write nowhere/a.fmu.part: No such file or directory",
-                   {"fmu", "s.toml", "-o", "nowhere/a.fmu"},
-                   true,
-                   4}});
+  check_rejected(
+      Folder(),
+      {{"a delay",
+        good_scenario + "[effect.actuator_delay]\ndelay_s = 1e-3\n",
+        "s.toml: error: effect.actuator_delay needs a memory of the past, which an FMU for model "
+        "exchange does not have; switch it off (effect.actuator_delay.on = false) and add the delay "
+        "or lag outside the FMU in the importing tool",
+        {"fmu", "s.toml"},
+        true},
+       {"a winding",
+        good_scenario +
+            "[effect.dc_motor]\nresistance_ohm = 1.2\ntorque_constant_Nm_per_A = 0.025\ninductance_H = 1e-3\n",
+        "s.toml: error: effect.dc_motor has a state, which the FMU does not carry; set "
+        "effect.dc_motor.inductance_H = 0",
+        {"fmu", "s.toml"},
+        true},
+       {"a place that cannot be written",
+        good_scenario,
+        "wormdrive: cannot write nowhere/a.fmu.part: No such file or directory",
+        {"fmu", "s.toml", "-o", "nowhere/a.fmu"},
+        true,
+        4}});
 }
