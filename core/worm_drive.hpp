@@ -84,6 +84,7 @@ class WormDrive : public TorqueBalance<T, Load> {
     if constexpr (with_states) {
       const auto of_effects = state_rates(at);
       for (int k = 2; k < state_size; ++k) J.row(k) = of_effects[k - 2].v.transpose();
+      if (mode.motion == Motion::stuck) J.template leftCols<2>().setZero();  // or pivoting would round the speed off 0
     }
     return J;
   }
@@ -159,7 +160,6 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Values and rates of the guards along the motion.
   std::array<Series<T, 1>, guard_count> guards_ahead(const Instant& now) const {
     if constexpr (with_states) return guards(ahead<1>(now), now.mode);
-    // what ahead<1> finds, without the rate of the acceleration, which would be thrown away
     Series<T, 1> theta_g(now.x[0]), omega_g(now.x[1]);
     theta_g[1] = now.x[1];
     omega_g[1] = acceleration(moment(now), now.mode);
