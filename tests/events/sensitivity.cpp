@@ -58,7 +58,7 @@ void check_effect(const Effect& effect) {
 /// One of every effect of the rigid drive, of a size that shows.
 Effects<double> one_of_each() {
   return effects(TorqueSaturation<double>{0.03}, ActuatorDelay<double>{0.007}, ActuatorLag<double>{0.004},
-                 DcMotor<double>{1.2, 0.025}, TorqueGain<double>{0.05}, TorqueOffset<double>{0.001},
+                 DcMotor<double>{12.0, 0.025}, TorqueGain<double>{0.05}, TorqueOffset<double>{0.001},
                  Cogging<double>{0.001, 2.0, 0.3}, WormCoulomb<double>{0.006}, WormViscous<double>{4e-5},
                  BearingAsymmetry<double>{5e-4, 1e-5}, WormInertia<double>{2e-6}, Agma<double>{0.9},
                  MeshFriction<double>{0.01}, Stribeck<double>{0.03, 0.1, 1.0}, FrictionAsymmetry<double>{0.01},
