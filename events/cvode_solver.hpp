@@ -175,7 +175,7 @@ class CvodeSolver {
     origin_ = ahead_.t;
     check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
     if constexpr (Foresees<System>) friction_changes_ = system_.effects().change_friction();
-    set_longest_step();
+    if (!friction_changes_) set_longest_step(longest_step(ahead_));
     limit_ = std::numeric_limits<double>::quiet_NaN();
     floor_.fill(0.0);
     const auto starts = guard_starts(system_, ahead_, guards_at(ahead_));
@@ -185,6 +185,8 @@ class CvodeSolver {
   }
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
+    if constexpr (Foresees<System>)
+      if (friction_changes_) set_longest_step(shortened_by_growth(longest_step(ahead_)));
     const double from = clock_, before = ripple_rate(system_, ahead_.x);
     const int flag = CVode(memory(), next - origin_, y_.get(), &clock_, CV_ONE_STEP);
     ahead_.t = flag == CV_TSTOP_RETURN ? limit_ : origin_ + clock_;
@@ -194,7 +196,6 @@ class CvodeSolver {
     }
     step_ = clock_ - from;
     ahead_.x = state();
-    if (friction_changes_) set_longest_step();
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
     const double parts = std::max(1.0, std::ceil(ripple * step_ / phase_between_looks(false)));
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
@@ -239,17 +240,21 @@ class CvodeSolver {
     const double omega = system_.fastest_input(now.t);
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
-  /// Tells CVODE its longest step. Friction that falls over the speed makes a motion unstable. In steps that are long
-  /// against its growth an implicit formula damps it, and its own estimate of the error finds nothing wrong.
-  void set_longest_step() {
-    double step = longest_step(ahead_);
-    if constexpr (Foresees<System>)
-      if (friction_changes_) {
-        ++total_.jacobians;
-        if (const double rate = growth(system_, ahead_); rate > 0.0) step = std::min(step, growth_in_a_step / rate);
-      }
-    check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0));
+  /// Friction that falls over the speed makes a motion unstable. In steps that are long against its growth an implicit
+  /// formula damps it, and its own estimate of the error finds nothing wrong. Friction may rest at the start of a step,
+  /// where the load passes through zero, and grow on its way, so both ends count.
+  double shortened_by_growth(double step) {
+    const auto grows_in = [&](double s) {
+      ++total_.jacobians;
+      Instant then = ahead_;
+      then.t += std::min(s, limit_ - ahead_.t);
+      return growth(system_, then);
+    };
+    if (const double rate = grows_in(0.0); rate > 0.0) step = std::min(step, growth_in_a_step / rate);
+    while (std::isfinite(step) && grows_in(step) * step > growth_in_a_step) step *= 0.5;
+    return step;
   }
+  void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
   static constexpr double growth_in_a_step = 0.25;  ///< exponent, well within what formulas of low order follow
 
   void* memory() const { return memory_.get(); }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "catch.hpp"
@@ -79,6 +80,40 @@ TEST_CASE("a gear that only rounding moves off does not creep where friction fal
           CHECK((row.now.x[1] == 0.0 || std::abs(row.now.x[1]) > omega_s));  // not begun, or carried off
         }
       }
+    }
+  }
+}
+
+TEST_CASE("friction that does not fall yet, for the load passes through zero, carries the gear off when it does") {
+  std::mt19937_64 random(61);
+  const auto decades = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution(low, high)(random));
+  };
+  for (int k = 0; k < 40; ++k) {
+    MeshParameters<double> p = table1();
+    const double size = decades(-3.0, 3.0), drop = decades(-3.0, -0.5) * p.mu;
+    p.Jw *= size * decades(-1.0, 1.0);
+    p.Jg *= size * decades(-1.0, 1.0);
+    const GearMesh<double> mesh(p);
+    const double omega_s = decades(-6.0, 2.0), inertia = p.Jw * p.i + mesh.C2() * p.Jg;
+    const double growth = std::abs((mesh.C(drop - p.mu) - mesh.C2()) * size) / inertia / omega_s;
+    // far more growth within a quarter period than takes the gear from a millionth of that speed to it
+    const double frequency = growth / decades(2.5, 5.0);
+    const double hold = *break_in_torques(mesh, -size).forward;
+    const auto wave = [&](double amplitude) {
+      return Signal{{Sinusoid{amplitude, frequency, -0.5 * std::numbers::pi}}};
+    };
+    const Stribeck<double> stribeck{.drop = drop, .speed = std::abs(mesh.sliding_speed(p.i * omega_s))};
+    const auto d = drive(p, wave(-size), wave(hold), effects(stribeck));
+    const double quarter = 0.25 / frequency;
+    for (const By by : every_solver) {
+      auto settings = tight(by, 1e-12);
+      settings.absolute_tolerance = 1e-3 * omega_s;  // which the start is far below
+      CAPTURE(k, size, frequency, growth, omega_s, static_cast<int>(by.solver), static_cast<int>(by.method));
+      const auto r = run(d, Timetable(0.0, quarter, quarter),
+                         {0.0, {0.0, 1e-6 * omega_s}, {Motion::forward, Flank::right}}, settings);
+      CHECK(r.events.empty());
+      CHECK(r.end.x[1] > omega_s);
     }
   }
 }
