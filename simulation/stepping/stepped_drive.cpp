@@ -36,7 +36,7 @@ constexpr std::size_t header_numbers = 5;
 }  // namespace
 
 void reject_impossible_step(double torque, double dt, const StepClock& clock) {
-  if (!std::isfinite(torque)) reject({"step"}, fmt::format("torque = {} N m must be a finite number", torque));
+  if (!std::isfinite(torque)) reject({"step"}, fmt::format("torque = {} must be a finite number", torque));
   if (!std::isfinite(dt) || dt <= 0.0)
     reject({"step"}, fmt::format("dt = {} s must be a finite number greater than 0", dt));
   if (const double t = clock.now(); !(clock.after(dt).now() > t))

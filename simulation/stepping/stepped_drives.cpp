@@ -114,7 +114,7 @@ void SteppedDrives::step(std::span<const double> torques, double dt) {
     reject({"step"}, fmt::format("{} torques for {} drives; state one for each", torques.size(), size()));
   for (std::size_t k = 0; k < size(); ++k)
     if (!std::isfinite(torques[k]))
-      reject({"step"}, fmt::format("torque[{}] = {} N m must be a finite number", k, torques[k]));
+      reject({"step"}, fmt::format("torque[{}] = {} must be a finite number", k, torques[k]));
   halts_ = 0;
   if (registers_)
     step_lanes(torques, dt);

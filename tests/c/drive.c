@@ -46,7 +46,7 @@ int main(void) {
   check(state.time == 0.0 && state.gear_angle == 0.0, "the start again");
 
   check_error(wormdrive_step(drive, NAN, 0.1, &state) == WORMDRIVE_BAD_INPUT,
-              "step: error: torque = nan N m must be a finite number");
+              "step: error: torque = nan must be a finite number");
   check_error(wormdrive_step(drive, 1.0, 0.0, &state) == WORMDRIVE_BAD_INPUT,
               "step: error: dt = 0 s must be a finite number greater than 0");
   check_error(wormdrive_step(NULL, 1.0, 0.1, &state) == WORMDRIVE_BAD_INPUT, "drive is a null pointer");

@@ -83,7 +83,7 @@ class OneDrive(unittest.TestCase):
     def test_faults_are_told_in_one_line(self):
         drive = wormdrive.Drive(FIG09)
         for call, words in (
-                (lambda: drive.step(math.inf, 0.1), "step: error: torque = inf N m must be a finite number"),
+                (lambda: drive.step(math.inf, 0.1), "step: error: torque = inf must be a finite number"),
                 (lambda: drive.step(0.0, -0.1), "step: error: dt = -0.1 s must be a finite number greater than 0"),
                 (lambda: drive.restore(b"x"), "snapshot: error: is none, or of another version of wormdrive"),
                 (lambda: drive.restore(wormdrive.Drive(RUBBING).snapshot()),
@@ -177,7 +177,7 @@ class ManyDrives(unittest.TestCase):
                 (lambda: self.drives.step([0.0], 0.1), "step: error: 1 torques for 37 drives; state one for each"),
                 (lambda: self.drives.step(np.zeros((37, 1)), 0.1),
                  "step: error: torques must be an array of one axis, a torque for each drive"),
-                (lambda: self.drives.step(np.full(37, np.nan), 0.1), "step: error: torque[0] = nan N m must be a finite number"),
+                (lambda: self.drives.step(np.full(37, np.nan), 0.1), "step: error: torque[0] = nan must be a finite number"),
                 (lambda: self.drives.reset(np.array([True])), "drives: error: 1 truth values for 37 drives"),
                 (lambda: self.drives.restore(np.array([99.0, 0.0]).tobytes()), "snapshot: error: is none of drives"),
                 (lambda: wormdrive.Drives(FIG09, 0), "drives: error: count = 0 must be at least 1"),

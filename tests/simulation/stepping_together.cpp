@@ -122,7 +122,7 @@ TEST_CASE("stepping together: what is wrong with a step is said before any drive
   CHECK_THROWS_WITH(drives.step(std::vector<double>{0.0}, 0.01),
                     "step: error: 1 torques for 2 drives; state one for each");
   CHECK_THROWS_WITH(drives.step(std::vector<double>{0.0, std::nan("")}, 0.01),
-                    "step: error: torque[1] = nan N m must be a finite number");
+                    "step: error: torque[1] = nan must be a finite number");
   CHECK_THROWS_WITH(drives.step(std::vector<double>{0.0, 0.0}, -1.0),
                     "step: error: dt = -1 s must be a finite number greater than 0");
   CHECK(drives.time()[0] == 0.0);
