@@ -15,6 +15,7 @@ struct Exactness {
   double relative = 1e-9;   ///< error of the speed, as a share of the highest, and of the angle, as one of the way
   double absolute = 1e-11;  ///< [rad/s]
   double time = 5e-13;      ///< of an event, as a share of its time
+  double angle = 0.0;       ///< error of the angle of a gear that has moved, beside its share of the way [rad]
 };
 
 /// Follows the events that a program reports, in exact arithmetic and in the modes that the program was in, and says
@@ -212,7 +213,9 @@ class Shadow {
   /// times as much.
   double omega_slack(Quad s) const { return omega_error(s) + (several - 1.0) * drift_; }
   static constexpr double several = 8.0;
-  double theta_slack() const { return exactness_.relative * way_ + theta_drift_; }
+  double theta_slack() const {
+    return exactness_.relative * way_ + (way_ > 0.0 ? exactness_.angle : 0.0) + theta_drift_;
+  }
 
   /// What of the pull at rest and of the distance from the surface may be rounding, of torques, time, angle or speed.
   struct Slack {

@@ -37,6 +37,7 @@ struct ProgramRun {
   Modes start{};       ///< behind the settling at the start
   std::vector<Change> changes;
   double theta = 0.0, omega = 0.0;           ///< of the gear at the end
+  long steps = 0;                            ///< of the solver
   std::vector<std::vector<double>> reports;  ///< angle and speed of every shaft at every report
 };
 
@@ -52,6 +53,7 @@ constexpr const char* name(By by) {
 
 /// Relative tolerance of every run; the absolute one is that of a drive that moves a hundredth of a radian in its run.
 inline constexpr double tolerance = 1e-12;
+double absolute_tolerance(const Case& tie, By by);
 
 /// Runs a case by one of the program's solvers.
 ProgramRun run(const Case& tie, By by);

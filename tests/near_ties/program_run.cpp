@@ -67,9 +67,7 @@ Scenario scenario(const Case& tie, By by) {
   s.run.duration = d.end;
   s.run.report_interval = tie.report;
   s.run.relative_tolerance = tolerance;
-  // a hundredth of the relative one is meant for speeds around 1 rad/s; taylor's is an error per second
-  const double slower = std::max(1.0, d.end);
-  s.run.absolute_tolerance = 0.01 * tolerance / (by == By::taylor ? slower * slower : slower);
+  s.run.absolute_tolerance = absolute_tolerance(tie, by);
   s.run.solver = by == By::taylor ? SolverKind::taylor : SolverKind::cvode;
   s.run.method = by == By::adams ? Method::adams : Method::bdf;
   return s;
@@ -129,6 +127,7 @@ ProgramRun run_drive(Drive drive, const Scenario& s, const Case& tie) {
   try {
     with_solver(drive, s.run.solver_settings(), [&](auto& solver) {
       simulate(drive, solver, idle, Timetable(0.0, s.run.duration, s.run.rows_every(), sampling), start, record);
+      result.steps = solver.statistics().steps;
     });
   } catch (const SimulationFailure& halt) {
     result.halt = halt.what();
@@ -150,6 +149,12 @@ ProgramRun run_with(const Scenario& s, const LoadParameters& load, const Case& t
 }
 
 }  // namespace
+
+double absolute_tolerance(const Case& tie, By by) {
+  // a hundredth of the relative one is meant for speeds around 1 rad/s; taylor's is an error per second
+  const double slower = std::max(1.0, tie.drive.end);
+  return 0.01 * tolerance / (by == By::taylor ? slower * slower : slower);
+}
 
 ProgramRun run(const Case& tie, By by) {
   const Scenario s = scenario(tie, by);
