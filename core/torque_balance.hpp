@@ -138,8 +138,15 @@ class TorqueBalance {
 
   template <class S>
   SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
-    return {(input.worm + disturbance_) + effects_.worm_torque(at, motion),
-            input.gear + effects_.gear_torque(at, motion)};
+    const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
+    return {(input.worm + disturbance_) + worm, input.gear + effects_.gear_torque(at, motion)};
+  }
+  /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
+  template <class S>
+  S worm_torque_at_rest(const Moment<S>& at) const {
+    const S idle = effects_.worm_torque(at, Motion::stuck);
+    const S least = effects_.worm_torque(at, Motion::forward), most = effects_.worm_torque(at, Motion::backward);
+    return idle < least ? least : idle > most ? most : idle;
   }
   /// m = motion * flank * mu.
   template <class S>

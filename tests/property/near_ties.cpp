@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
@@ -42,6 +44,38 @@ TEST_CASE("near ties: what starts by less than its rounding starts, and goes on"
   const ProgramRun fast = near_ties::run(make_case(92, 6202), near_ties::By::taylor);
   CHECK(fast.halt.empty());
   CHECK(fast.omega < -1e6);
+}
+
+TEST_CASE(
+    "a bearing that pushes alike in both directions is a constant torque, with elastic teeth and with rigid ones") {
+  int moved = 0;
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    Case bearing = make_case(101, index);
+    if (!bearing.drive.teeth) continue;
+    bearing.drive.worm_coulomb.reset();
+    bearing.drive.torque_gain.reset();
+    double size = 0.0;
+    for (const judge::Term& term : bearing.drive.motor)
+      if (term.kind != judge::Term::Kind::ramp) size += 0.5 * std::abs(term.size);
+    Case constant = bearing;
+    bearing.drive.bearing_asymmetry = judge::BearingAsymmetry{index % 2 == 0 ? size : -size, 0.0};
+    constant.drive.bearing_asymmetry.reset();
+    constant.drive.motor.push_back(judge::constant(-bearing.drive.bearing_asymmetry->torque));
+
+    const ProgramRun pushed = near_ties::run(bearing, near_ties::By::bdf);
+    const ProgramRun shifted = near_ties::run(constant, near_ties::By::bdf);
+    INFO("case " << index << (bearing.elastic ? ", elastic" : ", rigid") << ": " << pushed.halt << shifted.halt);
+    REQUIRE(pushed.reports.size() == shifted.reports.size());
+    double way = 0.0, apart = 0.0;
+    for (std::size_t row = 0; row < pushed.reports.size(); ++row) {
+      const std::size_t gear = pushed.reports[row].size() - 2;
+      way = std::max(way, std::abs(shifted.reports[row][gear] - shifted.reports[0][gear]));
+      apart = std::max(apart, std::abs(pushed.reports[row][gear] - shifted.reports[row][gear]));
+    }
+    moved += way > 1e-6;
+    CHECK(apart <= 1e-5 * way + 1e-12);
+  }
+  CHECK(moved >= 30);
 }
 
 TEST_CASE("the judge of near ties has the events of fig. 9 to the last digit, and objects to a missed or a late one") {
