@@ -34,6 +34,7 @@ def make_locale(folder):
     for name in [name for name in os.environ if name.startswith("LC_") or name == "LANG"]:
         del os.environ[name]
     os.environ.update(LOCPATH=folder, LC_NUMERIC="comma")
+    os.environ.setdefault("ASAN_OPTIONS", "detect_leaks=0")  # the C library never frees its list of LOCPATH
     locale.setlocale(locale.LC_ALL, "")
     strtod = ctypes.CDLL(None).strtod
     strtod.restype = ctypes.c_double

@@ -31,7 +31,7 @@ py::bytes packed(const std::vector<double>& list) {
 std::vector<double> unpacked(const py::bytes& packed) {
   const std::string_view bytes = packed;
   std::vector<double> list(bytes.size() / sizeof(double));
-  std::memcpy(list.data(), bytes.data(), list.size() * sizeof(double));
+  if (!list.empty()) std::memcpy(list.data(), bytes.data(), list.size() * sizeof(double));
   return list;
 }
 

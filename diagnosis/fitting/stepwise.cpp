@@ -10,11 +10,11 @@ bool has_slope(const Coordinate& coordinate) { return !coordinate.stepwise; }
 bool search_steps(const Evaluation& evaluation, Hypothesis& h) {
   const double before = h.objective;
   for (std::size_t k = 0; k < h.free.size(); ++k) {
-    const Coordinate& c = h.free[k];
-    if (has_slope(c)) continue;
+    if (has_slope(h.free[k])) continue;
+    const double low = h.free[k].low, high = h.free[k].high;  // h, and its list with it, is replaced below
     const auto better_by = [&](double factor) {
       Hypothesis trial = h;
-      trial.values[k] = std::clamp(factor * h.values[k], c.low, c.high);
+      trial.values[k] = std::clamp(factor * h.values[k], low, high);
       if (!evaluate(evaluation, trial) || trial.objective >= h.objective) return false;
       h = std::move(trial);
       return true;

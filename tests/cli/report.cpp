@@ -62,7 +62,8 @@ TEST_CASE("a long run is thinned without losing an extreme") {
               .exit == 0);
   REQUIRE(folder.run({"report", "a.h5"}).exit == 0);
   const Hdf5Handle file = open_hdf5(folder / "a.h5");
-  for (const nlohmann::json& panel : data_in(folder.read("a.html")).at("groups").at(0).at("panels")) {
+  const nlohmann::json data = data_in(folder.read("a.html"));
+  for (const nlohmann::json& panel : data.at("groups").at(0).at("panels")) {
     CHECK(panel.at("rows").get<int>() > 100000);
     CHECK(panel.at("over").size() < 9000);
     for (const nlohmann::json& series : panel.at("series")) {

@@ -18,6 +18,7 @@ Diagnosis named(const char* effect, double before, double after) {
   e.floor = 1e-3;
   d.prediction = {e};
   std::vector<Candidate> all(1);
+  all[0].coordinates.resize(1);
   all[0].effect = effect;
   Selection selection;
   selection.base.bic = 0.0;

@@ -116,6 +116,7 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
 
 TEST_CASE("a cause that does most of the work keeps its name beside structure that is left") {
   std::vector<Candidate> all(1);
+  all[0].coordinates.resize(1);
   all[0].effect = "worm_viscous";
   const auto judged = [&](double evidence, double error_after) {
     Selection selection;

@@ -45,7 +45,8 @@ above_rad = 0.1
 
 def limit():
     """Bounds what a child may take."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    if not CHECKED:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
