@@ -23,6 +23,7 @@ sys.path.insert(0, str(PLOT.parent))
 STRIDE = 1 if "--all" in sys.argv else 11
 SCENARIOS = Path(__file__).resolve().parents[2] / "scenarios"
 MEMORY, SECONDS = 3 << 30, 20  # of address space, most of it libraries; of CPU time
+CHECKED = b"san.so" in PROGRAM.read_bytes()  # a memory checker reserves terabytes of address space
 HUGE = 2**40
 TEXT = h5py.string_dtype()
 
