@@ -25,6 +25,8 @@ struct Exactness {
 /// by roundings; what is missed, invented, or decided the other way contradicts the state sooner or later.
 class Shadow {
  public:
+  static constexpr double rounding = 64 * 2.2e-16;  ///< of a torque, as a share of the terms that it is the sum of
+
   /// It gives up after so many steps.
   Shadow(const Drive& drive, Exactness exactness, long most_steps = 6000)
       : course_(drive, most_steps), exactness_(exactness) {}
@@ -48,7 +50,6 @@ class Shadow {
 
  private:
   using Polynomial = EventSequence<Quad>::Polynomial;
-  static constexpr double rounding = 64 * 2.2e-16;  ///< of a torque, as a share of the terms that it is the sum of
 
   bool follow(double to) {
     while (course_.t < Quad(to)) {

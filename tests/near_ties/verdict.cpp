@@ -25,13 +25,30 @@ double largest_delay(const ProgramRun& a, const ProgramRun& b) {
   return delay;
 }
 
+/// The sizes of a torque's terms together [N m].
+double largest(const judge::Torque& torque, double end) {
+  double sum = 0.0;
+  for (const judge::Term& term : torque) {
+    const double per = term.kind == judge::Term::Kind::ramp ? std::min(term.end, end) - term.begin : 1.0;
+    sum += std::abs(term.size) * std::max(per, 0.0);
+  }
+  return sum;
+}
+
+/// What the roundings that a judge allows the torques give the gear in a run, at most [rad/s].
+double speed_by_roundings(const judge::Drive& drive) {
+  const double worm = largest(drive.motor, drive.end) / (drive.i * drive.Jw), gear = largest(drive.load, drive.end);
+  return judge::Shadow::rounding * std::max(worm, gear / drive.Jg) * drive.end;
+}
+
 /// The largest difference between two motions of elastic teeth at their reports, of the angles as a share of the way
 /// and of the speeds as one of the highest; worm and gear both counted at the gear.
 double apart(const ProgramRun& a, const ProgramRun& b, const Case& tie) {
   if (a.reports.size() != b.reports.size()) return 1.0;
   // of angles and of speeds; every step may err by an absolute tolerance, and a thousand of these pass as a thousandth
   const double least = 1e4 * tolerance / std::max(1.0, tie.drive.end);
-  std::array<double, 2> size{least, least}, difference{};
+  const double rounded = 1e3 * speed_by_roundings(tie.drive);  // as much passes as a thousandth
+  std::array<double, 2> size{std::max(least, rounded * tie.drive.end), std::max(least, rounded)}, difference{};
   for (std::size_t row = 0; row < a.reports.size(); ++row)
     for (std::size_t column = 0; column < a.reports[row].size(); ++column) {
       const double per = column < 2 ? tie.drive.i : 1.0, here = a.reports[row][column];
