@@ -362,7 +362,9 @@ class Studies(unittest.TestCase):
             self.assertEqual(wormdrive.sweep("study.toml").summary(), whole)
             os.chdir("/")
 
-            Path(folder, "study.toml").write_text(study.replace("40", "10000000"))
+            long = wormdrive.Scenario(SHORT, run={"duration_s": 1000, "report_interval_s": 0.1})
+            Path(folder, "short.toml").write_text(long.toml)  # trials take long, their file is small
+            Path(folder, "study.toml").write_text(study.replace("40", "20000"))
             with subprocess.Popen([PROGRAM, "sweep", "study.toml", "-q", "-o", "long.h5"], cwd=folder) as process:
                 while not Path(folder, "long.h5.part").exists() or told("long.h5")["trials"] == 0:
                     time.sleep(0.05)
