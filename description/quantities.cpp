@@ -74,6 +74,7 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
   if (!scenario.control) return list;
   const ControlScenario& control = *scenario.control;
   fields(control.sampling, "controller");
+  if (winds_up(control.law)) fields(control.anti_windup, "controller");
   std::visit(
       [&](const auto& law) {
         if constexpr (requires { law.fields(); })

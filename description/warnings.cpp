@@ -18,8 +18,7 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   std::vector<std::string> list;
   if (!scenario.control) return list;
   const NominalSettings& stated = scenario.control->nominal;
-  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
-      !stated.load_torque && !stated.load_constant)
+  if (has_model(scenario.control->law) && !is_estimable(scenario) && !stated.load_torque && !stated.load_constant)
     list.push_back(
         "the controller assumes no load because the load is neither an arm nor a constant; state [controller.nominal]");
   std::string failing;

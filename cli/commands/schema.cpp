@@ -108,6 +108,11 @@ Json controller() {
   const auto add = [&]<class Law>() {
     SchemaTable table = kind_table<Law>(axis);
     table.fields<SamplingSettings>();
+    if (winds_up(Law{})) {
+      const std::vector<std::string> methods(anti_windup_methods.begin(), anti_windup_methods.end());
+      table.with("anti_windup", choice(methods, "what keeps the integral from winding up while the torque is limited"));
+      table.fields<AntiWindupSettings>();
+    }
     table.with("nominal", SchemaTable(axis, "the controller's model of the drive").fields<NominalSettings>().json());
     table.with("variation",
                SchemaTable(axis, "variations that the controller must withstand").fields<Variations>().json());
@@ -140,6 +145,7 @@ Json tables(Axis axis) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));
     root.with("sensor", SchemaTable(axis, "what the controller measures")
+                            .with("shaft", choice({"gear", "worm"}, "where the encoder sits"))
                             .with("speed", choice({"difference", "exact"}, "how the speed is obtained"))
                             .fields<SensorSettings>()
                             .json());

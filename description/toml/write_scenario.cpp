@@ -110,6 +110,11 @@ void write_control(Writer& out, const ControlScenario& control) {
       [&](const auto& law) {
         out.text("kind", std::string(law.kind));
         out.fields(control.sampling);
+        if (winds_up(control.law)) {
+          out.text("anti_windup",
+                   std::string(anti_windup_methods[static_cast<std::size_t>(control.anti_windup.method)]));
+          out.fields(control.anti_windup);
+        }
         if constexpr (requires { law.fields(); })
           out.fields(law);
         else
@@ -122,6 +127,7 @@ void write_control(Writer& out, const ControlScenario& control) {
   out.fields(control.variations);
   write_terms(out, "reference", control.reference);
   out.table("[sensor]");
+  out.text("shaft", control.sensor.on_worm ? "worm" : "gear");
   out.text("speed", control.sensor.exact_speed ? "exact" : "difference");
   out.fields(control.sensor);
   out.table("[disturbance]");

@@ -39,6 +39,7 @@ class Collector {
   }
   void control(ControlScenario& control) {
     table("controller", control.sampling);
+    if (winds_up(control.law)) table("controller", control.anti_windup);
     std::visit(
         [&](auto& law) {
           if constexpr (requires { law.torque; })
