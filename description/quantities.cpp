@@ -46,6 +46,8 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
             const std::string name = sum.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
             if constexpr (requires { term.times; })
               list.push_back({name, "1", "samples", static_cast<double>(term.times.size())});
+            else if constexpr (requires { term.angles; })
+              list.push_back({name, "1", "points of the table", static_cast<double>(term.angles.size())});
             else if constexpr (requires { term.table; })
               list.push_back({name, "1", "points of the table", static_cast<double>(term.table.points().size())});
             else

@@ -97,7 +97,9 @@ void list_torques() {
 }
 
 void list_loads() {
-  fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
+  fmt::print(
+      "loads: [load] kind = \"...\", or several as [[load]], which add up; any torque over time (wormdrive list "
+      "torques), or\n");
   for_each_load([]<class Load>() { print_kind<Load>("file (with x_column, y_column), or angles_deg and torques_Nm"); });
 }
 

@@ -79,11 +79,13 @@ class ControlReader {
     if (!kind) return;
     control.law = make_kind<ControllerParameters>(*kind);
     std::visit([&](auto& law) { read_law(table, law, folder_); }, control.law);
-    if (winds_up(control.law))
+    if (winds_up(control.law)) {
       read_anti_windup(table, control);
-    else if (table.text("anti_windup"))
+    } else if (table.has("anti_windup")) {
+      table.text("anti_windup");
       table.fault("anti_windup",
                   fmt::format("controller.anti_windup needs a law with an integral, and \"{}\" has none", *kind));
+    }
     const bool follows = !std::holds_alternative<OpenLoopParameters>(control.law);
     if (follows && !root_.has("reference")) table.lacks("a [reference] to follow");
     if (root_.faults().empty())

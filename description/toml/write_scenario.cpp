@@ -98,10 +98,12 @@ void write_terms(Writer& out, const std::string& path, const Sum& sum) {
     std::visit([&](const auto& t) { write_kind(out, fmt::format("[[{}]]", path), t); }, term);
 }
 
-void write_load(Writer& out, const Signal& signal) { write_terms(out, "load", signal); }
 template <class Load>
 void write_load(Writer& out, const Load& load) {
-  write_kind(out, "[load]", load);
+  if constexpr (requires { load.terms; })
+    write_terms(out, "load", load);
+  else
+    write_kind(out, "[load]", load);
 }
 
 void write_control(Writer& out, const ControlScenario& control) {
