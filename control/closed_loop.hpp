@@ -43,6 +43,7 @@ class ClosedLoop {
         speed_(sensor.filter_cutoff, sampling.period),
         disturbance_(disturbance, sampling.period),
         exact_speed_(sensor.exact_speed),
+        on_worm_(sensor.on_worm),
         period_(sampling.period),
         delayed_(sampling.delay > 0.5),
         listener_(std::move(listener)) {}
@@ -60,31 +61,34 @@ class ClosedLoop {
     const auto at = system.moment(now);
     const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
     if (!latched_.empty()) latched_.pop_front();
-    const double angle = encoder_(shown.angle, k_);
+    const double limit = system.torque_limit();
+    const double angle =
+        on_worm_ ? encoder_(system.mesh().i * shown.angle, k_) / system.mesh().i : encoder_(shown.angle, k_);
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
-    const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired};
+    const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired,
+                        left_, limit};
     const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
-    const double torque = delayed_ ? std::exchange(pending_, decided.torque) : decided.torque;
-    const double limit = system.torque_limit();
-    const double applied = std::clamp(torque, -limit, limit);
+    const double before = std::exchange(left_, std::clamp(decided.torque, -limit, limit));
+    const double applied = delayed_ ? before : left_;
     system.disturb(disturbance);
     listener_(ControlRecord{at.theta_g, m, decided, applied, disturbance});
     return applied;
   }
 
  private:
-  /// What the sensor sees of the gear; of the speed only where that is asked for.
+  /// What the sensor sees of the gear, as the worm shows it if it sits there; of the speed only where that is asked
+  /// for.
   struct Seen {
     double angle, speed;
   };
   template <class System>
   Seen seen(const System& system, const typename System::Instant& now) const {
-    if (!exact_speed_) return {system.measured_angle(now), 0.0};
+    if (!exact_speed_ && !on_worm_) return {system.measured_angle(now), 0.0};
     const auto at = system.moment(now);
-    Series<double, 1> angle(at.theta_g);
-    angle[1] = at.omega_g;
+    Series<double, 1> angle(on_worm_ ? at.theta_w / system.mesh().i : at.theta_g);
+    angle[1] = on_worm_ ? at.omega_w / system.mesh().i : at.omega_g;
     const Series<double, 1> measured = system.effects().measured_angle(angle);
     return {measured[0], measured[1]};
   }
@@ -94,13 +98,13 @@ class ClosedLoop {
   Encoder encoder_;
   SpeedEstimator speed_;
   TorqueDisturbance disturbance_;
-  bool exact_speed_;
+  bool exact_speed_, on_worm_;
   double period_;
   bool delayed_;
   Listener listener_;
   std::deque<Seen> latched_;  ///< for the samples to come, where they see what was
   std::uint64_t k_ = 0;
-  double pending_ = 0.0;
+  double left_ = 0.0;  ///< of the torque decided at the sample before, by the limit [N m]
 };
 
 }  // namespace wormdrive

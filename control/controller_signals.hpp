@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "control/reference_point.hpp"
 
 namespace wormdrive {
@@ -11,6 +13,8 @@ struct MeasurementOf {
   V speed;        ///< estimated gear speed [rad/s]
   double period;  ///< time since the previous sample [s]
   ReferencePoint desired;
+  V applied = 0.0;  ///< what the actuator's limit left of the torque decided at the sample before [N m]
+  V limit = std::numeric_limits<double>::infinity();  ///< largest magnitude that it leaves [N m]
 };
 using Measurement = MeasurementOf<double>;
 

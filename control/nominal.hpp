@@ -51,6 +51,11 @@ struct NominalModel {
   double inertia(double C) const { return Jw_i + C * Jg; }
 };
 
+/// The inertia that a linear design sees: the mean of both branches [kg m^2].
+inline double mean_inertia(const NominalModel& nominal) {
+  return 0.5 * (nominal.inertia(nominal.C1) + nominal.inertia(nominal.C2));
+}
+
 /// The stated beliefs, completed by what the drive really is.
 inline NominalModel completed(const NominalSettings& stated, const NominalModel& drive) {
   return {stated.C1.value_or(drive.C1),

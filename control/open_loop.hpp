@@ -13,6 +13,7 @@ namespace wormdrive {
 struct OpenLoopParameters {
   static constexpr std::string_view kind = "open_loop";
   static constexpr std::string_view meaning = "a torque over time, sampled and held";
+  static constexpr bool without_model = true;
   Signal torque;
 };
 

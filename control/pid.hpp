@@ -3,6 +3,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "control/anti_windup.hpp"
 #include "control/compensation.hpp"
 #include "control/controller_signals.hpp"
 #include "control/lemma1.hpp"
@@ -50,11 +51,6 @@ inline bool stabilises(const PidGains& g, double M) {
 /// Gains that minimise the weighted squares for M e'' = u; all 0 where there are none.
 PidGains lqr_gains(const PidParameters& weights, double M);
 
-/// The inertia that the linear design sees: the mean of both branches.
-inline double mean_inertia(const NominalModel& nominal) {
-  return 0.5 * (nominal.inertia(nominal.C1) + nominal.inertia(nominal.C2));
-}
-
 /// PID as linear-quadratic regulator with integral action on the nominal model, with the sliding controller's load
 /// and break-in compensation.
 class PidController {
@@ -63,18 +59,23 @@ class PidController {
       : p_(parameters),
         nominal_(nominal),
         gains_(lqr_gains(parameters, mean_inertia(nominal))),
-        feedforward_(parameters.feedforward * mean_inertia(nominal)) {}
+        feedforward_(parameters.feedforward * mean_inertia(nominal)),
+        per_Ki_(1.0 / gains_.Ki) {}
 
   const PidGains& gains() const { return gains_; }
+  /// Time constant of the anti-windup [s], the geometric mean of reset and derivative time.
+  double tracking_time() const { return std::sqrt(gains_.Kd / gains_.Ki); }
+  void prevent_windup(const IntegralGrowth& growth) { growth_ = growth; }
 
   ControlSignals operator()(const Measurement& m) {
     const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
-    integral_ += e * m.period;
+    integral_ += growth_(e, m.period, (m.applied - decided_) * per_Ki_);
     const double feedback = -(gains_.Ki * integral_ + gains_.Kp * e + gains_.Kd * e_rate);
     const double feedforward = feedforward_ * m.desired.acceleration;
     const double load = nominal_.load(m.angle);
     const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
-    return {feedback + feedforward + compensation, 0.0, 0.0, compensation};
+    decided_ = feedback + feedforward + compensation;
+    return {decided_, 0.0, 0.0, compensation};
   }
 
  private:
@@ -82,7 +83,10 @@ class PidController {
   NominalModel nominal_;
   PidGains gains_;
   double feedforward_;  ///< inertia that feedforward counts on [kg m^2]
+  double per_Ki_;       ///< [rad s/(N m)]
+  IntegralGrowth growth_;
   double integral_ = 0.0;
+  double decided_ = 0.0;  ///< at the sample before [N m]
 };
 
 inline PidController make_controller(const PidParameters& p, const NominalModel& nominal, const Variations&) {

@@ -12,22 +12,23 @@ namespace wormdrive {
 
 /// How the gear angle reaches the controller, and how the speed is made from it.
 struct SensorSettings {
-  double counts{0.0};  ///< of the encoder per turn of the gear; 0: exact
-  double noise{0.0};   ///< standard deviation [rad]
+  double counts{0.0};  ///< of the encoder per turn of its shaft; 0: exact
+  double noise{0.0};   ///< standard deviation on its shaft [rad]
   double seed{1};
   double filter_cutoff{0.0};  ///< of the one-pole low-pass behind the difference [Hz]; 0: none
   bool exact_speed = false;   ///< of the angle that the sensor sees, instead of the filtered difference
+  bool on_worm = false;       ///< the encoder sits on the worm's shaft, and its angle over the ratio is measured
 
   static constexpr auto fields() {
     using P = SensorSettings;
     constexpr Presence o = Presence::optional;
-    return std::tuple{
-        Field{&P::counts, "counts", unit::none, bounds::not_negative, "encoder counts per turn of the gear; 0 is exact",
-              o},
-        Field{&P::noise, "noise", unit::radian, bounds::not_negative, "standard deviation of the measured angle", o},
-        Field{&P::seed, "seed", unit::none, seeds, "seed of the noise", o},
-        Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
-              "cut-off of the speed's low-pass; 0 is none", o}};
+    return std::tuple{Field{&P::counts, "counts", unit::none, bounds::not_negative,
+                            "encoder counts per turn of its shaft; 0 is exact", o},
+                      Field{&P::noise, "noise", unit::radian, bounds::not_negative,
+                            "standard deviation of the angle of the encoder's shaft", o},
+                      Field{&P::seed, "seed", unit::none, seeds, "seed of the noise", o},
+                      Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
+                            "cut-off of the speed's low-pass; 0 is none", o}};
   }
 };
 
@@ -37,14 +38,14 @@ class Encoder {
   explicit Encoder(const SensorSettings& settings)
       : settings_(settings), exact_(settings.noise <= 0.0 && settings.counts <= 0.0) {}
 
-  /// The measured angle [rad] at the k-th sample.
-  double operator()(double theta_g, std::uint64_t k) const {
-    if (exact_) return theta_g;
+  /// The measured angle of its shaft [rad] at the k-th sample.
+  double operator()(double angle, std::uint64_t k) const {
+    if (exact_) return angle;
     if (settings_.noise > 0.0)
-      theta_g += settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
-    if (settings_.counts <= 0.0) return theta_g;
+      angle += settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
+    if (settings_.counts <= 0.0) return angle;
     const double step = 2.0 * std::numbers::pi / settings_.counts;
-    return step * std::floor(theta_g / step + 0.5);
+    return step * std::floor(angle / step + 0.5);
   }
 
  private:

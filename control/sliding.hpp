@@ -6,6 +6,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "control/anti_windup.hpp"
 #include "control/compensation.hpp"
 #include "control/controller_signals.hpp"
 #include "control/lemma1.hpp"
@@ -82,9 +83,24 @@ class SlidingLawOf {
 
   /// load: estimated load torque tau_l_hat at the measured angle [N m].
   [[gnu::always_inline]] ControlSignalsOf<V> operator()(const MeasurementOf<V>& m, const V& load) {
+    integrate((m.angle - m.desired.angle) * m.period);
+    return decide(m, load);
+  }
+  /// Lets the integral of the error grow by itself ...
+  [[gnu::always_inline]] void integrate(const V& growth) { integral_ += growth; }
+  /// ... and decides with what it is now.
+  [[gnu::always_inline]] ControlSignalsOf<V> decide(const MeasurementOf<V>& m, const V& load) const {
     const V e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
-    integral_ += e * m.period;
     const V s = e_rate + twice_lambda_ * e + lambda_squared_ * integral_;
+    const auto [u1, u2] = branches(m, load);
+    const V share = within_limits<V>(s * per_layer_, -1.0, 1.0);
+    const V u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
+    const V compensation = break_in_compensation<V>(C_[0], C_[1], load, m.speed, m.desired.speed, epsilon_);
+    return {u + (surface_ * load + compensation), s, u, compensation};
+  }
+  /// u_1 above the layer and u_2 below it [N m].
+  [[gnu::always_inline]] std::array<V, 2> branches(const MeasurementOf<V>& m, const V& load) const {
+    const V e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
     const V wanted = m.desired.acceleration - twice_lambda_ * e_rate - lambda_squared_ * e;
 
     // Both branches side by side, u_hat / b_hat and the gain k / b_hat with k = beta (D |tau_l_hat| + E + eta) +
@@ -94,12 +110,7 @@ class SlidingLawOf {
     const Both<V> gain = (abs(load) * of_load_ + constant_) + of_input_ * abs(u_hat);
     const Both<V> below = input - gain, above = input + gain;
     const auto forward = goes_forward(m.speed, m.desired.speed);
-    const V u1 = select_steady<V>(forward, below[0], below[1]), u2 = select_steady<V>(forward, above[1], above[0]);
-
-    const V share = within_limits<V>(s * per_layer_, -1.0, 1.0);
-    const V u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
-    const V compensation = break_in_compensation<V>(C_[0], C_[1], load, m.speed, m.desired.speed, epsilon_);
-    return {u + (surface_ * load + compensation), s, u, compensation};
+    return {select_steady<V>(forward, below[0], below[1]), select_steady<V>(forward, above[1], above[0])};
   }
 
  private:
@@ -114,16 +125,43 @@ class SlidingLawOf {
 class SlidingController {
  public:
   SlidingController(const SlidingParameters& parameters, const NominalModel& nominal, const Variations& variations)
-      : nominal_(nominal), law_(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))) {}
+      : nominal_(nominal),
+        law_(parameters, nominal, SlidingBounds(parameters, lemma1(nominal, variations))),
+        lambda_c_(parameters.lambda_c),
+        Phi_(parameters.Phi) {}
 
-  ControlSignals operator()(const Measurement& m) { return law_(m, nominal_.load(m.angle)); }
+  ControlSignals operator()(const Measurement& m) {
+    const double load = nominal_.load(m.angle);
+    if (growth_.method == AntiWindup::none) return law_(m, load);
+    law_.integrate(growth_(m.angle - m.desired.angle, m.period, beyond(m.applied)));
+    before_ = law_.decide(m, load);
+    branches_ = law_.branches(m, load);
+    return before_;
+  }
+  /// Time constant of the anti-windup [s], that of the error within the layer.
+  double tracking_time() const { return 1.0 / lambda_c_; }
+  void prevent_windup(const IntegralGrowth& growth) { growth_ = growth; }
   /// As it was before its first sample.
   const SlidingLawOf<double>& law() const { return law_; }
   const NominalModel& nominal() const { return nominal_; }
 
  private:
+  /// How far the integral lies beyond the value with which the law would have asked for the torque that was applied at
+  /// the sample before: s on its line through the layer, or, where no s asks for it, the edge that comes nearest.
+  double beyond(double applied) const {
+    const auto [u1, u2] = branches_;
+    if (applied == before_.torque || u1 == u2) return 0.0;
+    const double u = before_.u + (applied - before_.torque);
+    const double s = Phi_ * std::clamp((2.0 * u - (u1 + u2)) / (u1 - u2), -1.0, 1.0);
+    return (before_.s - s) / (lambda_c_ * lambda_c_);
+  }
+
   NominalModel nominal_;
   SlidingLawOf<double> law_;
+  double lambda_c_, Phi_;
+  IntegralGrowth growth_;
+  ControlSignals before_{};           ///< at the sample before
+  std::array<double, 2> branches_{};  ///< likewise
 };
 
 inline SlidingController make_controller(const SlidingParameters& p, const NominalModel& nominal,

@@ -221,14 +221,20 @@ struct Effects {
     return through(
         T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.gear_inertia()) { return sum + e.gear_inertia(); });
   }
-  /// Torque of a load with what the effects make of it [N m].
+  /// Torque of a load with what the effects make of it [N m], while the gear moves, or starts to move, in a direction.
   template <class Load, class S>
-  S load_torque(const Load& load, const Moment<S>& at) const {
+  S load_torque(const Load& load, const Moment<S>& at, Motion motion) const {
     Moment<S> seen = at;
     seen.theta_g = through(at.theta_g, [](const auto& e, const S& theta_g) -> decltype(e.loading_angle(theta_g)) {
       return e.loading_angle(theta_g);
     });
-    return through(load.torque(seen), [&](const auto& e, const S& torque) -> decltype(e.load_torque(torque, at)) {
+    const auto stated = [&]() -> S {
+      if constexpr (requires { load.torque(seen, motion); })
+        return load.torque(seen, motion);
+      else
+        return load.torque(seen);
+    };
+    return through(stated(), [&](const auto& e, const S& torque) -> decltype(e.load_torque(torque, at)) {
       return e.load_torque(torque, at);
     });
   }

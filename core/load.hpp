@@ -1,33 +1,38 @@
 #pragma once
-#include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
-#include "core/loads/angle_table.hpp"
-#include "core/loads/gravity_arm.hpp"
-#include "core/loads/timed_load.hpp"
+#include "core/loads/load_sum.hpp"
 
 namespace wormdrive {
 
-/// Every kind of load as it is stated; a new one is a new file and one entry here. It names itself by `kind` and
-/// `meaning` and lists its `fields()`, from which it is read, written and shown.
-using LoadParameters = std::variant<Signal, GravityArm, AngleTable>;
+/// A load as it is stated. A function of time alone, an arm and a table alone are drives of their own, and everything
+/// else is a sum, if only of one.
+using LoadParameters = std::variant<Signal, GravityArm, AngleTable, LoadSum>;
+
+/// What loads that add up come to, each in its plainest form.
+inline LoadParameters load_of(std::vector<LoadTerm> terms) {
+  Signal over_time;
+  for (const LoadTerm& term : terms)
+    std::visit(
+        [&]<class Term>(const Term& t) {
+          if constexpr (is_over_time<Term>) over_time.terms.push_back(t);
+        },
+        term);
+  if (over_time.terms.size() == terms.size()) return over_time;
+  if (terms.size() == 1) {
+    if (const auto* const arm = std::get_if<GravityArm>(&terms.front())) return *arm;
+    if (const auto* const table = std::get_if<AngleTable>(&terms.front())) return *table;
+  }
+  return LoadSum{std::move(terms)};
+}
 
 /// Calls visit.template operator()<Load>() for every kind of load but the functions of time.
 template <class Visit>
 constexpr void for_each_load(Visit&& visit) {
-  [&]<std::size_t... K>(std::index_sequence<K...>) {
-    (visit.template operator()<std::variant_alternative_t<K + 1, LoadParameters>>(), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<LoadParameters> - 1>());
+  [&]<class... Load>(LoadKinds<Load...>) { (visit.template operator()<Load>(), ...); }(SpecialLoads{});
 }
-
-inline TimedLoad make_load(const Signal& signal) { return {signal}; }
-inline GravityLoad make_load(const GravityArm& arm) { return GravityLoad(arm); }
-inline TableLoad make_load(const AngleTable& table) { return TableLoad(table); }
-/// A load that enters the equations as it is stated.
-template <class Load>
-requires requires(const Load& load) { load.next_knot(0.0); }
-Load make_load(const Load& load) { return load; }
 
 }  // namespace wormdrive

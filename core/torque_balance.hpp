@@ -106,14 +106,15 @@ class TorqueBalance {
   struct SideTorques {
     S worm, gear;
   };
-  /// Those of motor and load alone. M is a moment, with the states of effects or without.
+  /// Those of motor and load alone, while the gear moves, or starts to move, in a direction. M is a moment, with the
+  /// states of effects or without.
   template <class S, template <class> class M>
-  SideTorques<S> inputs(const M<S>& at) const {
-    return {effects_.motor_torque(motor_(at.t), at), effects_.load_torque(load_, at)};
+  SideTorques<S> inputs(const M<S>& at, Motion motion) const {
+    return {effects_.motor_torque(motor_(at.t), at), effects_.load_torque(load_, at, motion)};
   }
   template <class S, template <class> class M>
   SideTorques<S> side_torques(const M<S>& at, Motion motion) const {
-    return side_torques(inputs(at), at, motion);
+    return side_torques(inputs(at, motion), at, motion);
   }
 
   /// Coefficient of friction between the teeth while the drive moves, or starts to move, in a direction.
@@ -148,6 +149,14 @@ class TorqueBalance {
     const S least = effects_.worm_torque(at, Motion::forward), most = effects_.worm_torque(at, Motion::backward);
     return idle < least ? least : idle > most ? most : idle;
   }
+  /// Whether what acts on a shaft depends on the direction of its motion, whatever its speed.
+  bool worm_is_dry() const {
+    return depends_on_motion([this](Motion motion) { return effects_.worm_torque(turning(), motion); });
+  }
+  bool gear_is_dry() const {
+    return depends_on_motion([this](Motion motion) { return effects_.gear_torque(turning(), motion); }) ||
+           depends_on_motion([this](Motion motion) { return effects_.load_torque(load_, turning(), motion); });
+  }
   /// m = motion * flank * mu.
   template <class S>
   S signed_friction(const Moment<S>& at, Mode mode) const {
@@ -181,6 +190,12 @@ class TorqueBalance {
   }
 
  private:
+  static Moment<T> turning() { return {T(0), T(0), T(1), T(1), T(0)}; }
+  template <class Torque>
+  static bool depends_on_motion(Torque torque) {
+    return torque(Motion::forward) != torque(Motion::backward);
+  }
+
   GearMesh<T> mesh_;
   Load load_;
   Effects<T> effects_;

@@ -205,7 +205,7 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const MomentHere<double> at = moment(now);
-    const SideTorques<double> input = inputs(at), tau = side_torques(input, at, now.mode.motion);
+    const SideTorques<double> input = inputs(at, now.mode.motion), tau = side_torques(input, at, now.mode.motion);
     const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
     return {.theta_g = now.x[0],
             .omega_g = now.x[1],

@@ -24,7 +24,26 @@ inline std::optional<double> constant_torque(const Signal& signal) {
   return sum;
 }
 
-/// The drive of a scenario as a nominal model; a load other than an arm or a constant is taken for 0.
+/// Arms and constants that add up are one arm and one constant; whether there is nothing else in a sum.
+inline bool add_to_nominal(const LoadSum& sum, NominalModel& nominal) {
+  std::complex<double> arm;
+  bool whole = true;
+  for (const LoadTerm& term : sum.terms) {
+    if (const auto* const one = std::get_if<GravityArm>(&term)) {
+      const auto [sine, cosine] = sine_and_cosine(one->offset);
+      arm += one->torque_amplitude() * std::complex<double>(cosine, sine);
+    } else if (const auto* const constant = std::get_if<Constant>(&term)) {
+      nominal.load_constant += constant->torque;
+    } else {
+      whole = false;
+    }
+  }
+  nominal.load_torque = std::abs(arm);
+  nominal.load_angle_offset = std::arg(arm);
+  return whole;
+}
+
+/// The drive of a scenario as a nominal model; what a load has beside arms and constants is taken for 0.
 inline NominalModel exact_nominal(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   NominalModel exact{mesh.C1(), mesh.C2(), mesh.Jw * mesh.i, total_gear_inertia(scenario)};
@@ -33,6 +52,8 @@ inline NominalModel exact_nominal(const Scenario& scenario) {
     exact.load_angle_offset = arm->offset;
   } else if (const auto* signal = std::get_if<Signal>(&scenario.load)) {
     exact.load_constant = constant_torque(*signal).value_or(0.0);
+  } else if (const auto* sum = std::get_if<LoadSum>(&scenario.load)) {
+    add_to_nominal(*sum, exact);
   }
   if (const auto& magnitude = std::get<std::optional<LoadMagnitude<double>>>(scenario.effects.list)) {
     exact.load_torque *= 1.0 + magnitude->share;
@@ -60,6 +81,10 @@ inline Variations make_variations(const Scenario& scenario) {
 /// Whether the load is one that a nominal model can describe.
 inline bool is_estimable(const Scenario& scenario) {
   if (std::get<std::optional<LoadSpring<double>>>(scenario.effects.list)) return false;
+  if (const auto* sum = std::get_if<LoadSum>(&scenario.load)) {
+    NominalModel nominal;
+    return add_to_nominal(*sum, nominal);
+  }
   const auto* signal = std::get_if<Signal>(&scenario.load);
   return std::holds_alternative<GravityArm>(scenario.load) || (signal && constant_torque(*signal));
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "control/anti_windup.hpp"
 #include "control/closed_loop.hpp"
 #include "control/controller.hpp"
 #include "control/metrics.hpp"
@@ -9,6 +10,7 @@ namespace wormdrive {
 struct ControlScenario {
   ControllerParameters law;
   SamplingSettings sampling;
+  AntiWindupSettings anti_windup;
   NominalSettings nominal;
   Variations variations;
   Reference reference;

@@ -46,6 +46,8 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
             const std::string name = sum.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
             if constexpr (requires { term.times; })
               list.push_back({name, "1", "samples", static_cast<double>(term.times.size())});
+            else if constexpr (requires { term.angles; })
+              list.push_back({name, "1", "points of the table", static_cast<double>(term.angles.size())});
             else if constexpr (requires { term.table; })
               list.push_back({name, "1", "points of the table", static_cast<double>(term.table.points().size())});
             else
@@ -74,6 +76,7 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
   if (!scenario.control) return list;
   const ControlScenario& control = *scenario.control;
   fields(control.sampling, "controller");
+  if (winds_up(control.law)) fields(control.anti_windup, "controller");
   std::visit(
       [&](const auto& law) {
         if constexpr (requires { law.fields(); })

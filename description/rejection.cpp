@@ -143,7 +143,7 @@ std::optional<std::string> why_it_cannot_move(const Scenario& scenario) {
 
 /// Both branches must have a positive inertia, for the law divides by it, and the linear design a solution.
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario) {
-  if (!scenario.control || std::holds_alternative<OpenLoopParameters>(scenario.control->law)) return {};
+  if (!scenario.control || !has_model(scenario.control->law)) return {};
   std::vector<ControllerRejection> list;
   const NominalModel nominal = make_nominal(scenario);
   for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})

@@ -18,10 +18,11 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   std::vector<std::string> list;
   if (!scenario.control) return list;
   const NominalSettings& stated = scenario.control->nominal;
-  if (!std::holds_alternative<OpenLoopParameters>(scenario.control->law) && !is_estimable(scenario) &&
-      !stated.load_torque && !stated.load_constant)
-    list.push_back(
-        "the controller assumes no load because the load is neither an arm nor a constant; state [controller.nominal]");
+  if (has_model(scenario.control->law) && !is_estimable(scenario) && !stated.load_torque && !stated.load_constant)
+    list.push_back(std::holds_alternative<LoadSum>(scenario.load)
+                       ? "the controller knows arms and constants of the load only; state [controller.nominal]"
+                       : "the controller assumes no load because the load is neither an arm nor a constant; state "
+                         "[controller.nominal]");
   std::string failing;
   for (const Condition& c : lemma1_conditions(scenario))
     if (!c.holds()) failing += fmt::format("{}{}", failing.empty() ? "" : "; ", c.rule);

@@ -32,7 +32,8 @@ bool fits_lane(const Scenario& scenario) {
   const auto& control = scenario.control;
   return control && std::holds_alternative<SlidingParameters>(control->law) && has_lane_plant(scenario) &&
          control->sampling.delay <= 0.5 && control->sensor.counts <= 0.0 && control->sensor.noise <= 0.0 &&
-         !control->sensor.exact_speed && control->disturbance.deviation <= 0.0 && !has_sensor(scenario.effects);
+         !control->sensor.exact_speed && !control->sensor.on_worm && control->disturbance.deviation <= 0.0 &&
+         !has_sensor(scenario.effects);
 }
 
 bool share_samples(const Scenario& a, const Scenario& b) {

@@ -95,8 +95,8 @@ class DriveRun {
       if (listeners_.samples) samples_.push_back(sample);
       if (listeners_.audit) held_.push_back({sample.measured.t, sample.applied, sample.disturbance});
     };
-    ClosedLoop loop(AnyController(control.law, nominal, variations), control.reference, control.sensor,
-                    control.sampling, control.disturbance, listen);
+    ClosedLoop loop(AnyController(control.law, nominal, variations, control.anti_windup), control.reference,
+                    control.sensor, control.sampling, control.disturbance, listen);
     simulate(drive_, solver_, loop, timetable(control), start(), [&](const Drive& drive, const Instant& now) {
       watch.meter.instant(now.t, now.mode);
       record(drive, now);

@@ -23,7 +23,8 @@ inline RestAtStart rest_at_start(const Scenario& scenario) {
     drive.enter(0.0);
     const double at = scenario.initial.theta_g;
     return RestAtStart{break_in_torque(drive, Motion::backward, at, 0.0),
-                       break_in_torque(drive, Motion::forward, at, 0.0), drive.inputs(drive.moment(0.0, at, 0.0)).gear};
+                       break_in_torque(drive, Motion::forward, at, 0.0),
+                       drive.inputs(drive.moment(0.0, at, 0.0), Motion::stuck).gear};
   });
 }
 

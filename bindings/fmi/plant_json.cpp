@@ -69,20 +69,20 @@ Json kind_to_json(const Kind& parameters, Axis axis) {
 
 LoadParameters load_from_json(Json& at, Axis axis) {
   if (at.is_array()) {
-    Signal signal;
+    std::vector<LoadTerm> terms;
     for (Json& one : at) {
-      SignalTerm term = make_kind<SignalTerm>(one.at("kind").get<std::string>());
+      LoadTerm term = make_kind<LoadTerm>(one.at("kind").get<std::string>());
       std::visit([&](auto& parameters) { transfer(Reader{axis}, one, parameters); }, term);
-      signal.terms.push_back(std::move(term));
+      terms.push_back(std::move(term));
     }
-    return signal;
+    return load_of(std::move(terms));
   }
   std::optional<LoadParameters> load;
   for_each_load([&]<class Load>() {
     if (at.at("kind").get<std::string>() != Load::kind) return;
     Load parameters;
     transfer(Reader{axis}, at, parameters);
-    load = parameters;
+    load = load_of({parameters});
   });
   if (!load) throw std::invalid_argument("a load of an unknown kind");
   return *load;
@@ -103,7 +103,7 @@ std::string plant_to_json(const Scenario& scenario) {
       [&]<class Load>(const Load& load) {
         if constexpr (requires { load.terms; }) {
           plant["load"] = Json::array();
-          for (const SignalTerm& term : load.terms)
+          for (const auto& term : load.terms)
             plant["load"].push_back(std::visit([&](const auto& t) { return kind_to_json(t, scenario.axis); }, term));
         } else {
           plant["load"] = kind_to_json(load, scenario.axis);

@@ -26,7 +26,7 @@ auto indicator_scales(const WormDrive<double, Load>& drive, const typename WormD
 template <class Load>
 auto indicator_scales(const CompliantDrive<double, Load>& drive,
                       const typename CompliantDrive<double, Load>::Instant& now) {
-  const double torque = std::abs(drive.rigid().inputs(drive.moment(now)).gear), Jg = drive.rigid().Jg();
+  const double torque = std::abs(drive.rigid().inputs(drive.moment(now), now.mode.gear).gear), Jg = drive.rigid().Jg();
   const double gear = torque > 0.0 ? torque / Jg : 1.0, worm = gear * drive.mesh().i;
   const double force = gear * Jg / drive.mesh().lg;
   const double gap = std::max(0.5 * drive.contact().backlash * drive.mesh().lg, force / drive.contact().stiffness());

@@ -97,7 +97,9 @@ void list_torques() {
 }
 
 void list_loads() {
-  fmt::print("loads: [load] kind = \"...\"; any torque over time (wormdrive list torques), or\n");
+  fmt::print(
+      "loads: [load] kind = \"...\", or several as [[load]], which add up; any torque over time (wormdrive list "
+      "torques), or\n");
   for_each_load([]<class Load>() { print_kind<Load>("file (with x_column, y_column), or angles_deg and torques_Nm"); });
 }
 
@@ -105,11 +107,14 @@ void list_controllers() {
   fmt::print("controllers: [controller] kind = \"...\", with any kind\n");
   print_fields<SamplingSettings>();
   print_kinds<ControllerParameters>("torque: [[controller.torque]], any torque over time (wormdrive list torques)");
+  fmt::print(
+      "of sliding and pid: anti_windup = \"none\", \"back_calculation\", \"conditional\" or \"model_recovery\"\n");
+  print_fields<AntiWindupSettings>();
   fmt::print("its model of the drive: [controller.nominal]\n");
   print_fields<NominalSettings>();
   fmt::print("variations that it must withstand: [controller.variation]\n");
   print_fields<Variations>();
-  fmt::print("what it measures: [sensor] speed = \"difference\" or \"exact\"\n");
+  fmt::print("what it measures: [sensor] shaft = \"gear\" or \"worm\", speed = \"difference\" or \"exact\"\n");
   print_fields<SensorSettings>();
   fmt::print("a random torque on the worm: [disturbance]\n");
   print_fields<DisturbanceSettings>();

@@ -41,7 +41,6 @@ std::vector<Json> any_kind(Axis axis) {
   (std::make_index_sequence<std::variant_size_v<Variant>>());
   return list;
 }
-Json only_one(const Json& one) { return {{"type", "array"}, {"minItems", 1}, {"maxItems", 1}, {"items", one}}; }
 /// One table, or several that add up.
 Json one_or_several(const std::vector<Json>& kinds) { return one_of({one_of(kinds), several(one_of(kinds))}); }
 Json torque(Axis axis) { return one_or_several(any_kind<SignalTerm>(axis)); }
@@ -67,18 +66,14 @@ Json mesh(Axis axis) {
 }
 
 Json load(Axis axis) {
-  std::vector<Json> single = any_kind<SignalTerm>(axis);
-  const Json sum = several(one_of(single));
+  std::vector<Json> kinds = any_kind<SignalTerm>(axis);
   for_each_load([&]<class Load>() {
     if (axis == Axis::linear && std::is_same_v<Load, GravityArm>) return;
     SchemaTable table = kind_table<Load>(axis);
     if constexpr (!requires { Load::fields(); }) table.pairs("angles", unit::degrees, "torques", unit::newton_metre);
-    single.push_back(table.json());
+    kinds.push_back(table.json());
   });
-  // what is no function of time does not add up
-  Json load = Json::object();
-  load["anyOf"] = {one_of(single), sum, only_one(one_of(single))};
-  return load;
+  return one_or_several(kinds);
 }
 
 Json effects(Axis axis) {
@@ -108,6 +103,11 @@ Json controller() {
   const auto add = [&]<class Law>() {
     SchemaTable table = kind_table<Law>(axis);
     table.fields<SamplingSettings>();
+    if (winds_up(Law{})) {
+      const std::vector<std::string> methods(anti_windup_methods.begin(), anti_windup_methods.end());
+      table.with("anti_windup", choice(methods, "what keeps the integral from winding up while the torque is limited"));
+      table.fields<AntiWindupSettings>();
+    }
     table.with("nominal", SchemaTable(axis, "the controller's model of the drive").fields<NominalSettings>().json());
     table.with("variation",
                SchemaTable(axis, "variations that the controller must withstand").fields<Variations>().json());
@@ -140,6 +140,7 @@ Json tables(Axis axis) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));
     root.with("sensor", SchemaTable(axis, "what the controller measures")
+                            .with("shaft", choice({"gear", "worm"}, "where the encoder sits"))
                             .with("speed", choice({"difference", "exact"}, "how the speed is obtained"))
                             .fields<SensorSettings>()
                             .json());

@@ -38,8 +38,18 @@ StaticsMap make_map(const GearMesh<double>& forward, const GearMesh<double>& bac
 
 /// A range that shows the scenario's own load with room around it.
 double sensible_load(const Scenario& scenario) {
-  const auto* gravity_arm = std::get_if<GravityArm>(&scenario.load);
-  const double amplitude = gravity_arm ? std::abs(gravity_arm->torque_amplitude()) : 0.0;
+  double amplitude = 0.0;
+  const auto take = [&](const auto& load) {
+    if constexpr (requires { load.torque_amplitude(); }) amplitude += std::abs(load.torque_amplitude());
+  };
+  std::visit(
+      [&](const auto& load) {
+        if constexpr (requires { load.terms; })
+          for (const auto& term : load.terms) std::visit(take, term);
+        else
+          take(load);
+      },
+      scenario.load);
   return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
 }
 

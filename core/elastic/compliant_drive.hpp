@@ -41,11 +41,8 @@ class CompliantDrive {
     gear_normal_ = teeth.gear_arm(T(0));
     worm_lateral_ = cos(teeth.lambda) * teeth.lw;
     gear_lateral_ = sin(teeth.lambda) * teeth.lg;
-    const Moment<T> turning{T(0), T(0), T(1), T(1), T(0)};
-    const Effects<T>& on = rigid_.effects();
-    worm_is_dry_ = teeth.mu > T(0) || on.change_friction() ||
-                   on.worm_torque(turning, Motion::forward) != on.worm_torque(turning, Motion::backward);
-    gear_is_dry_ = on.gear_torque(turning, Motion::forward) != on.gear_torque(turning, Motion::backward);
+    worm_is_dry_ = teeth.mu > T(0) || effects().change_friction() || rigid_.worm_is_dry();
+    gear_is_dry_ = rigid_.gear_is_dry();
   }
 
   const GearMesh<T>& mesh() const { return rigid_.mesh(); }
@@ -240,7 +237,7 @@ class CompliantDrive {
   Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const Moment<double> at = moment(now);
     const Accelerations<double> a = accelerations(at, now.mode);
-    const auto input = rigid_.inputs(at);
+    const auto input = rigid_.inputs(at, now.mode.gear);
     const double Wn = normal_force(at, now.mode);
     return {.theta_g = at.theta_g,
             .omega_g = at.omega_g,

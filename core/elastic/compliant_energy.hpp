@@ -25,7 +25,7 @@ template <class Load>
 Power power(const CompliantDrive<double, Load>& drive, const typename CompliantDrive<double, Load>::Instant& now) {
   const Moment<double> at = drive.moment(now);
   const GearMesh<double>& mesh = drive.mesh();
-  const auto input = drive.rigid().inputs(at);
+  const auto input = drive.rigid().inputs(at, now.mode.gear);
   const double Wn = drive.normal_force(at, now.mode);
   double loss = drive.friction(at, now.mode, Wn) *
                 (portable::cos(mesh.lambda) * mesh.lw * at.omega_w + portable::sin(mesh.lambda) * mesh.lg * at.omega_g);

@@ -1,5 +1,6 @@
 #include "description/toml/read_control.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,6 +35,9 @@ class ControlReader {
     root_.section("controller", [&](TableReader& controller) { read_controller(controller, control); });
     control.reference = read_reference(root_, folder_);
     root_.section("sensor", [&](TableReader& sensor) {
+      control.sensor.on_worm = sensor.choice("shaft", {"gear", "worm"}, Presence::optional) == "worm";
+      if (control.sensor.on_worm && std::holds_alternative<SingleInertia<double>>(scenario_.mesh))
+        sensor.fault("shaft", "sensor.shaft = \"worm\" needs a worm, but mesh.kind is \"none\"");
       control.sensor.exact_speed = sensor.choice("speed", {"difference", "exact"}, Presence::optional) == "exact";
       sensor.read_fields(control.sensor);
       require_whole(sensor, "counts", control.sensor.counts);
@@ -75,11 +79,36 @@ class ControlReader {
     if (!kind) return;
     control.law = make_kind<ControllerParameters>(*kind);
     std::visit([&](auto& law) { read_law(table, law, folder_); }, control.law);
+    if (winds_up(control.law)) {
+      read_anti_windup(table, control);
+    } else if (table.has("anti_windup")) {
+      table.text("anti_windup");
+      table.fault("anti_windup",
+                  fmt::format("controller.anti_windup needs a law with an integral, and \"{}\" has none", *kind));
+    }
     const bool follows = !std::holds_alternative<OpenLoopParameters>(control.law);
     if (follows && !root_.has("reference")) table.lacks("a [reference] to follow");
     if (root_.faults().empty())
       for (const ControllerRejection& refusal : controller_rejections(scenario_))
         table.fault(refusal.key, refusal.what);
+  }
+
+  static void read_anti_windup(TableReader& table, ControlScenario& control) {
+    const std::vector<std::string> methods(anti_windup_methods.begin(), anti_windup_methods.end());
+    AntiWindupSettings& settings = control.anti_windup;
+    const auto method = table.choice("anti_windup", methods, Presence::optional);
+    table.read_fields(settings);
+    if (!method) return;
+    settings.method = static_cast<AntiWindup>(std::find(methods.begin(), methods.end(), *method) - methods.begin());
+    if (settings.tracking_time && !AntiWindupSettings::tracks(settings.method))
+      table.fault("tracking_time_s",
+                  fmt::format("controller.tracking_time_s has no effect with anti_windup = \"{}\"; remove it, or use "
+                              "\"back_calculation\" or \"model_recovery\"",
+                              *method));
+    else if (settings.tracking_time.value_or(control.sampling.period) < control.sampling.period)
+      table.fault("tracking_time_s",
+                  fmt::format("controller.tracking_time_s = {} s must be at least the sample time, {} s",
+                              *settings.tracking_time, control.sampling.period));
   }
 
   void check_sampling(TableReader& table, const SamplingSettings& sampling) {

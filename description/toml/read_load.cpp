@@ -1,10 +1,13 @@
 #include "description/toml/read_load.hpp"
 
-#include <optional>
 #include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "description/toml/read_pairs.hpp"
 #include "description/toml/read_signal.hpp"
+#include "description/toml/read_terms.hpp"
 
 namespace wormdrive {
 namespace {
@@ -27,47 +30,32 @@ bool is_offered(Axis axis) {
 }
 
 /// What the keys of a load must fulfil together.
-template <class Load>
-void check_together(TableReader&, const Load&) {}
 void check_together(TableReader& table, const GravityArm&) {
   if (table.has("torque_Nm") && (table.has("mass_kg") || table.has("arm_m")))
-    table.fault("torque_Nm",
-                "load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others");
+    table.fault("torque_Nm", fmt::format("{} is stated along with mass_kg or arm_m; keep the torque, or the two others",
+                                         table.path_of("torque_Nm")));
   else if (!table.has("torque_Nm") && !(table.has("mass_kg") && table.has("arm_m")))
     table.lacks("'torque_Nm', or 'mass_kg' and 'arm_m'");
-}
-
-/// The load of this table, or nothing if it is a function of time.
-std::optional<LoadParameters> read_special(TableReader& table, const std::string& folder) {
-  const auto kind = table.peek("kind");
-  std::optional<LoadParameters> stated;
-  for_each_load([&]<class Load>() {
-    if (kind != Load::kind || !is_offered<Load>(table.axis())) return;
-    table.text("kind");
-    Load load;
-    if constexpr (requires { Load::fields(); })
-      table.read_fields(load);
-    else
-      load = read_table(table, folder);
-    table.finish();
-    check_together(table, load);
-    stated = load;
-  });
-  return stated;
 }
 
 }  // namespace
 
 LoadParameters read_load(TableReader& root, const std::string& folder) {
-  const std::vector<const toml::table*> tables = root.tables("load");
-  if (tables.size() != 1) return read_signal(tables, "load", root, folder);
-  TableReader load(tables.front(), "load", root.axis(), root.faults(), root.where());
-  if (const auto special = read_special(load, folder)) return *special;
-  std::vector<std::string> kinds;
+  std::vector<std::string> kinds = kinds_of<SignalTerm>();
   for_each_load([&]<class Load>() {
     if (is_offered<Load>(root.axis())) kinds.emplace_back(Load::kind);
   });
-  return read_signal(tables, "load", root, folder, kinds);
+  LoadSum sum =
+      read_terms<LoadSum>(root.tables("load"), "load", root, kinds, [&]<class Load>(TableReader& table, Load& load) {
+        if constexpr (std::is_same_v<Load, Samples>)
+          load = read_samples(table, "load_torque", folder);
+        else if constexpr (std::is_same_v<Load, AngleTable>)
+          load = read_table(table, folder);
+        else
+          table.read_fields(load);
+        if constexpr (std::is_same_v<Load, GravityArm>) check_together(table, load);
+      });
+  return load_of(std::move(sum.terms));
 }
 
 }  // namespace wormdrive

@@ -4,9 +4,6 @@
 #include "description/toml/read_terms.hpp"
 
 namespace wormdrive {
-namespace {
-
-/// y_column: what the CSV column holds, "motor_torque" or "load_torque".
 Samples read_samples(TableReader& table, std::string_view y_column, const std::string& folder) {
   const Pairs pairs = read_pairs(table,
                                  {{"times", unit::second},
@@ -19,15 +16,11 @@ Samples read_samples(TableReader& table, std::string_view y_column, const std::s
   return {pairs.x, pairs.y, interpolation == "linear" ? Interpolation::linear : Interpolation::hold};
 }
 
-}  // namespace
-
 Signal read_signal(const std::vector<const toml::table*>& tables, const std::string& path, TableReader& parent,
-                   const std::string& folder, const std::vector<std::string>& other_kinds) {
-  std::vector<std::string> kinds = kinds_of<SignalTerm>();
-  kinds.insert(kinds.end(), other_kinds.begin(), other_kinds.end());
-  return read_terms<Signal>(tables, path, parent, kinds, [&](TableReader& table, auto& parameters) {
+                   const std::string& folder) {
+  return read_terms<Signal>(tables, path, parent, kinds_of<SignalTerm>(), [&](TableReader& table, auto& parameters) {
     if constexpr (requires { parameters.times; })
-      parameters = read_samples(table, path == "load" ? "load_torque" : "motor_torque", folder);
+      parameters = read_samples(table, "motor_torque", folder);
     else
       table.read_fields(parameters);
   });

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/signal.hpp"
@@ -7,9 +8,10 @@
 
 namespace wormdrive {
 
-/// The sum of the functions of time in these tables; CSV files are looked for in `folder`. A message about an unknown
-/// kind names `other_kinds` too, which the caller reads.
+/// The sum of the functions of time in these tables; CSV files are looked for in `folder`.
 Signal read_signal(const std::vector<const toml::table*>& tables, const std::string& path, TableReader& parent,
-                   const std::string& folder, const std::vector<std::string>& other_kinds = {});
+                   const std::string& folder);
+/// A torque over time from a table. y_column: what the CSV column holds, "motor_torque" or "load_torque".
+Samples read_samples(TableReader& table, std::string_view y_column, const std::string& folder);
 
 }  // namespace wormdrive

@@ -98,10 +98,12 @@ void write_terms(Writer& out, const std::string& path, const Sum& sum) {
     std::visit([&](const auto& t) { write_kind(out, fmt::format("[[{}]]", path), t); }, term);
 }
 
-void write_load(Writer& out, const Signal& signal) { write_terms(out, "load", signal); }
 template <class Load>
 void write_load(Writer& out, const Load& load) {
-  write_kind(out, "[load]", load);
+  if constexpr (requires { load.terms; })
+    write_terms(out, "load", load);
+  else
+    write_kind(out, "[load]", load);
 }
 
 void write_control(Writer& out, const ControlScenario& control) {
@@ -110,6 +112,11 @@ void write_control(Writer& out, const ControlScenario& control) {
       [&](const auto& law) {
         out.text("kind", std::string(law.kind));
         out.fields(control.sampling);
+        if (winds_up(control.law)) {
+          out.text("anti_windup",
+                   std::string(anti_windup_methods[static_cast<std::size_t>(control.anti_windup.method)]));
+          out.fields(control.anti_windup);
+        }
         if constexpr (requires { law.fields(); })
           out.fields(law);
         else
@@ -122,6 +129,7 @@ void write_control(Writer& out, const ControlScenario& control) {
   out.fields(control.variations);
   write_terms(out, "reference", control.reference);
   out.table("[sensor]");
+  out.text("shaft", control.sensor.on_worm ? "worm" : "gear");
   out.text("speed", control.sensor.exact_speed ? "exact" : "difference");
   out.fields(control.sensor);
   out.table("[disturbance]");

@@ -15,7 +15,7 @@ TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const 
   const double rms = std::sqrt(sum / static_cast<double>(records.size()));
   const double load = with_drive(scenario, [&](auto& drive) {
     drive.enter(0.0);
-    return drive.inputs(drive.moment(0.0, scenario.initial.theta_g, 0.0)).gear;
+    return drive.inputs(drive.moment(0.0, scenario.initial.theta_g, 0.0), Motion::stuck).gear;
   });
   for (const SpeedTorqueRecord& record : records) {
     points.names.push_back(record.name);

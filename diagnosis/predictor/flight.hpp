@@ -77,7 +77,7 @@ FreeFlight free_flight(const Drive& drive, double t, const ShaftState& gear, con
   const auto& mesh = drive.mesh();
   const auto accelerations = [&](double time, const ShaftState& g, const ShaftState& w) {
     const Moment<double> at{time, g.angle, g.speed, mesh.i * w.speed, mesh.i * w.angle};
-    const auto input = drive.inputs(at);
+    const auto input = drive.inputs(at, motion_of(g.speed));
     const double on_worm = free_acceleration(w.speed, mesh.Jw * mesh.i,
                                              [&](Motion motion) { return drive.side_torques(input, at, motion).worm; });
     const double on_gear = free_acceleration(g.speed, drive.Jg(),

@@ -32,13 +32,16 @@ class Collector {
           },
           sum.terms[k]);
   }
-  void load(Signal& signal) { terms("load", signal); }
   template <class Load>
-  void load(Load& parameters) {
-    table("load", parameters);
+  void load(Load& stated) {
+    if constexpr (requires { stated.terms; })
+      terms("load", stated);
+    else
+      table("load", stated);
   }
   void control(ControlScenario& control) {
     table("controller", control.sampling);
+    if (winds_up(control.law)) table("controller", control.anti_windup);
     std::visit(
         [&](auto& law) {
           if constexpr (requires { law.torque; })

@@ -54,9 +54,9 @@ TEST_CASE("controller tables that exclude other tables are rejected with the cho
 TEST_CASE("unknown, missing and out-of-range keys of a controller are reported") {
   check_rejected(Folder(), {
       {"no kind", but("kind = \"sliding\"\n", ""),
-       "s.toml:11:1: error: [controller] lacks 'kind' (one of \"sliding\", \"pid\", \"open_loop\")"},
+       "s.toml:11:1: error: [controller] lacks 'kind' (one of \"sliding\", \"pid\", \"position_servo\", \"open_loop\")"},
       {"unknown kind", but("\"sliding\"", "\"smc\""),
-       "s.toml:12:8: error: controller.kind = \"smc\" must be one of \"sliding\", \"pid\", \"open_loop\""},
+       "s.toml:12:8: error: controller.kind = \"smc\" must be one of \"sliding\", \"pid\", \"position_servo\", \"open_loop\""},
       {"misspelled", but("layer_rad_per_s", "layer"), "s.toml:15:1: error: unknown key 'layer' in [controller]; did you mean 'layer_rad_per_s'?"},
       {"missing", but("eta_rad_per_s2 = 30\n", ""), "s.toml:11:1: error: [controller] lacks 'eta_rad_per_s2' (reaching rate eta)"},
       {"no sample time", but("sample_time_s = 1e-3\n", ""), "s.toml:11:1: error: [controller] lacks 'sample_time_s' (time between two samples)"},
@@ -78,6 +78,25 @@ TEST_CASE("unknown, missing and out-of-range keys of a controller are reported")
        "s.toml:11:1: error: [controller] lacks 'integral_weight' (weight of the integral of e, squared)\n"
        "s.toml:11:1: error: [controller] lacks 'angle_weight' (weight of e squared)\n"
        "s.toml:11:1: error: [controller] lacks 'speed_weight' (weight of e' squared)"}});
+}
+
+TEST_CASE("anti-windup that cannot be is reported") {
+  const std::string eta = "eta_rad_per_s2 = 30";
+  check_rejected(Folder(), {
+      {"an unknown method", but(eta, eta + "\nanti_windup = \"clamping\""),
+       "s.toml:17:15: error: controller.anti_windup = \"clamping\" must be one of \"none\", \"back_calculation\", \"conditional\", \"model_recovery\""},
+      {"a time that nothing tracks with", but(eta, eta + "\nanti_windup = \"conditional\"\ntracking_time_s = 0.01"),
+       "s.toml:18:19: error: controller.tracking_time_s has no effect with anti_windup = \"conditional\"; remove it, or use \"back_calculation\" or "
+       "\"model_recovery\""},
+      {"no method", but(eta, eta + "\ntracking_time_s = 0.01"),
+       "s.toml:17:19: error: controller.tracking_time_s has no effect with anti_windup = \"none\"; remove it, or use \"back_calculation\" or "
+       "\"model_recovery\""},
+      {"within a sample", but(eta, eta + "\nanti_windup = \"back_calculation\"\ntracking_time_s = 1e-4"),
+       "s.toml:18:19: error: controller.tracking_time_s = 0.0001 s must be at least the sample time, 0.001 s"},
+      {"no integral", but(sliding, "kind = \"position_servo\"\nsample_time_s = 1e-3\ngain_Nm_per_rad = 2\nanti_windup = \"conditional\"\n"),
+       "s.toml:15:15: error: controller.anti_windup needs a law with an integral, and \"position_servo\" has none"},
+      {"a servo without a gain", but(sliding, "kind = \"position_servo\"\nsample_time_s = 1e-3\n"),
+       "s.toml:11:1: error: [controller] lacks 'gain_Nm_per_rad' (torque per angle to the goal)"}});
 }
 
 TEST_CASE("sample times that do not fit the run are reported") {
@@ -106,6 +125,11 @@ TEST_CASE("faults of references, sensors, disturbances and windows are reported"
        "s.toml:24:16: error: reference[1].frequency_Hz = 0 Hz must be greater than 0 Hz"},
       {"unknown speed", but("[sensor]", "[sensor]\nspeed = \"true\""),
        "s.toml:22:9: error: sensor.speed = \"true\" must be one of \"difference\", \"exact\""},
+      {"an unknown shaft", but("[sensor]", "[sensor]\nshaft = \"motor\""),
+       "s.toml:22:9: error: sensor.shaft = \"motor\" must be one of \"gear\", \"worm\""},
+      {"no worm", "title = \"x\"\n[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n[run]\nduration_s = 1\n[controller]\nkind = \"position_servo\"\n"
+       "gain_Nm_per_rad = 1\nsample_time_s = 0.01\n[reference]\n" + reference + "[sensor]\nshaft = \"worm\"\n",
+       "s.toml:16:9: error: sensor.shaft = \"worm\" needs a worm, but mesh.kind is \"none\""},
       {"an exact speed with counts", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\ncounts = 4096"),
        "s.toml:23:10: error: sensor.counts = 4096 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
       {"an exact speed with noise", but("[sensor]\nspeed_filter_Hz = 200", "[sensor]\nspeed = \"exact\"\nnoise_rad = 1e-5"),

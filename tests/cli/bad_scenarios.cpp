@@ -105,6 +105,10 @@ TEST_CASE("a missing key is reported with its meaning") {
        "s.toml:19:1: error: [effect.worm_coulomb] lacks 'torque_Nm' (friction torque while the worm turns)"},
       {"arm of a mass", good_but(load, "kind = \"gravity_arm\"\nmass_kg = 1"),
        "s.toml:14:1: error: [load] lacks 'torque_Nm', or 'mass_kg' and 'arm_m'"},
+      {"arm among several loads", good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity_arm\"\narm_m = 1"),
+       "s.toml:17:1: error: load[1] lacks 'torque_Nm', or 'mass_kg' and 'arm_m'"},
+      {"speed of a fan", good_but(load, "kind = \"fan\"\ntorque_Nm = 1"),
+       "s.toml:14:1: error: [load] lacks 'speed_rad_per_s' (gear speed at which it is stated)"},
       {"everything of an arm", good_but(load, "kind = \"gravity_arm\""),
        "s.toml:14:1: error: [load] lacks 'torque_Nm', or 'mass_kg' and 'arm_m'"}});
 }
@@ -126,6 +130,10 @@ TEST_CASE("a value outside its limits is rejected with unit and limits") {
       {"inf", good_but("torque_Nm = 0.02", "torque_Nm = -inf"), "s.toml:16:13: error: load.torque_Nm = -inf must be a finite number"},
       {"effect", good_scenario + "[effect.gear_viscous]\ncoefficient_Nms_per_rad = -1\n",
        "s.toml:20:27: error: effect.gear_viscous.coefficient_Nms_per_rad = -1 N m s/rad must be at least 0 N m s/rad"},
+      {"a fan that drives", good_but(load, "kind = \"fan\"\ntorque_Nm = -1\nspeed_rad_per_s = 2"),
+       "s.toml:16:13: error: load.torque_Nm = -1 N m must be at least 0 N m"},
+      {"a fan at no speed", good_but(load, "kind = \"fan\"\ntorque_Nm = 1\nspeed_rad_per_s = 0"),
+       "s.toml:17:19: error: load.speed_rad_per_s = 0 rad/s must be greater than 0 rad/s"},
       {"duration", good_but("duration_s = 0.01", "duration_s = 0"), "s.toml:18:14: error: run.duration_s = 0 s must be greater than 0 s"},
       {"report interval", with_run("report_interval_s = 1"),
        "s.toml:19:21: error: run.report_interval_s = 1 s must be at most the duration, 0.01 s"},
@@ -144,9 +152,9 @@ TEST_CASE("an unknown word is rejected with the known ones") {
       {"torque", good_but(motor, "kind = \"sinus\""),
        "s.toml:12:8: error: motor.torque.kind = \"sinus\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\""},
       {"load", good_but(load, "kind = \"gravity\""),
-       "s.toml:15:8: error: load.kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\""},
-      {"arm among several loads", good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity_arm\""),
-       "s.toml:18:8: error: load[1].kind = \"gravity_arm\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\""},
+       "s.toml:15:8: error: load.kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
+      {"one of several loads", good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity\""),
+       "s.toml:18:8: error: load[1].kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
       {"mesh", good_but("[mesh]", "[mesh]\nkind = \"spur\""), "s.toml:3:8: error: mesh.kind = \"spur\" must be one of \"worm\", \"none\""}});
 }
 
@@ -155,7 +163,10 @@ TEST_CASE("contradicting statements are reported at the one to remove") {
       {"deg and rad", good_but("lead_angle_deg = 4", "lead_angle_deg = 4\nlead_angle_rad = 0.07"),
        "s.toml:5:18: error: mesh.lead_angle_rad is stated twice, also as lead_angle_deg; keep one"},
       {"torque and mass", good_but(load, "kind = \"gravity_arm\"\nmass_kg = 1\ntorque_Nm = 0.02"),
-       "s.toml:17:13: error: load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others"}});
+       "s.toml:17:13: error: load.torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others"},
+      {"torque and mass of one of several loads",
+       good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity_arm\"\nmass_kg = 1\ntorque_Nm = 0.02"),
+       "s.toml:20:13: error: load[1].torque_Nm is stated along with mass_kg or arm_m; keep the torque, or the two others"}});
 }
 
 TEST_CASE("a gear without a unique motion is rejected with the limit") {

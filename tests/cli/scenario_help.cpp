@@ -68,8 +68,9 @@ TEST_CASE("the schema has the keys of the reader in every table", "[slow]") {
   for (const std::string& name : kinds_in(torques))
     if (name != "samples")  // whose keys hang on one another
       check(name, kind(torques, name), "[motor.torque]\nkind = \"" + name + "\"\n");
-  const auto loads = rotary.at("load").at("anyOf")[0].at("oneOf");
+  const auto loads = rotary.at("load").at("oneOf")[0].at("oneOf");
   check("gravity_arm", kind(loads, "gravity_arm"), "[load]\nkind = \"gravity_arm\"\n");
+  check("fan", kind(loads, "fan"), "[load]\nkind = \"fan\"\n");
   for (const auto& law : rotary.at("controller").at("oneOf")) {
     const std::string name = law.at("properties").at("kind").at("const");
     check(name, law, "[controller]\nkind = \"" + name + "\"\n");

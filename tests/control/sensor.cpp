@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -93,6 +94,43 @@ TEST_CASE("what is applied never exceeds the torque limit, whatever is decided")
   const auto huge = [](const Measurement& m) { return ControlSignals{.torque = m.t < 0.002 ? 1e300 : -1e300}; };
   for (const ControlRecord& r : records(huge, {}, {1e-3}, {}, 5, effects(TorqueSaturation<double>{.limit = 0.1})))
     REQUIRE(r.applied == (r.measured.t < 0.002 ? 0.1 : -0.1));
+}
+
+TEST_CASE("an encoder on the worm shows the worm's angle over the ratio, in counts of the worm's turn") {
+  SensorSettings sensor{.counts = 16, .on_worm = true};
+  const double step = 2.0 * pi / (16 * 60);
+  const auto rounded = records(ramp, sensor, {1e-3}, {}, 50);
+  bool between = false;
+  for (const ControlRecord& r : rounded) {
+    REQUIRE(std::abs(r.measured.angle / step - std::round(r.measured.angle / step)) <= 1e-9);
+    REQUIRE(std::abs(r.measured.angle - r.gear_angle) <= 0.5 * step * (1 + 1e-9));
+    between = between || std::abs(r.measured.angle - r.gear_angle) > 0.1 * step;
+  }
+  REQUIRE(between);
+  // a gear that is cut off its centre shows; what the encoder's offset adds is added to the gear's angle
+  sensor.counts = 0;
+  const auto uneven = records(
+      ramp, sensor, {1e-3}, {}, 50,
+      effects(TransmissionError<double>{.amplitude = 0.02, .phase = 0.3}, EncoderOffset<double>{.angle = 0.01}));
+  for (const ControlRecord& r : uneven)
+    REQUIRE(std::abs(r.measured.angle - (r.gear_angle + 0.02 * std::sin(r.gear_angle + 0.3) + 0.01)) <= 1e-15);
+  sensor.exact_speed = true;
+  const auto exact = records(ramp, sensor, {1e-3}, {}, 50, effects(TransmissionError<double>{.amplitude = 0.02}));
+  for (const ControlRecord& r : exact)
+    REQUIRE(std::abs(r.measured.speed - 0.7 * std::cos(7.0 * r.measured.t) * (1.0 + 0.02 * std::cos(r.gear_angle))) <=
+            1e-14);
+}
+
+TEST_CASE("the controller is told what the limit left of what it decided at the sample before, and the limit") {
+  const auto swing = [](const Measurement& m) { return ControlSignals{.torque = 0.3 * std::sin(900 * m.t)}; };
+  for (const double delay : {0.0, 1.0}) {
+    const auto list = records(swing, {}, {1e-3, 0.0, delay}, {}, 50, effects(TorqueSaturation<double>{.limit = 0.1}));
+    REQUIRE(list[0].measured.applied == 0.0);
+    for (std::size_t k = 1; k < list.size(); ++k) {
+      REQUIRE(list[k].measured.applied == std::clamp(list[k - 1].decided.torque, -0.1, 0.1));
+      REQUIRE(list[k].measured.limit == 0.1);
+    }
+  }
 }
 
 TEST_CASE("encoder noise and torque disturbance have their deviation, their colour, and repeat with their seed") {

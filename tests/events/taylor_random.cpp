@@ -158,6 +158,36 @@ Comparison compare_random_effects(Dice& dice) {
   return compare(drive(p, arm, motor, on), {0, {dice.between(-3, 3), omega}, {}});
 }
 
+/// Loads of all kinds that add up, a third of them each, with bearings.
+Comparison compare_random_sums(Dice& dice) {
+  const MeshParameters<double> p = table1(dice.between(0.05, 0.35));
+  Effects<double> on;
+  maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
+  maybe(dice, on, GearCoulomb<double>{dice.between(0, 0.02)});
+  maybe(dice, on, GearViscous<double>{dice.between(0, 1e-3)});
+  LoadSum load{{Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)}}};
+  for (int arms = dice.below(3); arms > 0; --arms) {
+    GravityArm arm;
+    arm.amplitude = dice.between(-0.1, 0.1);
+    arm.offset = dice.between(-3, 3);
+    arm.own_inertia = dice.between(0, 1e-3);
+    load.terms.emplace_back(arm);
+  }
+  for (int terms = dice.below(3); terms > 0; --terms)
+    std::visit([&](const auto& term) { load.terms.emplace_back(term); }, random_term(dice, 0.05));
+  if (dice.one_in(3)) {
+    AngleTable table;
+    for (double angle = -4.0; angle < 4.0; angle += dice.between(0.3, 1.5)) {
+      table.angles.push_back(angle);
+      table.torques.push_back(dice.between(-0.05, 0.05));
+    }
+    load.terms.emplace_back(table);
+  }
+  const Signal motor{{random_term(dice, 0.04), random_term(dice, 0.04)}};
+  const double omega = dice.one_in(2) ? 0.0 : dice.between(-3, 3);
+  return compare(drive(p, load, motor, on), {0, {dice.between(-3, 3), omega}, {}});
+}
+
 /// Friction that falls with the sliding speed and bearings, all of a size that shows.
 Comparison compare_random_stribeck(Dice& dice) {
   const MeshParameters<double> p = table1(dice.between(0.1, 0.35));
@@ -236,6 +266,12 @@ TEST_CASE("in 200 random runs power series and CVODE find the same events and st
 TEST_CASE("in 100 random runs with a third of all effects on, power series and CVODE tell the same within 1e-8",
           "[slow]") {
   const Tally tally = require_same(100, 1000, 1e-8, " with effects", compare_random_effects);
+  REQUIRE(tally.set_aside <= 100 / 4);
+  REQUIRE(tally.events >= 250);
+}
+
+TEST_CASE("in 100 random runs with loads that add up, power series and CVODE tell the same within 1e-8", "[slow]") {
+  const Tally tally = require_same(100, 3000, 1e-8, " with loads that add up", compare_random_sums);
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);
 }

@@ -58,7 +58,8 @@ kind = "step"
 angle_rad = 0.01
 time_s = 0.2
 [sensor]
-counts = 30000
+shaft = "worm"
+counts = 500
 noise_rad = 1e-5
 seed = 9
 speed_filter_Hz = 150
@@ -80,8 +81,12 @@ std::string full(const std::string& kind, const std::string& law) {
 
 const std::pair<const char*, const char*> laws[] = {
     {"sliding",
-     "bandwidth_rad_per_s = 70\nlayer_rad_per_s = 0.4\neta_rad_per_s2 = 20\nbeta2 = 2.5\nE1_rad_per_s2 = 0.3"},
-    {"pid", "integral_weight = 1e6\nangle_weight = 10\nspeed_weight = 0.01\nfeedforward = 0.5"},
+     "bandwidth_rad_per_s = 70\nlayer_rad_per_s = 0.4\neta_rad_per_s2 = 20\nbeta2 = 2.5\nE1_rad_per_s2 = 0.3\n"
+     "anti_windup = \"back_calculation\"\ntracking_time_s = 0.007"},
+    {"pid",
+     "integral_weight = 1e6\nangle_weight = 10\nspeed_weight = 0.01\nfeedforward = 0.5\n"
+     "anti_windup = \"model_recovery\""},
+    {"position_servo", "gain_Nm_per_rad = 3\ndamping_Nms_per_rad = 0.1\ntorque_limit_Nm = 0.2\ndead_band_deg = 0.033"},
     {"open_loop", "[[controller.torque]]\nkind = \"sinusoid\"\namplitude_Nm = 0.03\nfrequency_Hz = 3"}};
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -52,12 +53,17 @@ class Bits {
   void fields(const Parameters& parameters) {
     for_each_field<Parameters>([&](const auto& field) { value(parameters.*field.member); });
   }
-  void signal(const Signal& signal) {
-    for (const SignalTerm& term : signal.terms)
+  void signal(const Signal& signal) { terms(signal); }
+  template <class Sum>
+  void terms(const Sum& sum) {
+    for (const auto& term : sum.terms)
       std::visit(
           [&](const auto& t) {
             text_ += std::string(t.kind) + "\n";
-            if constexpr (requires { t.times; }) {
+            if constexpr (requires { t.angles; }) {
+              values(t.angles);
+              values(t.torques);
+            } else if constexpr (requires { t.times; }) {
               values(t.times);
               values(t.values);
               text_ += t.interpolation == Interpolation::linear ? "linear\n" : "hold\n";
@@ -68,6 +74,7 @@ class Bits {
           term);
   }
   void load(const Signal& s) { signal(s); }
+  void load(const LoadSum& sum) { terms(sum); }
   void load(const GravityArm& arm) { fields(arm); }
   void load(const AngleTable& table) {
     values(table.angles);
@@ -155,13 +162,22 @@ TEST_CASE("a scenario with every torque, load, effect and axis is the same after
   by_mass.arm = -0.07;
   Signal timed{{filler.make<Staircase>(), samples, filler.make<Sinusoid>()}};
   const AngleTable table{{-0.1, 0.0, 0.1, 33.3 * unit::degree}, {1.0 / 3.0, 0.0, -0.2, 5e-324}};
+  const auto turns = [](const LoadParameters& load) {
+    const auto* const sum = std::get_if<LoadSum>(&load);
+    return std::holds_alternative<GravityArm>(load) ||
+           (sum && std::any_of(sum->terms.begin(), sum->terms.end(),
+                               [](const LoadTerm& term) { return std::holds_alternative<GravityArm>(term); }));
+  };
+  const LoadSum turning{{by_mass, filler.make<Fan>(), table, samples, by_torque}};
+  const LoadSum sum{{table, filler.make<Fan>(), filler.make<Sinusoid>(), samples}};
   for (const LoadParameters& load : {LoadParameters(by_torque), LoadParameters(by_mass), LoadParameters(timed),
-                                     LoadParameters(table), LoadParameters(Signal{})}) {
+                                     LoadParameters(table), LoadParameters(Signal{}), LoadParameters(turning),
+                                     LoadParameters(sum), LoadParameters(LoadSum{{sum.terms[1]}})}) {
     Scenario s = full(filler, load);
     require_round_trip(s);
     s.mesh = filler.make<SingleInertia<double>>();
     require_round_trip(s);
-    if (std::holds_alternative<GravityArm>(load)) continue;  // it turns: no linear axis has one
+    if (turns(load)) continue;  // it turns: no linear axis has one
     s.axis = Axis::linear;
     s.columns = {{"motor_force_N", "u \"raw\", N"}, {"position_m", "q"}};
     require_round_trip(s);
