@@ -25,6 +25,15 @@ class AnyController {
   ControlSignals operator()(const Measurement& m) {
     return std::visit([&m](auto& law) -> ControlSignals { return law(m); }, law_);
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    std::visit(
+        [&](auto& law) {
+          if constexpr (requires { law.visit_memory(visit); }) law.visit_memory(visit);
+        },
+        law_);
+  }
 
  private:
   using Law = decltype(controllers_of(std::declval<ControllerParameters>()));

@@ -76,6 +76,11 @@ class PidController {
     const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
     return {feedback + feedforward + compensation, 0.0, 0.0, compensation};
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(integral_);
+  }
 
  private:
   PidParameters p_;

@@ -101,6 +101,11 @@ class SlidingLawOf {
     const V compensation = break_in_compensation<V>(C_[0], C_[1], load, m.speed, m.desired.speed, epsilon_);
     return {u + (surface_ * load + compensation), s, u, compensation};
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(integral_);
+  }
 
  private:
   Both<V> inertia_, d_;
@@ -120,6 +125,10 @@ class SlidingController {
   /// As it was before its first sample.
   const SlidingLawOf<double>& law() const { return law_; }
   const NominalModel& nominal() const { return nominal_; }
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    law_.visit_memory(visit);
+  }
 
  private:
   NominalModel nominal_;
