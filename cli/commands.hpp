@@ -146,7 +146,9 @@ int rare_command(const RareOptions& options);
 
 struct FmuOptions {
   ScenarioOptions scenario;
-  std::string output;  ///< empty: named after the scenario
+  int version = 2;             ///< of the standard, 2 or 3
+  std::string kind = "plant";  ///< or "loop"
+  std::string output;          ///< empty: named after the scenario
   Replace replace = Replace::same_kind;
 };
 int fmu_command(const FmuOptions& options);

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "control/control_record.hpp"
 #include "control/disturbance.hpp"
@@ -77,7 +79,39 @@ class ClosedLoop {
     return applied;
   }
 
+  /// All that samples change, as numbers: with them a loop of the same settings goes on as this one.
+  std::vector<double> memory() const {
+    std::vector<double> numbers{static_cast<double>(k_), left_};
+    ClosedLoop(*this).visit_memory([&](double number) { numbers.push_back(number); });
+    for (const Seen& seen : latched_) numbers.insert(numbers.end(), {seen.angle, seen.speed});
+    return numbers;
+  }
+  /// Takes up such numbers; false where they are none, which leaves the loop in a state of no use.
+  bool recall(std::span<const double> numbers) {
+    std::size_t fixed = 2;
+    visit_memory([&](double) { ++fixed; });
+    if (numbers.size() < fixed || (numbers.size() - fixed) % 2 != 0) return false;
+    if (!(numbers[0] >= 0.0 && numbers[0] < 0x1p53)) return false;
+    k_ = static_cast<std::uint64_t>(numbers[0]);
+    left_ = numbers[1];
+    std::size_t at = 2;
+    visit_memory([&](double& number) { number = numbers[at++]; });
+    latched_.clear();
+    for (; at < numbers.size(); at += 2) latched_.push_back({numbers[at], numbers[at + 1]});
+    return true;
+  }
+  /// How many samples were taken, and how many angles for samples to come.
+  std::uint64_t samples() const { return k_; }
+  std::size_t latched() const { return latched_.size(); }
+
  private:
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    speed_.visit_memory(visit);
+    disturbance_.visit_memory(visit);
+    control_.visit_memory(visit);
+  }
+
   /// What the sensor sees of the gear, as the worm shows it if it sits there; of the speed only where that is asked
   /// for.
   struct Seen {

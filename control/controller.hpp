@@ -51,6 +51,16 @@ class AnyController {
     if (recovery_) return (*recovery_)([this](const Measurement& seen) { return decide(seen); }, m);
     return decide(m);
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    std::visit(
+        [&](auto& law) {
+          if constexpr (requires { law.visit_memory(visit); }) law.visit_memory(visit);
+        },
+        law_);
+    if (recovery_) recovery_->visit_memory(visit);
+  }
 
  private:
   using Law = decltype(controllers_of(std::declval<ControllerParameters>()));

@@ -40,6 +40,11 @@ class TorqueDisturbance {
     state_ = k == 0 ? fresh : keep_ * state_ + renew_ * fresh;
     return settings_.deviation * state_;
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(state_);
+  }
 
  private:
   DisturbanceSettings settings_;

@@ -32,6 +32,13 @@ class ModelRecovery {
     decided.torque += inertia_ * rate_ * (wanted_speed(m) - speed_);
     return decided;
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(angle_);
+    visit(speed_);
+    visit(asked_);
+  }
 
  private:
   /// With how much of the torque beside the load's the model brakes; the rest is for what the nominal model does not

@@ -77,6 +77,12 @@ class PidController {
     decided_ = feedback + feedforward + compensation;
     return {decided_, 0.0, 0.0, compensation};
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(integral_);
+    visit(decided_);
+  }
 
  private:
   PidParameters p_;

@@ -112,6 +112,11 @@ class SlidingLawOf {
     const auto forward = goes_forward(m.speed, m.desired.speed);
     return {select_steady<V>(forward, below[0], below[1]), select_steady<V>(forward, above[1], above[0])};
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(integral_);
+  }
 
  private:
   Both<V> inertia_, d_;
@@ -144,6 +149,13 @@ class SlidingController {
   /// As it was before its first sample.
   const SlidingLawOf<double>& law() const { return law_; }
   const NominalModel& nominal() const { return nominal_; }
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    law_.visit_memory(visit);
+    for (double* const number :
+         {&before_.torque, &before_.s, &before_.u, &before_.compensation, &branches_[0], &branches_[1]})
+      visit(*number);
+  }
 
  private:
   /// How far the integral lies beyond the value with which the law would have asked for the torque that was applied at

@@ -23,6 +23,12 @@ class SpeedEstimatorOf {
     previous_ = angle;
     return speed_;
   }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(previous_);
+    visit(speed_);
+  }
 
  private:
   V gain_, rate_, previous_ = 0.0, speed_ = 0.0;

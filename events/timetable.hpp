@@ -54,6 +54,21 @@ class Timetable {
     find_next();
   }
 
+  /// Puts the end [s] elsewhere, for a run that goes on; what stands at the former end is due then.
+  void end_at(double end) {
+    end_ = end;
+    find_next();
+  }
+
+  /// Takes up the timetable of a run that has had so many samples and latches.
+  void take_up(long samples, long latches) {
+    samples_ = samples;
+    latches_ = latches;
+    schedule_sample();
+    schedule_latch();
+    find_next();
+  }
+
   /// Leaves out what comes before the k-th sample and takes that.
   void skip_to_sample(long k) {
     samples_ = k + 1;

@@ -4,7 +4,11 @@
 // (https://fmi-standard.org, FMI 2.0.4, sections 2.1, 3.2 and 4.2); the words are ours.
 #include <stddef.h>
 
+#ifdef _WIN32
+#define FMI2_EXPORT __declspec(dllexport)
+#else
 #define FMI2_EXPORT __attribute__((visibility("default")))
+#endif
 
 #ifdef __cplusplus
 extern "C" {

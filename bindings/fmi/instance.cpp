@@ -1,12 +1,14 @@
 #include "bindings/fmi/instance.hpp"
 
-#include <stdexcept>
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "bindings/fmi/plant_parameters.hpp"
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/rejection.hpp"
+#include "events/simulation_failure.hpp"
 
 namespace wormdrive {
 namespace {
@@ -15,129 +17,238 @@ namespace {
   throw std::invalid_argument(fmt::format("there is no variable with the value reference {}", reference));
 }
 
+/// Calls use(field, path, value) with the parameter of a value reference; false where there is none.
+template <class ScenarioRef, class Use>
+bool with_parameter(ScenarioRef& scenario, unsigned reference, Use&& use) {
+  unsigned k = first_parameter;
+  bool found = false;
+  for_each_plant_parameter(scenario, [&](const std::string& path, const auto& field, auto& value) {
+    if (k++ != reference) return;
+    found = true;
+    use(field, path, value);
+  });
+  return found;
+}
+
+/// Communication points that importers add up differ from each other by rounding; so much counts as one point.
+bool same_point(double a, double b, double step) {
+  return std::abs(a - b) <= 1e-9 * std::max({std::abs(a), std::abs(b), step});
+}
+
+/// A controller that samples so often within a step has slipped in the unit.
+constexpr double most_samples_in_step = 1e9;
+
 }  // namespace
+
+FmuInstance::FmuInstance(FmuModel model, InterfaceType type) : stated_(std::move(model)), model_(stated_), type_(type) {
+  const Offered has = offered(stated_);
+  if (type == InterfaceType::model_exchange && !has.model_exchange)
+    throw std::logic_error("this FMU is one for co-simulation");
+  if (type == InterfaceType::co_simulation && !has.co_simulation)
+    throw std::logic_error("this FMU is one for model exchange");
+}
 
 void FmuInstance::begin() {
   stale_ = false;
   state_.run.reset();
-  if (const auto why = why_the_drive_cannot_run(set_)) throw std::invalid_argument(*why);
-  if (const auto id = set_.effects.first_with_states(); !id.empty())
+  const Scenario& set = model_.scenario;
+  if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
+  if (const auto id = set.effects.first_with_states(); !id.empty())
     throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
-  with_drive(set_, [&]<class Drive>(Drive& drive) {
-    using Elastic = decltype(CompliantDrive(drive, tooth_contact(set_.effects)));
-    if (has_elastic_teeth(set_.effects))
-      state_.run.emplace(PlantRun<Elastic>(CompliantDrive(drive, tooth_contact(set_.effects)), set_.initial,
-                                           state_.time, state_.torque));
-    else
-      state_.run.emplace(PlantRun<Drive>(drive, set_.initial, state_.time, state_.torque));
+  with_drive(set, [&]<class Drive>(Drive& drive) {
+    using Elastic = decltype(CompliantDrive(drive, tooth_contact(set.effects)));
+    if (type_ == InterfaceType::co_simulation) {
+      const double tolerance = std::min(state_.experiment.tolerance.value_or(1.0), set.run.relative_tolerance);
+      StepRun<Drive> run(drive, model_, state_.time, state_.torque, tolerance);
+      if (state_.uses_event_mode) run.hold_left_limits();
+      state_.run.emplace(std::move(run));
+    } else if (has_elastic_teeth(set.effects)) {
+      state_.run.emplace(PlantRun<Elastic>(CompliantDrive(drive, tooth_contact(set.effects)), set.initial, state_.time,
+                                           state_.torque));
+    } else {
+      state_.run.emplace(PlantRun<Drive>(drive, set.initial, state_.time, state_.torque));
+    }
   });
 }
 
+void FmuInstance::set_up(const Experiment& experiment) {
+  const auto& [start, stop, tolerance] = experiment;
+  if (!std::isfinite(start)) throw std::invalid_argument(fmt::format("the start time {} s is not finite", start));
+  if (stop && !(*stop > start))
+    throw std::invalid_argument(fmt::format("the stop time {} s is not after the start time {} s", *stop, start));
+  if (tolerance && !(*tolerance > 0.0 && std::isfinite(*tolerance)))
+    throw std::invalid_argument(fmt::format("the tolerance {} is not greater than 0", *tolerance));
+  state_.experiment = experiment;
+  state_.time = start;
+}
+
 void FmuInstance::enter_initialization() {
-  state_.phase = Phase::initialization;
   begin();
+  state_.phase = Phase::initialization;
 }
 
 void FmuInstance::exit_initialization() {
   if (stale_) begin();
-  state_.phase = Phase::event;
+  state_.phase = uses_event_mode() ? Phase::event : Phase::step;
 }
 
 void FmuInstance::reset() {
-  set_ = stated_;
+  model_ = stated_;
+  const bool event_mode = state_.uses_event_mode;  // as agreed when it was instantiated
   state_ = {};
+  state_.uses_event_mode = event_mode;
   stale_ = false;
 }
 
 void FmuInstance::restore(const Kept& kept) {
+  if (kept.type != type_) throw std::invalid_argument("the state is one of the other interface type");
   state_ = kept.state;
-  set_ = kept.set;
+  model_.scenario = kept.set;
   stale_ = false;
 }
 
 void FmuInstance::set_time(double t) {
+  if (!std::isfinite(t)) throw std::invalid_argument(fmt::format("the time {} s is not finite", t));
+  with_moved_run([&](auto& run) { run.set_time(t); });
   state_.time = t;
-  with_run([&](auto& run) { run.set_time(t); });
 }
 
-double FmuInstance::parameter(unsigned k) const {
-  std::optional<double> found;
-  for_each_plant_parameter(set_, [&](const std::string&, const auto&, const double& value) {
-    if (k-- == 0) found = value;
-  });
-  if (!found) unknown(first_parameter + k);
-  return *found;
-}
+// ---- variables ------------------------------------------------------------------------------------------------------
 
-void FmuInstance::set_parameter(unsigned k, double value) {
-  const unsigned reference = first_parameter + k;
-  bool found = false;
-  for_each_plant_parameter(set_, [&](const std::string& path, const auto& field, double& stated) {
-    if (k-- != 0) return;
-    found = true;
-    if (!std::isfinite(value) || !field.bounds.contain(value))
-      throw std::invalid_argument(
-          fmt::format("{}.{} = {} is not an allowed value", path, si_spelling(field, set_.axis).key, value));
-    stated = value;
-  });
-  if (!found) unknown(reference);
+double FmuInstance::reference_point(unsigned reference) const {
+  const auto& control = model_.scenario.control;
+  if (!control || control->reference.terms.empty()) unknown(reference);
+  const ReferencePoint desired = control->reference.at(state_.time);
+  return static_cast<ScalarVariable>(reference) == ScalarVariable::reference_angle ? desired.angle : desired.speed;
 }
 
 double FmuInstance::real(unsigned reference) {
-  if (reference >= first_parameter) return parameter(reference - first_parameter);
-  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motor_torque) return state_.torque;
+  if (reference >= first_parameter) {
+    double found = 0.0;
+    if (!with_parameter(model_.scenario, reference, [&](const auto&, const auto&, double value) { found = value; }))
+      unknown(reference);
+    return found;
+  }
+  const auto variable = static_cast<ScalarVariable>(reference);
+  if (variable == ScalarVariable::time) return state_.time;
+  if (variable == ScalarVariable::motor_torque && model_.kind == FmuKind::plant) return state_.torque;
+  if (variable == ScalarVariable::reference_angle || variable == ScalarVariable::reference_speed)
+    return reference_point(reference);
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
     const auto at = [&](const auto& list) {
-      return static_cast<std::size_t>(std::find(list.begin(), list.end(), static_cast<ScalarVariable>(reference)) -
-                                      list.begin());
+      return static_cast<std::size_t>(std::find(list.begin(), list.end(), variable) - list.begin());
     };
-    if (const std::size_t k = at(Ports::states); k < Ports::states.size()) {
-      std::array<double, Run::state_size> x;
-      run.state(x.data());
-      return x[k];
-    }
-    if (const std::size_t k = at(Ports::rates); k < Ports::rates.size()) {
-      std::array<double, Run::state_size> rate;
-      run.rates(rate.data());
-      return rate[k];
-    }
-    if (reference >= first_indicator && reference < first_indicator + Run::indicator_count) {
-      std::array<double, Run::indicator_count> z;
-      run.indicators(z.data());
-      return z[reference - first_indicator];
-    }
-    if (static_cast<ScalarVariable>(reference) == ScalarVariable::normal_force) return run.observe().normal_force;
-    if (static_cast<ScalarVariable>(reference) == ScalarVariable::measured_angle) return run.measured_angle();
+    if (const std::size_t k = at(Ports::states); k < Ports::states.size()) return run.states()[k];
+    if (const std::size_t k = at(Ports::rates); k < Ports::rates.size()) return run.rates()[k];
+    if (reference >= first_indicator && reference < first_indicator + Run::indicator_count)
+      return run.indicators()[reference - first_indicator];
+    if (variable == ScalarVariable::motor_torque) return run.observe().tau_m;
+    if (variable == ScalarVariable::normal_force) return run.observe().normal_force;
+    if (variable == ScalarVariable::measured_angle) return run.measured_angle();
+    if (variable == ScalarVariable::event_time) return run.events().latest;
     unknown(reference);
   });
 }
 
 int FmuInstance::integer(unsigned reference) {
-  const Observation at = with_run([](auto& run) { return run.observe(); });
-  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motion) return sign(at.mode.motion);
-  if (static_cast<ScalarVariable>(reference) == ScalarVariable::flank) return sign(at.mode.flank);
-  if (static_cast<ScalarVariable>(reference) == ScalarVariable::gear_motion && at.teeth) return sign(at.teeth->gear);
-  unknown(reference);
+  return with_run([&](auto& run) {
+    const auto variable = static_cast<ScalarVariable>(reference);
+    if (variable == ScalarVariable::event_count) return run.events().count;
+    const Observation at = run.observe();
+    if (variable == ScalarVariable::motion) return sign(at.mode.motion);
+    if (variable == ScalarVariable::flank) return sign(at.mode.flank);
+    if (variable == ScalarVariable::gear_motion && at.teeth) return sign(at.teeth->gear);
+    unknown(reference);
+  });
 }
 
-void FmuInstance::set_real(unsigned reference, double value) {
-  const bool before = phase() == Phase::instantiated || phase() == Phase::initialization;
-  if (static_cast<ScalarVariable>(reference) == ScalarVariable::motor_torque) {
+void FmuInstance::reject_unsettable(unsigned reference, double value) {
+  const bool is_torque = static_cast<ScalarVariable>(reference) == ScalarVariable::motor_torque;
+  if (is_torque && model_.kind == FmuKind::plant) {
     if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("motor_torque = {} must be finite", value));
-    state_.torque = value;
-    stale_ = stale_ || phase() == Phase::initialization;
-    if (!before) with_run([&](auto& run) { run.set_torque(value, phase() == Phase::event); });
     return;
   }
-  if (reference < first_parameter) unknown(reference);
-  if (!before) throw std::logic_error("parameters can be set before the end of the initialization mode only");
-  set_parameter(reference - first_parameter, value);
-  stale_ = stale_ || phase() == Phase::initialization;
+  const auto reject_value = [&](const auto& field, const std::string& path, double) {
+    const bool fits = std::isfinite(value) && field.bounds.contain(value);
+    if (!fits || (is_whole(field) && value != std::floor(value)))
+      throw std::invalid_argument(
+          fmt::format("{}.{} = {} is not an allowed value", path, si_spelling(field, model_.scenario.axis).key, value));
+  };
+  if (reference < first_parameter || !with_parameter(model_.scenario, reference, reject_value)) unknown(reference);
+  if (!before_run.contain(phase()))
+    throw std::logic_error("parameters can be set before the end of the initialization mode only");
+}
+
+void FmuInstance::set_reals(std::span<const unsigned> references, std::span<const double> values) {
+  for (std::size_t k = 0; k < references.size(); ++k) reject_unsettable(references[k], values[k]);
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    if (references[k] >= first_parameter)
+      with_parameter(model_.scenario, references[k], [&](const auto&, const auto&, double& set) { set = values[k]; });
+    else
+      state_.torque = values[k];
+  }
+  if (before_run.contain(phase()))
+    stale_ = stale_ || phase() == Phase::initialization;
+  else
+    with_run([&](auto& run) { run.set_torque(state_.torque, phase() == Phase::event); });
 }
 
 void FmuInstance::set_integer(unsigned reference) {
   throw std::invalid_argument(fmt::format("no whole number can be set; value reference {}", reference));
+}
+
+// ---- co-simulation --------------------------------------------------------------------------------------------------
+
+void FmuInstance::step(double from, double size, const AtEvent& at_event) {
+  if (!std::isfinite(size) || size <= 0.0)
+    throw std::invalid_argument(fmt::format("the communication step {} s must be greater than 0", size));
+  if (!same_point(from, state_.time, size))
+    throw std::invalid_argument(
+        fmt::format("the communication point {} s is not where the instance is, {} s", from, state_.time));
+  const double until = std::max(from + size, state_.time);
+  if (const auto& stop = state_.experiment.stop; stop && until > *stop && !same_point(until, *stop, size))
+    throw std::invalid_argument(fmt::format("the step ends at {} s, after the stop time {} s", until, *stop));
+  if (const auto& control = model_.scenario.control; control && size > most_samples_in_step * control->sampling.period)
+    throw std::invalid_argument(
+        fmt::format("the step {} s has more than {:g} samples of controller.sample_time_s = {} s", size,
+                    most_samples_in_step, control->sampling.period));
+  if (state_.halted) throw StepHalted(*state_.halted);
+  if (until == state_.time) return;  // less than time resolves
+  with_run([&]<class Run>(Run& run) {
+    if constexpr (!MovedFromOutside<Run>) {
+      const auto end = [&](double t) {
+        state_.time = t;
+        return at_event(t);
+      };
+      try {
+        run.step(until, end);
+      } catch (const SimulationFailure& halt) {
+        state_.halted = halt.what();
+      }
+      state_.time = run.time();
+    }
+  });
+  if (state_.halted) throw StepHalted(*state_.halted);
+}
+
+// ---- events ---------------------------------------------------------------------------------------------------------
+
+void FmuInstance::enter_event_mode() {
+  if (!uses_event_mode()) throw std::logic_error("the instance was made without event mode");
+  state_.phase = Phase::event;
+}
+
+void FmuInstance::leave_event_mode(InterfaceType mode) {
+  if (mode != type_) throw std::logic_error("this mode is one of the other interface type");
+  state_.phase = mode == InterfaceType::model_exchange ? Phase::continuous : Phase::step;
+}
+
+double FmuInstance::pass_events() {
+  return with_run([](auto& run) {
+    run.pass_events();
+    return run.next_event_time();
+  });
 }
 
 }  // namespace wormdrive

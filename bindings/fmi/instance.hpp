@@ -1,48 +1,135 @@
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "bindings/fmi/phase.hpp"
 #include "bindings/fmi/plant_run.hpp"
+#include "bindings/fmi/step_run.hpp"
 #include "description/build.hpp"
 
 namespace wormdrive {
 
-/// What an instance of an FMU may do at present [FMI 2.0.4, section 3.2.3].
-enum class Phase { instantiated, initialization, event, continuous, terminated };
-
-/// Every drive that a plant may be: each load with rigid and with elastic teeth.
+/// Every drive that an FMU may be: each load with rigid and with elastic teeth, and with a solver of its own.
 template <class Loads>
-struct PlantRuns;
+struct FmuRuns;
 template <class... Parameters>
-struct PlantRuns<std::variant<Parameters...>> {
+struct FmuRuns<std::variant<Parameters...>> {
   template <class P>
   using Load = decltype(make_load(std::declval<const P&>()));
   using type = std::variant<PlantRun<WormDrive<double, Load<Parameters>>>...,
-                            PlantRun<CompliantDrive<double, Load<Parameters>>>...>;
+                            PlantRun<CompliantDrive<double, Load<Parameters>>>...,
+                            StepRun<WormDrive<double, Load<Parameters>>>...>;
+};
+
+/// Runs that the importer moves, unlike those with a solver of their own.
+template <class Run>
+concept MovedFromOutside = requires(Run& run) {
+  run.set_time(0.0);
+};
+
+/// A step that could not be made whole: the drive stands where it halted.
+struct StepHalted : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// One instance of the model of an FMU, without the C interface around it. Diagnostics are thrown as std::exception.
 class FmuInstance {
  public:
-  /// plant: as the FMU states it.
-  explicit FmuInstance(Scenario plant) : stated_(std::move(plant)), set_(stated_) {}
+  /// model: as the FMU states it.
+  FmuInstance(FmuModel model, InterfaceType type);
 
+  InterfaceType type() const { return type_; }
   Phase phase() const { return state_.phase; }
   void enter(Phase phase) { state_.phase = phase; }
-  void start_at(double t) { state_.time = t; }
+
+  // ---- life ------------------------------------------------------------------------------------------------------
+
+  /// The states and event indicators of the drive.
+  InterfaceNames ports() const { return InterfaceNames(has_elastic_teeth(model_.scenario.effects)); }
+
+  /// What an importer states before the initialization, in seconds.
+  struct Experiment {
+    double start = 0.0;
+    std::optional<double> stop{}, tolerance{};
+  };
+  void set_up(const Experiment& experiment);
   void enter_initialization();
   void exit_initialization();
   void reset();
 
+  // ---- variables -------------------------------------------------------------------------------------------------
+
   double real(unsigned reference);
   int integer(unsigned reference);
-  void set_real(unsigned reference, double value);
+  /// All or none.
+  void set_reals(std::span<const unsigned> references, std::span<const double> values);
   /// Sets the start value of a whole number, of which there are none to set.
   [[noreturn]] void set_integer(unsigned reference);
 
+  // ---- events ----------------------------------------------------------------------------------------------------
+
+  void enter_event_mode();
+  /// Into the mode in which time goes on; mode: the interface type that has it.
+  void leave_event_mode(InterfaceType mode);
+  /// Passes the events that are due; when the next is known to be [s], infinity where none is.
+  double pass_events();
+
+  // ---- model exchange --------------------------------------------------------------------------------------------
+
   void set_time(double t);
+  /// Calls use(run) with the drive that the importer moves.
+  template <class Use>
+  void with_moved_run(Use&& use) {
+    with_run([&]<class Run>(Run& run) {
+      if constexpr (MovedFromOutside<Run>)
+        use(run);
+      else
+        throw std::logic_error("this is an instance for co-simulation");
+    });
+  }
+
+  // ---- co-simulation ---------------------------------------------------------------------------------------------
+
+  /// Told of every event in a step; when the step ends [s], infinity where that is no matter of the event's.
+  using AtEvent = std::function<double(double t)>;
+  /// An importer with event mode: outputs keep their left limits at an event that ends a step, until pass_events().
+  void use_event_mode() { state_.uses_event_mode = true; }
+  bool uses_event_mode() const { return type_ == InterfaceType::model_exchange || state_.uses_event_mode; }
+  /// Goes on from a communication point by a step [s]. Throws StepHalted where the drive cannot go on.
+  void step(double from, double size, const AtEvent& at_event);
+  double time() const { return state_.time; }
+  /// Why the drive cannot go on, if it cannot.
+  const std::optional<std::string>& halted() const { return state_.halted; }
+
+  // ---- kept states -----------------------------------------------------------------------------------------------
+
+  /// All that changes while an instance lives, for a copy to come back to.
+  struct State {
+    Phase phase = Phase::instantiated;
+    Experiment experiment{};
+    double time = 0.0, torque = 0.0;
+    bool uses_event_mode = false;
+    std::optional<std::string> halted{};
+    std::optional<FmuRuns<LoadParameters>::type> run{};
+  };
+  struct Kept {
+    State state;
+    Scenario set;
+    InterfaceType type;
+  };
+  Kept keep() const { return {state_, model_.scenario, type_}; }
+  void restore(const Kept& kept);
+  /// A kept state as numbers, and back: in another instance of this FMU, in this process or another one. Both throw
+  /// where that cannot be.
+  std::vector<double> to_numbers(const Kept& kept) const;
+  Kept from_numbers(std::span<const double> numbers) const;
+
   /// Calls use(run) with the drive that runs.
   template <class Use>
   decltype(auto) with_run(Use&& use) {
@@ -51,25 +138,13 @@ class FmuInstance {
     return std::visit(std::forward<Use>(use), *state_.run);
   }
 
-  /// All that changes while an instance lives, for a copy to come back to.
-  struct State {
-    Phase phase = Phase::instantiated;
-    double time = 0.0, torque = 0.0;
-    std::optional<PlantRuns<LoadParameters>::type> run;
-  };
-  struct Kept {
-    State state;
-    Scenario set;
-  };
-  Kept keep() const { return {state_, set_}; }
-  void restore(const Kept& kept);
-
  private:
   void begin();
-  double parameter(unsigned k) const;
-  void set_parameter(unsigned k, double value);
+  double reference_point(unsigned reference) const;
+  void reject_unsettable(unsigned reference, double value);
 
-  Scenario stated_, set_;  ///< as exported; with the parameters that the importer has set
+  FmuModel stated_, model_;  ///< as exported; with the parameters that the importer has set
+  InterfaceType type_;
   State state_;
   bool stale_ = false;  ///< something was set after the run was built
 };

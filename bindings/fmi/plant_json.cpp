@@ -4,79 +4,17 @@
 
 #include <boost/uuid/name_generator.hpp>
 #include <boost/uuid/uuid_io.hpp>
-#include <nlohmann/json.hpp>
 
-#include "bindings/fmi/plant_parameters.hpp"
-#include "description/variant_kinds.hpp"
+#include "bindings/fmi/control_json.hpp"
+#ifndef _WIN32
 #include "output/classic_locale.hpp"
+#endif
 
 namespace wormdrive {
 namespace {
 
-using Json = nlohmann::json;
-
-/// One description of the file for both directions: it puts what it is given into the JSON, or takes it from there.
-struct Writer {
-  static constexpr bool reads = false;
-  Axis axis;
-  void operator()(Json& at, std::string_view key, const double& value) const {
-    if (std::isfinite(value)) at[std::string(key)] = value;  // an infinite default is stated by absence
-  }
-  void operator()(Json& at, std::string_view key, const std::optional<double>& value) const {
-    if (value) at[std::string(key)] = *value;
-  }
-  void operator()(Json& at, std::string_view key, const std::vector<double>& values) const {
-    at[std::string(key)] = values;
-  }
-};
-struct Reader {
-  static constexpr bool reads = true;
-  Axis axis;
-  void operator()(Json& at, std::string_view key, double& value) const {
-    if (const auto found = at.find(key); found != at.end()) value = found->get<double>();
-  }
-  void operator()(Json& at, std::string_view key, std::optional<double>& value) const {
-    if (const auto found = at.find(key); found != at.end()) value = found->get<double>();
-  }
-  void operator()(Json& at, std::string_view key, std::vector<double>& values) const { at.at(key).get_to(values); }
-};
-
-template <class Direction, class Parameters>
-void transfer(const Direction& pass, Json& at, Parameters& parameters) {
-  using P = std::remove_const_t<Parameters>;
-  if constexpr (requires { P::fields(); }) {
-    for_each_field<P>(
-        [&](const auto& field) { pass(at, si_spelling(field, pass.axis).key, parameters.*field.member); });
-  } else if constexpr (requires { parameters.interpolation; }) {
-    pass(at, "times", parameters.times);
-    pass(at, "values", parameters.values);
-    if constexpr (Direction::reads)
-      parameters.interpolation = at.at("linear").template get<bool>() ? Interpolation::linear : Interpolation::hold;
-    else
-      at["linear"] = parameters.interpolation == Interpolation::linear;
-  } else {
-    pass(at, "angles", parameters.angles);
-    pass(at, "torques", parameters.torques);
-  }
-}
-
-template <class Kind>
-Json kind_to_json(const Kind& parameters, Axis axis) {
-  Json at{{"kind", std::string(Kind::kind)}};
-  transfer(Writer{axis}, at, parameters);
-  return at;
-}
-
 LoadParameters load_from_json(Json& at, Axis axis) {
-  if (at.is_array()) {
-    std::vector<LoadTerm> terms;
-    for (Json& one : at) {
-      LoadTerm term = make_kind<LoadTerm>(one.at("kind").get<std::string>());
-      std::visit([&](auto& parameters) { transfer(Reader{axis}, one, parameters); }, term);
-      terms.push_back(std::move(term));
-    }
-    return load_of(std::move(terms));
-  }
+  if (at.is_array()) return load_of(terms_from_json<LoadTerm>(at, axis));
   std::optional<LoadParameters> load;
   for_each_load([&]<class Load>() {
     if (at.at("kind").get<std::string>() != Load::kind) return;
@@ -90,7 +28,8 @@ LoadParameters load_from_json(Json& at, Axis axis) {
 
 }  // namespace
 
-std::string plant_to_json(const Scenario& scenario) {
+std::string plant_to_json(const FmuModel& model) {
+  const Scenario& scenario = model.scenario;
   const Writer write{scenario.axis};
   Json plant{{"axis", scenario.axis == Axis::linear ? "linear" : "rotary"}, {"effect", Json::object()}};
   std::visit(
@@ -101,13 +40,10 @@ std::string plant_to_json(const Scenario& scenario) {
       scenario.mesh);
   std::visit(
       [&]<class Load>(const Load& load) {
-        if constexpr (requires { load.terms; }) {
-          plant["load"] = Json::array();
-          for (const auto& term : load.terms)
-            plant["load"].push_back(std::visit([&](const auto& t) { return kind_to_json(t, scenario.axis); }, term));
-        } else {
+        if constexpr (requires { load.terms; })
+          plant["load"] = terms_to_json(load.terms, scenario.axis);
+        else
           plant["load"] = kind_to_json(load, scenario.axis);
-        }
       },
       scenario.load);
   scenario.effects.for_each([&](const auto& effect) {
@@ -117,13 +53,21 @@ std::string plant_to_json(const Scenario& scenario) {
   });
   plant["initial"] = Json::object();
   transfer(write, plant["initial"], scenario.initial);
+  plant["run"] = {{"duration_s", scenario.run.duration}, {"relative_tolerance", scenario.run.relative_tolerance}};
+  if (model.kind == FmuKind::loop) {
+    plant["motor"] = terms_to_json(scenario.motor.terms, scenario.axis);
+    if (scenario.control) plant["control"] = control_to_json(*scenario.control, scenario.axis);
+  }
   return plant.dump(1) + "\n";
 }
 
-Scenario plant_from_json(const std::string& text) {
+FmuModel plant_from_json(const std::string& text) {
+#ifndef _WIN32  // whose threads have no locale; the reader asks which decimal point its numbers are to have
   const ClassicLocale read_so;
+#endif
   Json plant = Json::parse(text);
-  Scenario scenario;
+  FmuModel model{plant.contains("motor") ? FmuKind::loop : FmuKind::plant, {}, {}};
+  Scenario& scenario = model.scenario;
   scenario.axis = plant.at("axis") == "linear" ? Axis::linear : Axis::rotary;
   const Reader read{scenario.axis};
   if (plant.at("mesh").at("kind") == "none") scenario.mesh = SingleInertia<double>{};
@@ -136,7 +80,12 @@ Scenario plant_from_json(const std::string& text) {
     transfer(read, *found, *effect);
   });
   transfer(read, plant.at("initial"), scenario.initial);
-  return scenario;
+  plant.at("run").at("duration_s").get_to(scenario.run.duration);
+  plant.at("run").at("relative_tolerance").get_to(scenario.run.relative_tolerance);
+  if (model.kind == FmuKind::loop) scenario.motor.terms = terms_from_json<SignalTerm>(plant.at("motor"), scenario.axis);
+  if (const auto control = plant.find("control"); control != plant.end())
+    scenario.control = control_from_json(*control, scenario.axis);
+  return model;
 }
 
 std::string guid_of(const std::string& plant) {

@@ -13,8 +13,24 @@
 
 namespace wormdrive {
 
-/// Calls visit(path, parameters) for every parameter struct of the plant of a scenario: mesh, load, effects that are
-/// on, initial state. The motor's torque and the controller are not the plant's.
+/// Calls visit(path, parameters) for every parameter struct of what moves a drive by samples.
+template <class ControlRef, class Visit>
+void for_each_control_table(ControlRef& control, Visit&& visit) {
+  visit(std::string("controller"), control.sampling);
+  std::visit([&](auto& law) { visit(std::string("controller"), law); }, control.law);
+  visit(std::string("controller.nominal"), control.nominal);
+  visit(std::string("controller.variation"), control.variations);
+  int k = 0;
+  for (auto& term : control.reference.terms) {
+    const std::string path = control.reference.terms.size() == 1 ? "reference" : fmt::format("reference[{}]", ++k);
+    std::visit([&](auto& parameters) { visit(path, parameters); }, term);
+  }
+  visit(std::string("sensor"), control.sensor);
+  visit(std::string("disturbance"), control.disturbance);
+}
+
+/// Calls visit(path, parameters) for every parameter struct of what an FMU carries: mesh, load, effects that are on,
+/// initial state; then what is left of motor torque and controller, which a plant has not.
 template <class ScenarioRef, class Visit>
 void for_each_plant_table(ScenarioRef& scenario, Visit&& visit) {
   std::visit([&](auto& mesh) { visit(std::string("mesh"), mesh); }, scenario.mesh);
@@ -35,6 +51,12 @@ void for_each_plant_table(ScenarioRef& scenario, Visit&& visit) {
     if (effect) visit(fmt::format("effect.{}", effect->id), *effect);
   });
   visit(std::string("initial"), scenario.initial);
+  int k = 0;
+  for (auto& term : scenario.motor.terms) {
+    const std::string path = scenario.motor.terms.size() == 1 ? "motor.torque" : fmt::format("motor.torque[{}]", ++k);
+    std::visit([&](auto& parameters) { visit(path, parameters); }, term);
+  }
+  if (scenario.control) for_each_control_table(*scenario.control, visit);
 }
 
 /// Calls visit(path, field, value) for every number of the plant that is stated, in one order: its k-th has the k-th
@@ -53,6 +75,12 @@ void for_each_plant_parameter(ScenarioRef& scenario, Visit&& visit) {
         }
       });
   });
+}
+
+/// Whether the numbers of a field are whole, which its bounds do not say.
+template <class Field>
+bool is_whole(const Field& field) {
+  return field.name == "seed" || field.name == "counts" || field.name == "count" || field.name == "delay_samples";
 }
 
 /// How a number in SI is written in a scenario: the key that an FMU takes over.

@@ -22,9 +22,14 @@ enum class ScalarVariable : unsigned {
   motor_torque,
   normal_force,
   measured_angle,
+  event_time,
+  reference_angle,
+  reference_speed,
+  time,
   motion = 20,
   flank,
   gear_motion,
+  event_count,
 };
 inline constexpr unsigned first_indicator = 40;   ///< value reference of the first event indicator
 inline constexpr unsigned first_parameter = 100;  ///< and of the first parameter

@@ -87,9 +87,15 @@ void add_steady(CommandSet& commands) {
 }
 
 void add_fmu(CommandSet& commands) {
-  auto [command, options] =
-      commands.add("fmu", "export the drive of a scenario as an FMU (FMI 2.0, model exchange)", fmu_command);
+  auto [command, options] = commands.add(
+      "fmu", "export the drive of a scenario as an FMU, a model for Simulink, Modelica and others", fmu_command);
   add_scenario_options(command, options.scenario);
+  command.add_option("--fmi", options.version, "version of the standard FMI: 2 (default) or 3")
+      ->check(CLI::IsMember({2, 3}));
+  command
+      .add_option("--kind", options.kind,
+                  "plant: the motor torque is an input (default); loop: motor torque or controller are inside")
+      ->check(CLI::IsMember({"plant", "loop"}));
   command.add_option("-o,--output", options.output, "FMU; default: the scenario's name with .fmu");
   add_force(command, options.replace);
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bindings/fmi/export_fmu.hpp"
+#include "bindings/fmi/archive/export_fmu.hpp"
 #include "bindings/fmi/plant_parameters.hpp"
 #include "bindings/fmi/variables.hpp"
 #include "cli/commands.hpp"
@@ -14,28 +14,51 @@
 
 namespace wormdrive {
 
+namespace {
+
+/// The interface types of an FMU, and why it has not both.
+std::string interface_types(const FmuModel& model) {
+  const Offered has = offered(model);
+  if (has.model_exchange && has.co_simulation) return "model exchange and co-simulation";
+  if (has.model_exchange) return "model exchange only: the solver inside an FMU follows rigid teeth";
+  return model.kind == FmuKind::loop
+             ? "co-simulation: everything is inside"
+             : "co-simulation only: no solver of an importing tool remembers what is delayed or lags";
+}
+
+}  // namespace
+
 int fmu_command(const FmuOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
-  if (const auto why = not_exportable(scenario)) reject({options.scenario.file}, *why);
+  const FmuModel model = carried(scenario, options.kind == "loop" ? FmuKind::loop : FmuKind::plant);
+  if (const auto why = not_exportable(model)) reject({options.scenario.file}, *why);
   const std::string output = options.output.empty() ? default_output(options.scenario.file, ".fmu") : options.output;
   reject_overwriting(output, options.scenario.file);
-  export_fmu(scenario, output, options.replace);
+  export_fmu(model, options.version, output, options.replace);
+  const Offered has = offered(model);
   const InterfaceNames ports(has_elastic_teeth(scenario.effects));
+  const std::size_t indicators = has.model_exchange ? ports.indicators.size() : 0;
   int parameters = 0;
-  for_each_plant_parameter(scenario, [&](const std::string&, const auto&, const double&) { ++parameters; });
+  for_each_plant_parameter(model.scenario, [&](const std::string&, const auto&, const double&) { ++parameters; });
   if (options.scenario.json)
     print_json({{"title", scenario.title},
                 {"output", output},
+                {"fmi", options.version},
+                {"kind", options.kind},
+                {"model_exchange", has.model_exchange},
+                {"co_simulation", has.co_simulation},
                 {"states", ports.states.size()},
-                {"event_indicators", ports.indicators.size()},
+                {"event_indicators", indicators},
                 {"parameters", parameters}});
   if (options.scenario.json || options.scenario.quiet) return 0;
   fmt::print("{}\n", scenario.title);
-  print_item("fmu", fmt::format("FMI 2.0, model exchange: {} states, {} event indicators, {} parameters",
-                                ports.states.size(), ports.indicators.size(), parameters));
-  if (scenario.control || !scenario.motor.terms.empty())
-    print_item("outside", fmt::format("{}: motor_torque is the input, set by the importing tool",
-                                      scenario.control ? "[controller]" : "[motor.torque]"));
+  print_item("fmu", fmt::format("FMI {}.0, {}", options.version, interface_types(model)));
+  print_item("has",
+             fmt::format("{} states, {} event indicators, {} parameters", ports.states.size(), indicators, parameters));
+  if (model.kind == FmuKind::plant && (scenario.control || !scenario.motor.terms.empty()))
+    print_item("outside", fmt::format("{}: motor_torque is the input, set by the importing tool{}",
+                                      scenario.control ? "[controller]" : "[motor.torque]",
+                                      has.co_simulation ? "; --kind loop takes it in" : ""));
   print_item("wrote", output);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
 #include "simulation/stepping/commanded.hpp"
+#include "simulation/stepping/drive_numbers.hpp"
 #include "simulation/stepping/stepped_drive.hpp"
 
 namespace wormdrive {
@@ -104,51 +105,24 @@ class DriveStepper final : public SteppedDrive {
   }
 
   void write(std::vector<double>& to) const override {
-    const Instant& now = progress_.now;
-    to.push_back(now.t);
-    to.insert(to.end(), now.x.data(), now.x.data() + Drive::state_size);
-    if constexpr (shaft_count<Drive>() == 1) {
-      to.insert(to.end(), {double(sign(now.mode.motion)), double(sign(now.mode.flank)), now.since});
-    } else {
-      to.insert(to.end(), {double(sign(now.mode.worm)), double(sign(now.mode.contact)), double(sign(now.mode.gear))});
-    }
+    write_instant<Drive>(progress_.now, to);
     const InputMemory& past = drive_.memory();
-    to.insert(to.end(),
-              {drive_.knot(), past.entered, past.held_then, past.held.t, past.held.torque, past.frozen, past.lagged});
+    write_inputs(past, drive_.knot(), to);
     for (const long count : events()) to.push_back(static_cast<double>(count));
     for (const auto& [t, torque] : past.on_the_way) to.insert(to.end(), {t, torque});
   }
-  static constexpr std::size_t fixed_numbers = 1 + Drive::state_size + 3 + 7 + event_kind_count;
+  static constexpr std::size_t fixed_numbers = instant_numbers<Drive> + input_numbers + event_kind_count;
 
   bool read(std::span<const double> from) override {
     if (from.size() < fixed_numbers || (from.size() - fixed_numbers) % 2 != 0) return false;
-    std::size_t k = 0;
-    const auto next = [&] { return from[k++]; };
-    Instant now;
-    now.t = next();
-    for (int i = 0; i < Drive::state_size; ++i) now.x[i] = next();
-    const std::array<double, 3> mode{next(), next(), next()};
-    const auto is_sign = [](double x) { return x == -1.0 || x == 0.0 || x == 1.0; };
-    if (!is_sign(mode[0]) || !is_sign(mode[1])) return false;
-    const auto motion = static_cast<Motion>(static_cast<int>(mode[0]));
-    const auto flank = static_cast<Flank>(static_cast<int>(mode[1]));
-    if constexpr (shaft_count<Drive>() == 1) {
-      now.mode = {motion, flank};
-      now.since = mode[2];
-    } else {
-      if (!is_sign(mode[2])) return false;
-      now.mode = {flank, motion, static_cast<Motion>(static_cast<int>(mode[2]))};
-    }
-    const double knot = next();
-    InputMemory past;
-    past.entered = next();
-    past.held_then = next();
-    past.held.t = next();
-    past.held.torque = next();
-    past.frozen = next();
-    past.lagged = next();
+    NumberReader next(from);
+    const std::optional<Instant> then = read_instant<Drive>(next);
+    if (!then) return false;
+    const Instant now = *then;
+    double knot = 0.0;
+    InputMemory past = read_inputs(next, knot);
     for (long& count : earlier_) count = static_cast<long>(next());
-    while (k < from.size()) {
+    while (!next.rest().empty()) {
       const double t = next();
       past.on_the_way.push_back({t, next()});
     }

@@ -29,15 +29,19 @@ class Fmu {
     boost::property_tree::ptree xml;
     read_xml(folder / "modelDescription.xml", xml);
     const auto& model = xml.get_child("fmiModelDescription");
-    guid_ = model.get<std::string>("<xmlattr>.guid");
-    indicators = model.get<size_t>("<xmlattr>.numberOfEventIndicators");
+    const bool second = model.get<std::string>("<xmlattr>.fmiVersion") == "2.0";
+    guid_ = model.get<std::string>(second ? "<xmlattr>.guid" : "<xmlattr>.instantiationToken");
+    indicators = model.get<size_t>("<xmlattr>.numberOfEventIndicators", 0);
     for (const auto& [tag, variable] : model.get_child("ModelVariables"))
       references_[variable.get<std::string>("<xmlattr>.name")] = variable.get<unsigned>("<xmlattr>.valueReference");
-    states = model.get_child("ModelStructure.Derivatives").count("Unknown");
-    const auto name = model.get<std::string>("ModelExchange.<xmlattr>.modelIdentifier");
+    if (second) states = model.get_child("ModelStructure.Derivatives").count("Unknown");
+    const char* const type = model.count("CoSimulation") > 0 ? "CoSimulation" : "ModelExchange";
+    const auto name = model.get<std::string>(std::string(type) + ".<xmlattr>.modelIdentifier");
     const char* const watched = std::getenv("WORMDRIVE_FMU_LIBRARY");
-    library_ =
-        dlopen(watched ? watched : (folder / ("binaries/linux64/" + name + ".so")).c_str(), RTLD_NOW | RTLD_LOCAL);
+    library_ = dlopen(
+        watched ? watched
+                : (folder / ("binaries/" + std::string(second ? "linux64/" : "x86_64-linux/") + name + ".so")).c_str(),
+        RTLD_NOW | RTLD_LOCAL);
     if (!library_) throw std::runtime_error(dlerror());
   }
   Fmu(const Fmu&) = delete;
@@ -87,8 +91,13 @@ class Instance {
   template <class Function, class... Arguments>
   void call(const char* name, Arguments... arguments) {
     log_.clear();
-    if (function<Function>(name)(component_, arguments...) != fmi2OK) throw std::runtime_error(log_);
+    if (status<Function>(name, arguments...) != fmi2OK) throw std::runtime_error(log_);
   }
+  template <class Function, class... Arguments>
+  fmi2Status status(const char* name, Arguments... arguments) {
+    return function<Function>(name)(component_, arguments...);
+  }
+  const std::string& log() const { return log_; }
   double real(const std::string& name) {
     const unsigned reference = fmu_.reference(name);
     double value;

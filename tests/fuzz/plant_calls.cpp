@@ -81,7 +81,8 @@ void call(fmi2Component plant, Source& source, fmi2FMUstate& kept) {
 
 std::vector<std::vector<std::uint8_t>> plant_seeds(const std::filesystem::path& folder) {
   folder_of_plant = folder.string();
-  const std::string plant = plant_to_json(load_scenario(WORMDRIVE_SCENARIOS "/fig09_switching.toml", {}, Purpose::run));
+  const std::string plant = plant_to_json(
+      carried(load_scenario(WORMDRIVE_SCENARIOS "/fig09_switching.toml", {}, Purpose::run), FmuKind::plant));
   std::ofstream(folder / "plant.json", std::ios::binary) << plant;
   guid = guid_of(plant);
   // set-up, initialisation, an event, the time that goes on: as an importer does

@@ -1,0 +1,101 @@
+// modelDescription.xml and terminalsAndIcons.xml of FMI 3.0.
+#include <algorithm>
+
+#include "bindings/fmi/archive/description_xml.hpp"
+#include "bindings/fmi/archive/model_description.hpp"
+#include "bindings/fmi/variables.hpp"
+
+namespace wormdrive {
+namespace {
+
+constexpr const char* fmi3_version = "3.0";
+
+/// references: of the variables by name.
+void write_fmi3_variable(Tree& list, const VariableInfo& variable, const std::map<std::string, unsigned>& references) {
+  Tree& one = child(list, variable.whole ? "Int32" : "Float64");
+  attribute(one, "name", variable.name);
+  attribute(one, "valueReference", variable.reference);
+  attribute(one, "description", variable.description);
+  attribute(one, "causality", variable.causality);
+  attribute(one, "variability", variable.variability);
+  if (variable.is_calculated()) attribute(one, "initial", "calculated");
+  if (variable.start) attribute(one, "start", *variable.start);
+  state_unit(one, variable);
+  if (variable.min) attribute(one, "min", *variable.min);
+  if (variable.max) attribute(one, "max", *variable.max);
+  if (!variable.derivative_of.empty()) attribute(one, "derivative", references.at(variable.derivative_of));
+}
+
+void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& variables) {
+  const auto list = [&](const char* group, auto&& belongs) {
+    for (const VariableInfo& variable : variables)
+      if (belongs(variable)) attribute(child(structure, group), "valueReference", variable.reference);
+  };
+  const auto is_output = [](const VariableInfo& v) { return v.causality == "output"; };
+  const auto is_rate = [](const VariableInfo& v) { return !v.derivative_of.empty(); };
+  list("Output", is_output);
+  list("ContinuousStateDerivative", is_rate);
+  list("InitialUnknown", [&](const VariableInfo& v) { return is_output(v) || is_rate(v); });
+  list("EventIndicator",
+       [](const VariableInfo& v) { return v.reference >= first_indicator && v.reference < first_parameter; });
+}
+
+}  // namespace
+
+std::string fmi3_description(const FmuModel& model) {
+  const std::vector<VariableInfo> variables = variables_of(model);
+  const Offered has = offered(model);
+  Tree root;
+  Tree& top = child(root, "fmiModelDescription");
+  attribute(top, "fmiVersion", fmi3_version);
+  attribute(top, "instantiationToken", model.token);
+  write_origin(top, model.scenario);
+  const auto interface = [&](const char* name) -> Tree& {
+    Tree& type = child(top, name);
+    attribute(type, "modelIdentifier", std::string(model_identifier));
+    attribute(type, "canGetAndSetFMUState", true);
+    attribute(type, "canSerializeFMUState", can_be_serialized(model));
+    return type;
+  };
+  if (has.model_exchange) interface("ModelExchange");
+  if (has.co_simulation) {
+    Tree& type = interface("CoSimulation");
+    for (const char* can : {"canHandleVariableCommunicationStepSize", "providesIntermediateUpdate",
+                            "mightReturnEarlyFromDoStep", "canReturnEarlyAfterIntermediateUpdate", "hasEventMode"})
+      attribute(type, can, true);
+  }
+  write_units(top, variables);
+  write_log_categories(top);
+  write_experiment(top, model.scenario.run);
+  std::map<std::string, unsigned> references;
+  for (const VariableInfo& variable : variables) references[variable.name] = variable.reference;
+  Tree& list = child(top, "ModelVariables");
+  for (const VariableInfo& variable : variables) write_fmi3_variable(list, variable, references);
+  write_fmi3_structure(child(top, "ModelStructure"), variables);
+  return to_text(root);
+}
+
+std::string fmi3_terminals(const FmuModel& model) {
+  Tree root;
+  Tree& top = child(root, "fmiTerminalsAndIcons");
+  attribute(top, "fmiVersion", fmi3_version);
+  Tree& list = child(top, "Terminals");
+  const auto terminal = [&](const char* name, const char* description,
+                            const std::vector<std::pair<std::string, std::string>>& members) {
+    Tree& one = child(list, "Terminal");
+    attribute(one, "name", name);
+    attribute(one, "matchingRule", "plug");
+    attribute(one, "description", description);
+    for (const auto& [variable, member] : members) {
+      Tree& at = child(one, "TerminalMemberVariable");
+      attribute(at, "variableName", variable);
+      attribute(at, "memberName", member);
+      attribute(at, "variableKind", "signal");
+    }
+  };
+  if (model.kind == FmuKind::plant) terminal("motor", "the worm's shaft", {{"motor_torque", "torque"}});
+  terminal("gear", "the gear's shaft", {{"gear_angle", "angle"}, {"gear_speed", "speed"}});
+  return to_text(root);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,87 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "bindings/fmi/variables.hpp"
+
+namespace wormdrive {
+
+/// How far an indicator lies above its guard: behind an event no guard of the new mode stands at exactly 0, and a guard
+/// that only touches 0 makes no event.
+inline constexpr double hysteresis = 1e-10;
+
+/// What a guard of a drive is divided by to be about 1, in the order of the indicators.
+template <class Load>
+auto indicator_scales(const WormDrive<double, Load>& drive, const typename WormDrive<double, Load>::Instant& now) {
+  const auto rest = drive.guards(drive.moment(now), Mode{});
+  const double a = std::max(std::abs(rest[0]), std::abs(rest[1])), acceleration = a > 0.0 && std::isfinite(a) ? a : 1.0;
+  const double surface = drive.mesh().has_teeth ? acceleration * drive.mesh().Jw * drive.mesh().i : 1.0;
+  return std::array{std::sqrt(acceleration), surface, acceleration, acceleration};
+}
+template <class Load>
+auto indicator_scales(const CompliantDrive<double, Load>& drive,
+                      const typename CompliantDrive<double, Load>::Instant& now) {
+  const double torque = std::abs(drive.rigid().inputs(drive.moment(now), now.mode.gear).gear), Jg = drive.rigid().Jg();
+  const double gear = torque > 0.0 ? torque / Jg : 1.0, worm = gear * drive.mesh().i;
+  const double force = gear * Jg / drive.mesh().lg;
+  const double gap = std::max(0.5 * drive.contact().backlash * drive.mesh().lg, force / drive.contact().stiffness());
+  return std::array{force, gap, gap, std::sqrt(worm), worm, worm, std::sqrt(gear), gear, gear};
+}
+
+/// The guards of a drive as event indicators: of the order of 1, and positive while the mode holds.
+template <class Drive>
+class Indicators {
+ public:
+  using Instant = typename Drive::Instant;
+  using Ports = Interface<Drive>;
+  static constexpr std::size_t count = Ports::indicators.size();
+
+  /// Scaled by the torques at an instant.
+  Indicators(const Drive& drive, const Instant& now) : scales_(indicator_scales(drive, now)) {}
+
+  /// Of the guards that the present mode has, in their order.
+  std::array<double, Drive::guard_count> of_guards(const Drive& drive, const Instant& now) const {
+    std::array<double, Drive::guard_count> z = drive.guards(drive.moment(now), now.mode);
+    for (int g = 0; g < Drive::guard_count; ++g) {
+      z[g] = z[g] / scales_[index(now, g)] + hysteresis;
+      if (z[g] == 0.0) z[g] = -std::numeric_limits<double>::min();
+    }
+    return z;
+  }
+  /// Of all guards; those of other modes are 1.
+  std::array<double, count> all(const Drive& drive, const Instant& now) const {
+    std::array<double, count> z;
+    z.fill(1.0);
+    const auto present = of_guards(drive, now);
+    for (int g = Drive::guard_count - 1; g >= 0; --g) z[index(now, g)] = present[g];  // of one name the first counts
+    return z;
+  }
+
+  /// What the guards are divided by, for a copy that starts elsewhere.
+  std::array<double, count>& scales() { return scales_; }
+  const std::array<double, count>& scales() const { return scales_; }
+
+ private:
+  static std::size_t index(const Instant& now, int guard) {
+    const auto& names = Ports::indicators;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), Drive::guard_name(now.mode, guard)) -
+                                    names.begin());
+  }
+
+  std::array<double, count> scales_;
+};
+
+/// How many changes of mode there were, and when the latest was.
+struct EventTally {
+  int count = 0;
+  double latest = 0.0;  ///< [s]; the start, before the first
+
+  void add(double t) {
+    ++count;
+    latest = t;
+  }
+};
+
+}  // namespace wormdrive

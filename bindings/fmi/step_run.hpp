@@ -1,0 +1,226 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bindings/fmi/fmu_model.hpp"
+#include "bindings/fmi/indicators.hpp"
+#include "description/build_control.hpp"
+#include "events/simulate.hpp"
+#include "events/taylor/solver.hpp"
+#include "simulation/stepping/drive_numbers.hpp"
+
+namespace wormdrive {
+
+/// The solver inside keeps errors below this share in a second, whatever less the importer asks for: communication
+/// points that cut its steps elsewhere then change no result by 1e-9.
+inline constexpr double loosest_inside = 1e-12;
+
+/// A drive that goes from one communication point to the next by its own solver, through every event on the way; under
+/// a motor torque that is held meanwhile, or with all that moves it inside.
+template <class Drive>
+class StepRun {
+ public:
+  using Ports = Interface<Drive>;
+  using Instant = typename Drive::Instant;
+  static constexpr std::size_t state_size = Drive::state_size, indicator_count = Ports::indicators.size();
+  using States = std::array<double, state_size>;
+
+  /// Starts at t [s] with a motor torque [N m], which counts for a plant only.
+  StepRun(Drive drive, const FmuModel& model, double t, double torque, double relative_tolerance)
+      : drive_(std::move(drive)),
+        settings_{.solver = SolverKind::taylor,
+                  .relative_tolerance = std::min(relative_tolerance, loosest_inside),
+                  .absolute_tolerance = 0.01 * std::min(relative_tolerance, loosest_inside)},
+        held_from_outside_(model.kind == FmuKind::plant),
+        torque_(torque),
+        progress_{timetable(model.scenario, t), start(model.scenario.initial, t), EventLog()},
+        indicators_(drive_, progress_.now),
+        events_{0, t} {
+    if (const auto& control = model.scenario.control)
+      loop_.emplace(AnyController(control->law, make_nominal(model.scenario), make_variations(model.scenario),
+                                  control->anti_windup),
+                    control->reference, control->sensor, control->sampling, control->disturbance, Unheard{});
+  }
+
+  double torque() const { return torque_; }
+  void set_torque(double torque, bool) { torque_ = torque; }
+  double time() const { return progress_.now.t; }
+
+  /// Whether outputs show the left limits of an event until pass_events(), as an importer with event mode asks for.
+  void hold_left_limits() { holds_left_limits_ = true; }
+
+  /// Goes on to a time [s]. end(t), asked at every change of mode, may end the step earlier: there, or at a later time
+  /// [s]. Throws SimulationFailure where the drive cannot go on; it then stands where it halted.
+  template <class End>
+  void step(double until, End&& end) {
+    left_.reset();
+    TaylorSolver<Drive> solver(drive_, settings_);
+    prepare(solver, until);
+    Mover mover{*this};
+    std::optional<Left> left;
+    go_on(drive_, solver, mover, progress_, [&](const Commanded<Drive>& drive, const Instant& now) {
+      const bool later = !latest_ || latest_->t != now.t;
+      const bool event = !later && !(latest_->mode == now.mode);
+      if (later && holds_left_limits_) left = Left{drive.observe(now), events_};
+      latest_ = now;
+      if (!event) return;
+      events_.add(now.t);
+      until = std::max(now.t, std::min(until, end(now.t)));
+      if (until == now.t) left_ = left;
+      progress_.timetable.end_at(until);
+    });
+  }
+  /// Takes the event at which the last step ended.
+  void pass_events() { left_.reset(); }
+  /// Events are found inside; nobody has to stop for them.
+  double next_event_time() const { return never; }
+
+  States states() const {
+    States x;
+    std::copy_n(progress_.now.x.data(), state_size, x.begin());
+    return x;
+  }
+  States rates() const {
+    const Instant& now = progress_.now;
+    const auto x = drive_.derivative(now.t, now.x, now.mode);
+    States rate;
+    std::copy_n(x.data(), state_size, rate.begin());
+    return rate;
+  }
+  std::array<double, indicator_count> indicators() const { return indicators_.all(drive_, progress_.now); }
+  Observation observe() const { return left_ ? left_->at : drive_.observe(progress_.now); }
+  double measured_angle() const { return drive_.measured_angle(progress_.now); }
+  const EventTally& events() const { return left_ ? left_->events : events_; }
+
+  // ---- as numbers ------------------------------------------------------------------------------------------------
+
+  /// All that changes; the same bits follow from them.
+  void write(std::vector<double>& to) const {
+    if (left_) throw std::logic_error("the event at which the step ended is to be handled first");
+    write_instant<Drive>(progress_.now, to);
+    to.insert(to.end(), indicators_.scales().begin(), indicators_.scales().end());
+    const InputMemory& past = drive_.memory();
+    write_inputs(past, drive_.knot(), to);
+    const bool begun = progress_.cause.reason == Reason::end;
+    to.insert(to.end(), {drive_.disturbance(), double(begun), double(commanded_.has_value()), commanded_.value_or(0.0),
+                         double(events_.count), events_.latest, double(past.on_the_way.size())});
+    for (const auto& [t, torque] : past.on_the_way) to.insert(to.end(), {t, torque});
+    if (!loop_) return;
+    const std::vector<double> memory = loop_->memory();
+    to.insert(to.end(), memory.begin(), memory.end());
+  }
+  /// Takes up such numbers; false where they are none. The run has to be a fresh one of the same model.
+  bool read(std::span<const double> from) {
+    NumberReader next(from);
+    const std::optional<Instant> now = read_instant<Drive>(next);
+    for (double& scale : indicators_.scales()) scale = next();
+    double knot = 0.0;
+    InputMemory past = read_inputs(next, knot);
+    const double disturbance = next();
+    const bool begun = next() != 0.0, is_commanded = next() != 0.0;
+    const double commanded = next();
+    events_.count = static_cast<int>(next());
+    events_.latest = next();
+    for (double left = next(); left >= 1.0; --left) {
+      const double t = next();
+      past.on_the_way.push_back({t, next()});
+      if (past.on_the_way.size() > from.size()) return false;
+    }
+    if (!now) return false;
+    if (loop_ && !loop_->recall(next.rest())) return false;
+    if (!begun) return true;  // as it was made
+    drive_.recall(past, knot);
+    drive_.disturb(disturbance);
+    if (is_commanded) commanded_ = commanded;
+    progress_.now = *now;
+    progress_.cause = {Reason::end};
+    if (loop_)
+      progress_.timetable.take_up(static_cast<long>(loop_->samples()),
+                                  static_cast<long>(loop_->samples() + loop_->latched()));
+    progress_.timetable.schedule_knot(knot);
+    latest_ = *now;
+    return true;
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  /// What is shown of an event that the importer has not taken.
+  struct Left {
+    Observation at;
+    EventTally events;
+  };
+  /// A loop's records are for those who watch a run.
+  struct Unheard {
+    void operator()(const ControlRecord&) const {}
+  };
+  using Loop = ClosedLoop<AnyController, Unheard>;
+
+  /// In the place of a controller: the loop inside, or the torque from outside.
+  struct Mover {
+    StepRun& run;
+    double sample(Commanded<Drive>& drive, const Instant& now) const {
+      return run.loop_ ? run.loop_->sample(drive, now) : run.torque_;
+    }
+    void latch(const Commanded<Drive>& drive, const Instant& now) const {
+      if (run.loop_) run.loop_->latch(drive, now);
+    }
+  };
+
+  Timetable timetable(const Scenario& scenario, double t) const {
+    const auto& control = scenario.control;
+    if (!control) return {t, never, never};
+    return {t, never, never, {control->sampling.period, control->sampling.offset, drive_.effects().measuring_delay()}};
+  }
+  Instant start(const InitialState<double>& initial, double t) {
+    drive_.enter(t);
+    if (held_from_outside_) drive_.command(t, torque_);
+    Instant now;
+    now.t = t;
+    now.x = {initial.theta_g, initial.omega_g};
+    now.mode = drive_.settle(now);
+    drive_.next_knot(t);
+    return now;
+  }
+
+  /// A torque from outside is commanded where it changes; else the run is taken up where it was left.
+  void prepare(TaylorSolver<Drive>& solver, double until) {
+    const Instant& now = progress_.now;
+    if (held_from_outside_ && (!commanded_ || *commanded_ != torque_)) {
+      commanded_ = torque_;
+      if (drive_.knot() <= now.t) {  // the load changes with the torque: one event, not two
+        drive_.enter(now.t);
+        drive_.next_knot(now.t);
+      }
+      progress_.timetable = Timetable(now.t, until, never, {.offset = 0.0});
+      progress_.timetable.schedule_knot(drive_.knot());
+      progress_.cause = {progress_.timetable.pop()};
+      return;
+    }
+    progress_.timetable.end_at(until);
+    if (progress_.cause.reason != Reason::end) return;  // the very first step
+    progress_.cause = {Reason::report};
+    if (!Drive::at_rest(now.mode)) solver.restart(now);
+  }
+
+  Commanded<Drive> drive_;
+  SolverSettings settings_;
+  bool held_from_outside_;
+  double torque_;
+  std::optional<double> commanded_;  ///< the torque from outside that the motor was told last [N m]
+  std::optional<Loop> loop_;
+  Progress<Commanded<Drive>> progress_;
+  Indicators<Drive> indicators_;
+  EventTally events_;
+  std::optional<Instant> latest_;
+  bool holds_left_limits_ = false;
+  std::optional<Left> left_;
+};
+
+}  // namespace wormdrive

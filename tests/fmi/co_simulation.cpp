@@ -1,0 +1,265 @@
+// An FMU that solves inside, in an importer that knows the standard only: the same run as `wormdrive run`, however long
+// its steps are.
+#include <thread>
+
+#include "fmi/exported.hpp"
+#include "simulation/run_scenario.hpp"
+
+using namespace wormdrive;
+using namespace wormdrive::test;
+
+namespace {
+
+const std::vector<std::string> loop{"--kind", "loop"};
+
+/// What an importer sees at a communication point.
+struct Point {
+  double t, angle, speed;
+  int events;
+  double latest;
+};
+
+/// One instance that goes from step to step [FMI 2.0.4, section 4.2.4].
+class Stepper {
+ public:
+  Stepper(const Fmu& fmu, double end, double start = 0.0) : model(fmu, "", fmi2CoSimulation), t(start) {
+    model.call<decltype(fmi2SetupExperiment)>("fmi2SetupExperiment", 0, 0.0, start, 1, end);
+    model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
+    model.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode");
+  }
+  Point step(double h) {
+    model.call<decltype(fmi2DoStep)>("fmi2DoStep", t, h, fmi2Boolean{1});
+    t += h;
+    return {t, model.real("gear_angle"), model.real("gear_speed"), model.integer("event_count"),
+            model.real("event_time")};
+  }
+  Point last(double end, double h) {
+    Point at{};
+    for (long k = std::lround((end - t) / h); k > 0; --k) at = step(h);
+    return at;
+  }
+
+  Instance model;
+  double t;
+};
+
+double angle_at(const Trajectory& run, double t, double speed) {
+  const auto after =
+      std::lower_bound(run.rows.begin(), run.rows.end(), t - 1e-9, [](const Row& r, double at) { return r.t < at; });
+  return after->at.theta_g + speed * (t - after->t);
+}
+
+/// Events within 1e-9 s and angles within 1e-8 rad at steps of 1 ms, and the same end from longer steps.
+void agrees(const std::string& file, std::vector<std::string> overrides, std::size_t at_least) {
+  INFO(file);
+  overrides.emplace_back("run.relative_tolerance=1e-13");
+  const Exported exported(file, overrides, loop);
+  const Trajectory ours = simulate_scenario(exported.scenario);
+  REQUIRE(ours.events.size() >= at_least);
+  const double end = exported.scenario.run.duration, h = 1e-3;
+  Stepper fine(*exported.fmu, end);
+  double angle = 0.0, time = 0.0;
+  std::size_t seen = 0, compared = 0;
+  Point at{};
+  for (long k = std::lround(end / h); k > 0; --k) {
+    const Point next = fine.step(h);
+    angle = std::max(angle, std::abs(next.angle - angle_at(ours, next.t, next.speed)));
+    if (next.events > at.events && static_cast<std::size_t>(next.events) <= ours.events.size()) {
+      time = std::max(time, std::abs(next.latest - ours.events[static_cast<std::size_t>(next.events) - 1].t));
+      ++compared;
+    }
+    seen += static_cast<std::size_t>(next.events - at.events);
+    at = next;
+  }
+  CHECK(seen == ours.events.size());
+  CHECK(2 * compared >= at_least);
+  CHECK(time < 1e-9);
+  CHECK(angle < 1e-8);
+  for (const double longer : {1e-2, 0.1}) {
+    const Point coarse = Stepper(*exported.fmu, end).last(end, longer);
+    INFO(longer);
+    CHECK(coarse.events == at.events);
+    CHECK(std::abs(coarse.angle - at.angle) < 1e-9);
+    CHECK(std::abs(coarse.speed - at.speed) < 1e-9);
+  }
+}
+
+std::string delayed(const Folder& folder) {
+  folder.write("delayed.toml", R"(title = "Everything is late"
+[mesh]
+ratio = 60
+lead_angle_deg = 4
+pressure_angle_deg = 20
+worm_pitch_radius_m = 0.011
+gear_pitch_radius_m = 0.045
+friction = 0.25
+worm_inertia_kgm2 = 2.53e-5
+gear_inertia_kgm2 = 7.39e-4
+[load]
+kind = "gravity_arm"
+torque_Nm = 0.0196
+angle_offset_deg = 0
+[controller]
+kind = "pid"
+sample_time_s = 2e-3
+sample_offset_s = 5e-4
+delay_samples = 1
+integral_weight = 1e4
+angle_weight = 4e2
+speed_weight = 1
+[reference]
+kind = "sinusoid"
+amplitude_rad = 0.14
+frequency_Hz = 2
+[effect.actuator_delay]
+delay_s = 7e-4
+[effect.actuator_lag]
+time_constant_s = 1e-3
+[effect.encoder_delay]
+delay_s = 3e-3
+[effect.torque_saturation]
+limit_Nm = 0.2
+[run]
+duration_s = 0.5
+report_interval_s = 1e-3
+)");
+  return folder / "delayed.toml";
+}
+
+/// A loop whose torque meets a limit.
+std::vector<std::string> limited(const std::string& anti_windup) {
+  return {"run.duration_s=1",
+          "metrics.from_s=0",
+          "run.report_interval_s=1e-3",
+          "effect.torque_saturation.limit_Nm=0.02",
+          "controller.anti_windup=" + anti_windup,
+          "sensor.shaft=worm"};
+}
+
+}  // namespace
+
+TEST_CASE("co-simulation of fig. 9 makes its events, whatever the steps are") {
+  agrees(shipped("fig09_switching.toml"), {"run.report_interval_s=1e-3"}, 12);
+}
+
+TEST_CASE("co-simulation of the closed loop of fig. 10 makes its events, whatever the steps are") {
+  agrees(shipped("fig10_sliding_014rad_bare.toml"),
+         {"run.duration_s=1", "metrics.from_s=0", "run.report_interval_s=1e-3"}, 4);
+}
+
+TEST_CASE("co-simulation carries delays, a lag and late samples") {
+  const Folder folder;
+  agrees(delayed(folder), {}, 2);
+}
+
+TEST_CASE("co-simulation takes anti-windup and an encoder on the worm along") {
+  for (const char* method : {"back_calculation", "conditional", "model_recovery"}) {
+    INFO(method);
+    agrees(shipped("fig10_sliding_014rad_bare.toml"), limited(method), 4);
+  }
+}
+
+TEST_CASE("a plant whose torque is set at communication points is a run under a table of these torques") {
+  const Folder folder;
+  const std::string motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
+  folder.write(
+      "held.toml",
+      edited(edited(good_scenario, motor,
+                    "[motor.torque]\nkind = \"samples\"\ntimes_s = [0, 0.02, 0.05]\ntorques_Nm = [0.05, -0.1, 0]\n"),
+             "[run]\nduration_s = 0.01\n",
+             "[effect.actuator_lag]\ntime_constant_s = 2e-3\n[run]\nduration_s = 0.1\nreport_interval_s = "
+             "1e-3\nrelative_tolerance = 1e-13\n"));
+  const Exported exported(folder / "held.toml");
+  const Trajectory ours = simulate_scenario(exported.scenario);
+  Stepper theirs(*exported.fmu, 0.1);
+  for (int k = 0; k < 100; ++k) {
+    theirs.model.set("motor_torque", k < 20 ? 0.05 : k < 50 ? -0.1 : 0.0);
+    const Point at = theirs.step(1e-3);
+    CHECK(std::abs(at.angle - angle_at(ours, at.t, at.speed)) < 1e-8);
+  }
+  CHECK(theirs.model.integer("event_count") == static_cast<int>(ours.events.size()));
+}
+
+TEST_CASE("an importer that goes back to a kept state, or to one in bytes in another instance, makes the same bits") {
+  const Folder folder;
+  for (const Exported& exported :
+       {Exported(shipped("fig09_switching.toml"), {}, loop), Exported(delayed(folder), {}, loop),
+        Exported(shipped("fig10_pid_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop),
+        Exported(shipped("fig10_pid_014rad_bare.toml"), limited("back_calculation"), loop),
+        Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("conditional"), loop),
+        Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("model_recovery"), loop)}) {
+    Stepper one(*exported.fmu, 0.4), other(*exported.fmu, 0.4);
+    one.last(0.1234, 0.0617);
+    fmi2FMUstate kept = nullptr;
+    one.model.call<decltype(fmi2GetFMUstate)>("fmi2GetFMUstate", &kept);
+    size_t size = 0;
+    one.model.call<decltype(fmi2SerializedFMUstateSize)>("fmi2SerializedFMUstateSize", kept, &size);
+    std::vector<char> bytes(size);
+    one.model.call<decltype(fmi2SerializeFMUstate)>("fmi2SerializeFMUstate", kept, bytes.data(), size);
+    const double then = one.t;
+    const Point first = one.last(0.3, 0.0883);
+    one.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", kept);
+    one.t = then;
+    const Point again = one.last(0.3, 0.0883);
+    CHECK(again.angle == first.angle);
+    CHECK(again.speed == first.speed);
+    CHECK(again.events == first.events);
+    one.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &kept);
+
+    fmi2FMUstate made = nullptr;
+    other.model.call<decltype(fmi2DeSerializeFMUstate)>("fmi2DeSerializeFMUstate",
+                                                        static_cast<const char*>(bytes.data()), size, &made);
+    other.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", made);
+    other.t = then;
+    const Point elsewhere = other.last(0.3, 0.0883);
+    CHECK(std::abs(elsewhere.angle - first.angle) < 1e-13);
+    CHECK(std::abs(elsewhere.speed - first.speed) < 1e-13);
+    CHECK(elsewhere.events == first.events);
+    other.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &made);
+    bytes[size / 2] ^= 1;
+    CHECK_THROWS_WITH(other.model.call<decltype(fmi2DeSerializeFMUstate)>(
+                          "fmi2DeSerializeFMUstate", static_cast<const char*>(bytes.data()), size, &made),
+                      "the bytes are no state of this FMU: they are damaged");
+  }
+}
+
+TEST_CASE("steps that cannot be are refused and change nothing") {
+  const Exported exported(shipped("fig09_switching.toml"), {}, loop);
+  Stepper stepper(*exported.fmu, 1.0);
+  const Point before = stepper.step(0.1);
+  const auto step = [&](double from, double size) {
+    stepper.model.call<decltype(fmi2DoStep)>("fmi2DoStep", from, size, fmi2Boolean{1});
+  };
+  CHECK_THROWS_WITH(step(0.1, 0.0), "the communication step 0 s must be greater than 0");
+  CHECK_THROWS_WITH(step(0.1, -0.1), "the communication step -0.1 s must be greater than 0");
+  CHECK_THROWS_WITH(step(0.1, std::nan("")), "the communication step nan s must be greater than 0");
+  CHECK_THROWS_WITH(step(0.2, 0.1), "the communication point 0.2 s is not where the instance is, 0.1 s");
+  CHECK_THROWS_WITH(step(0.1, 2.0), "the step ends at 2.1 s, after the stop time 1 s");
+  CHECK_THROWS_WITH(stepper.model.call<decltype(fmi2NewDiscreteStates)>("fmi2NewDiscreteStates", nullptr),
+                    "fmi2NewDiscreteStates must not be called in step mode");
+  CHECK_THROWS_WITH(stepper.model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode"),
+                    "fmi2EnterInitializationMode must not be called in step mode");
+  CHECK_THROWS_WITH(stepper.model.set("mesh.friction", 0.2),
+                    "parameters can be set before the end of the initialization mode only");
+  CHECK_THROWS_WITH(stepper.model.call<decltype(fmi2GetReal)>("fmi2GetReal", nullptr, size_t{1}, nullptr),
+                    "the list of value references is a null pointer");
+  CHECK(stepper.model.real("gear_angle") == before.angle);
+  double reached = 0.0;
+  stepper.model.call<decltype(fmi2GetRealStatus)>("fmi2GetRealStatus", fmi2LastSuccessfulTime, &reached);
+  CHECK(reached == 0.1);
+  fmi2Status none = fmi2OK;
+  CHECK(stepper.model.status<decltype(fmi2GetStatus)>("fmi2GetStatus", fmi2DoStepStatus, &none) == fmi2Discard);
+  CHECK_THROWS_WITH(Instance(*exported.fmu), "this FMU is one for co-simulation");
+}
+
+TEST_CASE("instances in threads of their own do not see each other") {
+  const Exported exported(shipped("fig10_sliding_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop);
+  std::array<double, 4> ends{};
+  std::vector<std::thread> threads;
+  for (double& end : ends)
+    threads.emplace_back([&] { end = Stepper(*exported.fmu, 0.3).last(0.3, &end == ends.data() ? 0.1 : 0.01).angle; });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(ends[1] == ends[2]);
+  CHECK(ends[1] == ends[3]);
+  CHECK(std::abs(ends[0] - ends[1]) < 1e-9);
+}
