@@ -68,8 +68,8 @@ TEST_CASE("where worm and gear accelerate together, every effect does to them wh
       const Mode without = plain.settle({t, {theta_g, omega}, {}});
       changed += !close(plain.acceleration(plain.moment(t, theta_g, omega), without), alpha, 1e-4);
       const Observation seen = elastic.observe({t, now.x, settled});
-      REQUIRE(seen.tau_m == rigid.inputs(at).worm);
-      REQUIRE(seen.tau_l == rigid.inputs(at).gear);
+      REQUIRE(seen.tau_m == rigid.inputs(at, mode.motion).worm);
+      REQUIRE(seen.tau_l == rigid.inputs(at, mode.motion).gear);
     }
   REQUIRE(changed == 2 * static_cast<int>(each_effect().size()));
 }

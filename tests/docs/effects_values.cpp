@@ -94,8 +94,8 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
     if (at.has("rest")) moment.rest = at["rest"];
     const Motion motion = omega_g > 0.0 ? Motion::forward : omega_g < 0.0 ? Motion::backward : Motion::stuck;
     const Effects<double> on = alone(value.effect, drive.effects());
-    if (quantity == "tau_m") return drive.inputs(moment).worm;
-    if (quantity == "tau_l") return drive.inputs(moment).gear;
+    if (quantity == "tau_m") return drive.inputs(moment, motion).worm;
+    if (quantity == "tau_l") return drive.inputs(moment, motion).gear;
     if (quantity == "tau_w") return on.worm_torque(moment, motion);
     if (quantity == "tau_g") return on.gear_torque(moment, motion);
     if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
