@@ -131,10 +131,14 @@ class PlantRun {
     for (int round = 0; round < 3 * Drive::guard_count; ++round) {
       take_torque();
       const auto z = indicators_.of_guards(drive_, now_);
-      const auto lowest = std::min_element(z.begin(), z.end());
-      if (*lowest > 0.0) return;
+      if (*std::min_element(z.begin(), z.end()) > 0.0) return;
+      // Teeth that part take their friction along: the break-in of a shaft passes zero with them. The contact, whose
+      // guards come first, is what ends, though it may lie within its lift yet.
+      const auto fallen = shaft_count<Drive>() == 2
+                              ? std::find_if(z.begin(), z.end(), [](double g) { return g < hysteresis; })
+                              : std::min_element(z.begin(), z.end());
       const auto before = now_.mode;
-      now_ = drive_.jump(now_, static_cast<int>(lowest - z.begin()));
+      now_ = drive_.jump(now_, static_cast<int>(fallen - z.begin()));
       // A drive that does not know how its torque goes on may take a surface that was passed for one only touched.
       if constexpr (std::is_same_v<typename Drive::Mode, Mode>)
         if (now_.mode == before) now_.mode.flank = before.flank == Flank::left ? Flank::right : Flank::left;

@@ -20,6 +20,7 @@ namespace wormdrive {
 /// The solver inside keeps errors below this share in a second, whatever less the importer asks for: communication
 /// points that cut its steps elsewhere then change no result by 1e-9.
 inline constexpr double loosest_inside = 1e-12;
+inline constexpr double tightest_inside = 1e-14;  ///< as in a scenario: below it is rounding
 
 /// A drive that goes from one communication point to the next by its own solver, through every event on the way; under
 /// a motor torque that is held meanwhile, or with all that moves it inside.
@@ -35,8 +36,8 @@ class StepRun {
   StepRun(Drive drive, const FmuModel& model, double t, double torque, double relative_tolerance)
       : drive_(std::move(drive)),
         settings_{.solver = SolverKind::taylor,
-                  .relative_tolerance = std::min(relative_tolerance, loosest_inside),
-                  .absolute_tolerance = 0.01 * std::min(relative_tolerance, loosest_inside)},
+                  .relative_tolerance = std::clamp(relative_tolerance, tightest_inside, loosest_inside),
+                  .absolute_tolerance = 0.01 * std::clamp(relative_tolerance, tightest_inside, loosest_inside)},
         held_from_outside_(model.kind == FmuKind::plant),
         torque_(torque),
         progress_{timetable(model.scenario, t), start(model.scenario.initial, t), EventLog()},

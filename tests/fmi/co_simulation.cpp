@@ -252,6 +252,32 @@ TEST_CASE("steps that cannot be are refused and change nothing") {
   CHECK_THROWS_WITH(Instance(*exported.fmu), "this FMU is one for co-simulation");
 }
 
+TEST_CASE("a step in which the drive halts is discarded, with the time that it came to") {
+  const Folder folder;
+  folder.write("halts.toml", edited(edited(good_scenario, "kind = \"constant\"\ntorque_Nm = -0.05\n",
+                                           "kind = \"ramp\"\nrate_Nm_per_s = 1e308\nstart_s = 0.05\n"),
+                                    "duration_s = 0.01", "duration_s = 0.2"));
+  const Exported exported(folder / "halts.toml", {}, loop);
+  Stepper stepper(*exported.fmu, 0.2);
+  fmi2FMUstate kept = nullptr;
+  stepper.model.call<decltype(fmi2GetFMUstate)>("fmi2GetFMUstate", &kept);
+  const auto step = [&](double from) {
+    return stepper.model.status<decltype(fmi2DoStep)>("fmi2DoStep", from, 0.1, fmi2Boolean{1});
+  };
+  CHECK(step(0.0) == fmi2Discard);
+  CHECK(stepper.model.log().starts_with("cannot go on at t = 0.05 s"));
+  double reached = 0.0;
+  fmi2Boolean terminated = fmi2False;
+  stepper.model.call<decltype(fmi2GetRealStatus)>("fmi2GetRealStatus", fmi2LastSuccessfulTime, &reached);
+  stepper.model.call<decltype(fmi2GetBooleanStatus)>("fmi2GetBooleanStatus", fmi2Terminated, &terminated);
+  CHECK(std::abs(reached - 0.05) < 1e-12);
+  CHECK(terminated == fmi2True);
+  CHECK(step(reached) == fmi2Discard);
+  stepper.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", kept);
+  stepper.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &kept);
+  CHECK(stepper.step(0.04).angle == 0.0);
+}
+
 TEST_CASE("instances in threads of their own do not see each other") {
   const Exported exported(shipped("fig10_sliding_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop);
   std::array<double, 4> ends{};

@@ -199,8 +199,7 @@ TEST_CASE("FMI 3.0: calls out of order are refused") {
   CHECK(model.step(0.0, 1.0).reached == 1.0);
 }
 
-TEST_CASE("the description of an FMU keeps to the schema of FMI 3.0, and its library has every function",
-          "[reference]") {
+TEST_CASE("the description of an FMU keeps to the schema of FMI 3.0", "[reference]") {
   const std::string schemas = WORMDRIVE_REFERENCE_DATA "/../fmi/", xmllint = "/usr/bin/xmllint";
   if (!std::filesystem::exists(schemas + "fmi3ModelDescription.xsd")) {
     WARN("skipped: reference data not found");
