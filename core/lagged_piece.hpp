@@ -24,6 +24,12 @@ class LaggedPiece {
     return staying(t) + excess_ * exp((begin_ - t) / lag_);
   }
 
+  /// The most by which it differs from its value at t at other times, complex ones too, within so many seconds.
+  double change_within(double t, double seconds) const {
+    const double rate = 1.0 / value_of(lag_),
+                 left = std::abs(value_of(excess_)) * portable::exp((value_of(begin_) - t) * rate);
+    return u_.change_within(seconds) + left * (portable::exp(seconds * rate) - 1.0);
+  }
   /// From when on what decays is below rounding [s].
   double settled() const { return value_of(begin_) + 40.0 * value_of(lag_); }
 

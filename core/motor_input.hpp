@@ -25,7 +25,8 @@ class MotorInput {
         delay_(delay),
         late_(value_of(delay)),
         lag_(lag),
-        direct_(std::is_same_v<T, double> && late_ <= 0.0 && std::isinf(value_of(limit)) && !lags()) {}
+        plain_(std::is_same_v<T, double> && late_ <= 0.0 && !lags()),
+        direct_(plain_ && std::isinf(value_of(limit))) {}
 
   /// Forgets what was commanded, for a new run from its start.
   void rewind() {
@@ -66,6 +67,11 @@ class MotorInput {
     if (lags()) return lagged_(then);
     return side_ == 0 ? piece_(then) : S(cut_off());
   }
+  bool is_constant() const { return !lags() && piece_.is_constant(); }
+  /// The most by which the torque differs from its value at t at other times, complex ones too, within so many seconds.
+  double change_within(double t, double seconds) const {
+    return lags() ? lagged_.change_within(t - late_, seconds) : piece_.change_within(seconds);
+  }
   /// When what holds now has arrived [s]: a knot of the command moves with the delay, one of the load does not.
   const T& arrival() const { return arrival_; }
   /// The smooth piece of the command that the motor has now; its time is delayed.
@@ -95,6 +101,12 @@ class MotorInput {
   /// The same through a limit, a delay or a lag.
   [[gnu::noinline]] bool command_indirect(double t, double torque) {
     arrival_ = T(t);
+    if (plain_ && signal_.terms.empty()) {  // what is held for good is cut once
+      held_ = torque;
+      side_ = 0;
+      piece_.constant = std::clamp(signal_constant_ + torque, -limit(), limit());
+      return false;
+    }
     if (late_ > 0.0) {
       on_the_way_.push_back({t + late_, torque});
       return true;
@@ -137,7 +149,8 @@ class MotorInput {
   T delay_;
   double late_;  ///< the delay's value [s]
   T lag_;
-  bool direct_;   ///< what is commanded is what the motor gives; nothing carries a derivative by a delay
+  bool plain_;    ///< nothing carries a derivative, and what is commanded arrives at once ...
+  bool direct_;   ///< ... and uncut: what is commanded is what the motor gives
   int side_ = 0;  ///< of the limit that holds now, 0 for none
   T arrival_{};
   LaggedPiece<T> lagged_{};

@@ -72,6 +72,7 @@ class TorqueBalance {
   }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
+  const MotorInput<T>& motor_input() const { return motor_; }
   /// First time after t at which an input jumps or bends.
   double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
   /// Highest angular frequency of the present inputs from t on [rad/s].
@@ -139,8 +140,12 @@ class TorqueBalance {
 
   template <class S>
   SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
+    return with_bearings<S>({input.worm + disturbance_, input.gear}, at, motion);
+  }
+  template <class S>
+  SideTorques<S> with_bearings(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
-    return {(input.worm + disturbance_) + worm, input.gear + effects_.gear_torque(at, motion)};
+    return {input.worm + worm, input.gear + effects_.gear_torque(at, motion)};
   }
   /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
   template <class S>

@@ -21,16 +21,25 @@ bool has_sensor(const Effects<double>& effects) {
 
 }  // namespace
 
-bool has_lane_plant(const Scenario& scenario) {
+namespace {
+
+/// The same with torques that may be cut at a limit.
+bool has_limited_lane_plant(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
   return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
          std::holds_alternative<GravityArm>(scenario.load) && scenario.motor.terms.empty() && !has_elastic_teeth(on) &&
-         std::isinf(on.torque_limit()) && on.delay() <= 0.0 && on.lag() <= 0.0;
+         !on.have_states() && on.delay() <= 0.0 && on.lag() <= 0.0;
+}
+
+}  // namespace
+
+bool has_lane_plant(const Scenario& scenario) {
+  return has_limited_lane_plant(scenario) && std::isinf(scenario.effects.torque_limit());
 }
 
 bool fits_lane(const Scenario& scenario) {
   const auto& control = scenario.control;
-  return control && std::holds_alternative<SlidingParameters>(control->law) && has_lane_plant(scenario) &&
+  return control && std::holds_alternative<SlidingParameters>(control->law) && has_limited_lane_plant(scenario) &&
          control->sampling.delay <= 0.5 && control->sensor.counts <= 0.0 && control->sensor.noise <= 0.0 &&
          !control->sensor.exact_speed && !control->sensor.on_worm && control->disturbance.deviation <= 0.0 &&
          !has_sensor(scenario.effects);
@@ -83,6 +92,7 @@ void LaneRun::start(const Lane& lane) {
                           .speed = {control.sensor.filter_cutoff, control.sampling.period},
                           .sums = watch_.meter.sums(),
                           .quiet = watch_.lemma->quiet(),
+                          .limit = drive_.torque_limit(),
                           .drive = {},
                           .arm_offset = solver_.nominal().arm_offset(),
                           .theta = 0.0,

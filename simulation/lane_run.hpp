@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,7 @@ class LaneRun {
   /// False for a mode whose steps have no closed form.
   bool has_closed_form() const;
   bool estimate_is_aligned() const { return controller_.nominal().load_angle_offset == 0.0; }
+  bool saturates() const { return !std::isinf(drive_.torque_limit()); }
 
   /// Goes to the first sample and takes up its lane. Throws SimulationFailure.
   void start(const Lane& lane);

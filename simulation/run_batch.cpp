@@ -32,10 +32,11 @@ class LaneGroup {
 
   /// first: any of their scenarios.
   std::vector<BatchResult> run(const Scenario& first) {
-    bool aligned = true;
+    bool aligned = true, saturates = false;
     for (int lane = 0; lane < lanes(); ++lane) {
       alive_[lane / width_] |= 1U << lane % width_;
       aligned = aligned && runs_[lane]->estimate_is_aligned();
+      saturates = saturates || runs_[lane]->saturates();
       attempt(lane, [&] { runs_[lane]->start(place(lane)); });
     }
     const LaneBatch batch{.trials = memory_.data(),
@@ -43,6 +44,7 @@ class LaneGroup {
                           .alive = alive_.data(),
                           .accuracy = TaylorAccuracy(first.run.solver_settings()),
                           .estimate_is_aligned = aligned,
+                          .saturates = saturates,
                           .owner = this,
                           .go_on = go_on,
                           .note = note,

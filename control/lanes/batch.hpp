@@ -29,6 +29,7 @@ struct LaneBatch {
   const unsigned* alive;  ///< a bit for every lane of a register that holds a trial which goes on
   TaylorAccuracy accuracy;
   bool estimate_is_aligned;  ///< no estimated load has an angle offset
+  bool saturates;            ///< a motor's torque has a limit
 
   void* owner;
   /// Takes a trial, lanes counted through, to the next sample under a torque [N m], events included.

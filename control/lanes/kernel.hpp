@@ -29,7 +29,8 @@ class LaneKernel {
         batch.estimate_is_aligned ? gear.cosine : sine_and_cosine(batch, r, theta_now + x.load_angle_offset).cosine;
     const MeasurementOf<V> m{sample.t, theta_now, x.speed(theta_now), sample.period, sample.desired};
     const ControlSignalsOf<V> decided = x.law(m, x.load_torque * estimated + x.load_constant);
-    const ControlRecordOf<V> record{theta_now, m, decided, decided.torque, 0.0};
+    const V applied = batch.saturates ? within_limits<V>(decided.torque, -x.limit, x.limit) : decided.torque;
+    const ControlRecordOf<V> record{theta_now, m, decided, applied, 0.0};
     if (sample.counts) x.sums.add(record);
     if (const unsigned loud = set_bits(!x.quiet(record)) & batch.alive[r]) [[unlikely]]
       note(batch, r, loud, record);

@@ -19,6 +19,7 @@ struct LaneTrial {
   SpeedEstimatorOf<V> speed;
   SampleSums<V> sums;
   Lemma1Quiet<V> quiet;
+  V limit;                        ///< of the motor's torque [N m]
   DrivenMotionOf<V> drive;        ///< the present mode; motion 0 at rest
   SineAndCosineOf<V> arm_offset;  ///< of the arm against the gear
   V theta, omega;                 ///< of the gear [rad, rad/s]

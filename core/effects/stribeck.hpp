@@ -6,6 +6,7 @@
 
 #include "core/field.hpp"
 #include "core/numbers/portable.hpp"
+#include "core/numbers/series.hpp"
 #include "core/place.hpp"
 #include "core/sliding_contact.hpp"
 
@@ -44,9 +45,8 @@ struct Stribeck {
   S friction(const S& mu, const SlidingContact<S>& at) const {
     using portable::exp;
     // |v| by the sign of the motion: smooth where an integrator looks beyond a reversal, and bounded beyond that
-    S x = T(sign(at.motion)) * at.sliding_speed / speed;
-    const S least = S(T(tail > 0 ? -0.5 : -1.0));  // 1/(1 + x) has a pole at -1
-    if (x < least) x = least;
+    const double least = tail > 0 ? -0.5 : -1.0;  // 1/(1 + x) has a pole at -1
+    const S x = at_least(S(T(sign(at.motion)) * at.sliding_speed / speed), least);
     S power = x;
     for (int k = 1; k < exponent; ++k) power = power * x;
     const S one = S(T(1));

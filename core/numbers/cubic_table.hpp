@@ -22,18 +22,31 @@ class CubicTable {
     for (double point : x_) slopes_.push_back(spline.prime(point));
   }
 
+  /// One of the cubics: value + s (slope + s (second + s third)), s = x - begin, up to where the next one begins.
+  struct Cubic {
+    double begin, end, value, slope, second, third;
+  };
+  /// That which begins at the k-th point.
+  Cubic cubic(std::size_t k) const {
+    const double h = x_[k + 1] - x_[k], rise = (y_[k + 1] - y_[k]) / h;
+    return {x_[k],
+            x_[k + 1],
+            y_[k],
+            slopes_[k],
+            (3.0 * rise - 2.0 * slopes_[k] - slopes_[k + 1]) / h,
+            (slopes_[k] + slopes_[k + 1] - 2.0 * rise) / (h * h)};
+  }
+
   /// The value at x, which may carry derivatives.
   template <class S>
   S operator()(const S& x) const {
+    if constexpr (requires { look_up(*this, x); }) return look_up(*this, x);
     if (x <= S(x_.front())) return S(y_.front());
     if (x >= S(x_.back())) return S(y_.back());
     const auto after = std::upper_bound(x_.begin(), x_.end(), x, [](const S& a, double b) { return a < S(b); });
-    const auto k = static_cast<std::size_t>(after - x_.begin()) - 1;
-    const double h = x_[k + 1] - x_[k], rise = (y_[k + 1] - y_[k]) / h;
-    const double second = (3.0 * rise - 2.0 * slopes_[k] - slopes_[k + 1]) / h;
-    const double third = (slopes_[k] + slopes_[k + 1] - 2.0 * rise) / (h * h);
-    const S s = x - x_[k];
-    return y_[k] + s * (slopes_[k] + s * (second + s * third));
+    const Cubic c = cubic(static_cast<std::size_t>(after - x_.begin()) - 1);
+    const S s = x - c.begin;
+    return c.value + s * (c.slope + s * (c.second + s * c.third));
   }
 
   bool operator==(const CubicTable&) const = default;

@@ -128,6 +128,12 @@ struct ConstantOfScalar<Series<T, N>> {
 template <class S>
 using ConstantOf = typename ConstantOfScalar<S>::type;
 
+/// x, but no less than a limit. Whoever looks beyond it sees a constant.
+template <class S>
+S at_least(const S& x, double least) {
+  return x < S(least) ? S(least) : x;
+}
+
 /// Sine and cosine of one series, which need each other.
 template <class T, int N>
 struct SineCosine {

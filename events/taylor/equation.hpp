@@ -5,6 +5,7 @@
 
 #include "core/mesh.hpp"
 #include "core/mode.hpp"
+#include "events/taylor/affine_motor.hpp"
 #include "events/taylor/leap.hpp"
 #include "events/taylor/stribeck.hpp"
 
@@ -19,7 +20,8 @@ struct Terms {
   friend Terms operator*(double factor, const Terms& a) { return {factor * a.present, factor * a.most}; }
 };
 
-/// Friction of the bearings of both shafts: dry [N m] and viscous, against the gear's speed [N m s/rad].
+/// Friction of the bearings of both shafts in one direction: dry [N m] and viscous, against the gear's speed
+/// [N m s/rad].
 struct Bearings {
   double worm_coulomb = 0.0, gear_coulomb = 0.0, worm_viscous = 0.0, gear_viscous = 0.0;
 };
@@ -31,7 +33,8 @@ struct NominalEquation {
   DrivenMotion driven{};
   Mode mode{};
   bool rubs = false;
-  double per_gear_torque = 0.0;
+  double per_worm_torque = 0.0, per_gear_torque = 0.0;
+  HeldTorques friction{};  ///< what dry friction of the bearings does to the drive
   /// What the terms of per_gear_torque add up to, and of the push of dry friction: both may all but cancel, and what
   /// rounding leaves of them is a share of this.
   double most_per_gear_torque = 0.0, most_push = 0.0;
@@ -40,23 +43,26 @@ struct NominalEquation {
   NominalEquation() = default;
   /// mu: friction of the teeth; Jg: inertia of the gear side with the load's own; amplitude: of an arm under gravity
   /// [N m]; surface: Jw i/Jg.
-  NominalEquation(const GearMesh<double>& mesh, double mu, double Jg, const Bearings& bearings, double amplitude,
-                  double surface, int motion, int flank)
+  NominalEquation(const GearMesh<double>& mesh, double mu, double Jg, const AffineMotor& motor,
+                  const Bearings& bearings, double amplitude, double surface, int motion, int flank)
       : mode{Motion{static_cast<std::int8_t>(motion)}, Flank{static_cast<std::int8_t>(flank)}} {
     const double C = mesh.C(motion * flank * mu), inverse = 1.0 / (mesh.Jw * mesh.i + C * Jg);
     // the other sign of friction turns the difference in C into a sum
     const double most_C = std::max(std::abs(C), std::abs(mesh.C(-motion * flank * mu)));
     const auto& [worm_coulomb, gear_coulomb, worm_viscous, gear_viscous] = bearings;
+    friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
+                -motion * (worm_coulomb - surface * gear_coulomb)};
     driven = {.held = {.motion = static_cast<double>(motion),
                        .flank = static_cast<double>(flank),
                        .gravity = amplitude * C * inverse,
                        .drag = (worm_viscous + C * gear_viscous) * inverse,
                        .lift = amplitude * surface,
                        .skew = worm_viscous - surface * gear_viscous},
-              .per_worm_torque = inverse,
-              .friction = {-motion * (worm_coulomb + C * gear_coulomb) * inverse,
-                           -motion * (worm_coulomb - surface * gear_coulomb)}};
+              .per_command = motor.gain * inverse,
+              .gain = motor.gain,
+              .known = {motor.offset * inverse + friction.push, motor.offset + friction.beyond}};
     rubs = driven.held.drag != 0.0 || driven.held.skew != 0.0;
+    per_worm_torque = inverse;
     per_gear_torque = C * inverse;
     most_per_gear_torque = most_C * std::abs(inverse);
     most_push = (std::abs(worm_coulomb) + most_C * std::abs(gear_coulomb)) * std::abs(inverse);
@@ -67,12 +73,11 @@ struct NominalEquation {
   /// and gear and of coefficient k of theta'.
   Terms acceleration_terms(const Terms& worm, const Terms& gear, double speed, int k) const {
     const Terms load{std::abs(per_gear_torque) * gear.present, most_per_gear_torque * gear.most};
-    return std::abs(driven.per_worm_torque) * worm + load + rubbing(driven.held.drag * speed) +
-           (k == 0 ? Terms{std::abs(driven.friction.push), most_push} : Terms{});
+    return std::abs(per_worm_torque) * worm + load + rubbing(driven.held.drag * speed) +
+           (k == 0 ? Terms{std::abs(friction.push), most_push} : Terms{});
   }
   Terms distance_terms(const Terms& worm, const Terms& gear, double speed, int k) const {
-    return worm + std::abs(surface_) * gear +
-           rubbing(driven.held.skew * speed + (k == 0 ? driven.friction.beyond : 0.0));
+    return worm + std::abs(surface_) * gear + rubbing(driven.held.skew * speed + (k == 0 ? friction.beyond : 0.0));
   }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace wormdrive {
 
-/// Sets c to the coefficients of an input, up to the last that is asked for.
-inline void expand_input(const Piece& piece, double t, int last, Coefficients& c) {
+/// Sets c to the coefficients of so many times an input, up to the last that is asked for.
+inline void expand_input(const Piece& piece, double t, int last, double factor, Coefficients& c) {
   std::fill_n(c.begin(), last + 1, 0.0);
   c[0] = piece.constant + piece.slope * (t - piece.start);
   c[1] = piece.slope;
@@ -24,6 +24,8 @@ inline void expand_input(const Piece& piece, double t, int last, Coefficients& c
       weight *= wave.omega * reciprocal[k + 1];
     }
   }
+  if (factor != 1.0)
+    for (int k = 0; k <= last; ++k) c[k] *= factor;
 }
 
 /// The most that the terms of coefficient k may add up to, whatever the phases.

@@ -183,15 +183,15 @@ struct HeldMotionOf {
 };
 using HeldMotion = HeldMotionOf<double>;
 
-/// A mode under the torque of a motor: theta'' = per_worm_torque tau_m + ..., dry friction of the bearings included.
+/// A mode under a motor's command: theta'' = per_command command + ..., what else is held included.
 template <class V>
 struct DrivenMotionOf {
   HeldMotionOf<V> held;
-  V per_worm_torque;
-  HeldTorquesOf<V> friction;  ///< what dry friction of the bearings does to the drive
+  V per_command, gain;     ///< acceleration and motor torque of a command
+  HeldTorquesOf<V> known;  ///< what dry friction of the bearings and other constant torques do to the drive
 
-  [[gnu::always_inline]] HeldTorquesOf<V> under(const V& torque) const {
-    return {torque * per_worm_torque + friction.push, torque + friction.beyond};
+  [[gnu::always_inline]] HeldTorquesOf<V> under(const V& command) const {
+    return {command * per_command + known.push, command * gain + known.beyond};
   }
 };
 using DrivenMotion = DrivenMotionOf<double>;

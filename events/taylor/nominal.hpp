@@ -30,12 +30,14 @@ class NominalFlow {
 template <class Load>
 concept NominalLoad = std::is_same_v<Load, GravityLoad> || std::is_same_v<Load, TimedLoad>;
 
-/// The motion of a drive with nothing but an arm under gravity, or a load over time, and dry and viscous bearings, by
-/// formulas of its own: what SeriesFlow finds for any drive, many times faster.
+/// The motion of a drive by formulas of its own, where the motor's torque is affine in command and speed, an arm under
+/// gravity or a torque over time loads it, its bearings are dry and viscous, and friction between the teeth depends on
+/// the mode or falls with the speed: what SeriesFlow finds for any drive, many times faster.
 template <NominalLoad Load>
 class NominalFlow<WormDrive<double, Load>> {
  public:
   static constexpr bool known = true;
+  static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
   using System = WormDrive<double, Load>;
   using Instant = typename System::Instant;
   using Motion = Expansion<System::guard_count>;
@@ -45,47 +47,72 @@ class NominalFlow<WormDrive<double, Load>> {
       : motor_(system.motor_piece()),
         disturbance_(system.disturbance()),
         load_(system.load()),
+        late_(system.effects().delay()),
         surface_(system.surface()) {
     if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
     Bearings bearings;
+    BearingAsymmetry<double> uneven{};
+    double asymmetry = 0.0;  // of the friction between the teeth
     system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
       if (!effect) return;
-      if constexpr (std::is_same_v<E, WormCoulomb<double>>)
+      if constexpr (is_affine_motor<E>)
+        response_ = response_.with(*effect);
+      else if constexpr (std::is_same_v<E, WormCoulomb<double>>)
         bearings.worm_coulomb = effect->torque;
       else if constexpr (std::is_same_v<E, GearCoulomb<double>>)
         bearings.gear_coulomb = effect->torque;
       else if constexpr (std::is_same_v<E, WormViscous<double>>)
-        bearings.worm_viscous = effect->coefficient * system.mesh().i;
+        bearings.worm_viscous += effect->coefficient * system.mesh().i;
       else if constexpr (std::is_same_v<E, GearViscous<double>>)
         bearings.gear_viscous = effect->coefficient;
+      else if constexpr (std::is_same_v<E, BearingAsymmetry<double>>)
+        uneven = *effect;
       else if constexpr (std::is_same_v<E, Stribeck<double>>)
         curve_ = {*effect, system.mesh()};
+      else if constexpr (std::is_same_v<E, FrictionAsymmetry<double>>)
+        asymmetry = effect->change;
+      else if constexpr (!swings && std::is_same_v<E, LoadMagnitude<double>>)
+        load_gain_ = 1.0 + effect->share;
       else if constexpr (!contained<E>)
         covers_ = false;
     });
     const GearMesh<double>& mesh = system.mesh();
-    const double mu = curve_.falls() ? curve_.least_friction() : mesh.mu;
-    for (int motion : {-1, 1})
+    bearings.worm_viscous += response_.brake * mesh.i;
+    for (int motion : {-1, 1}) {
+      const double mu = (curve_.falls() ? curve_.least_friction() : mesh.mu) + motion * asymmetry;
+      Bearings here = bearings;
+      here.worm_coulomb += motion * uneven.torque;
+      here.worm_viscous += motion * uneven.coefficient * mesh.i;
       for (int flank : {-1, 0, 1}) {
         const int at = index(motion, flank);
-        equations_[at] = {mesh, mu, system.Jg(), bearings, amplitude(), surface_, motion, flank};
-        equations_[at].fall = curve_.branch(mesh, system.Jg(), motion * flank);
+        equations_[at] = {mesh, mu, system.Jg(), response_, here, amplitude(), surface_, motion, flank};
+        equations_[at].fall = curve_.branch(mesh, mu, system.Jg(), motion * flank);
       }
+    }
   }
 
   /// False with an effect that this flow does not know.
   bool covers() const { return covers_; }
+
+  /// Whether leaps are in closed form: torques are held.
+  bool inputs_are_constant() const {
+    if constexpr (swings)
+      return motor_.is_constant();
+    else
+      return motor_.is_constant() && load_.piece.is_constant();
+  }
 
   /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
   /// the switching surface. Otherwise the equations of core/ have to decide.
   bool goes_on(const Instant& now) {
     return inputs_are_constant() && mode_->driven.held.goes_on(now.x[1], held_torques(*mode_), arm_at(now.x[0]));
   }
-  /// A moving mode under a held torque and how its arm is turned against the gear, where a leap is in closed form.
+  /// A moving mode under held commands, where a leap is in closed form.
   std::optional<DrivenMotion> driven(Mode mode) const {
     const NominalEquation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
     return swings && covers_ && !curve_.falls() && !m.rubs ? std::optional(m.driven) : std::nullopt;
   }
+  /// How the arm is turned against the gear.
   const SineAndCosine& arm_offset() const { return offset_; }
 
   /// The latest mode.
@@ -102,8 +129,7 @@ class NominalFlow<WormDrive<double, Load>> {
     if (!inputs_are_constant()) return false;
     const HeldTorques held = held_torques(*mode_);
     const SineAndCosine& arm = arm_at(now.x[0]);
-    const double h = next - now.t;
-    double &theta = now.x[0], &omega = now.x[1];
+    double h = next - now.t, &theta = now.x[0], &omega = now.x[1];
     if (curve_.falls()) {
       if (!curve_.template leap<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
         return false;
@@ -137,18 +163,18 @@ class NominalFlow<WormDrive<double, Load>> {
     const NominalEquation& m = *mode_;
     if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
     const int last = accuracy.order();
-    expand_input(motor_, now.t, last, worm_torque_);
-    worm_torque_[0] += disturbance_;
+    expand_input(motor_, now.t - late_, last, response_.gain, worm_torque_);
+    worm_torque_[0] += response_.offset + disturbance_;
     if constexpr (swings) {
       arm_.begin(arm_at(now.x[0]));
     } else {
-      expand_input(load_.piece, now.t, last, gear_torque_);
+      expand_input(load_.piece, now.t, last, load_gain_, gear_torque_);
     }
 
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
     double allowed = accuracy.allowed(e.omega[0], h);
-    double power = 1.0 / h, alpha = m.driven.friction.push;  // power: h^(k-1)
+    double power = 1.0 / h, alpha = m.friction.push;  // power: h^(k-1)
     bool suffices = false;
     int completed = 0;  // coefficients of angle and guards
     const auto next = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {
@@ -165,7 +191,7 @@ class NominalFlow<WormDrive<double, Load>> {
         }
       power *= h;
       // What is known first comes first: the series waits for the load.
-      alpha += worm_torque_[k] * m.driven.per_worm_torque - m.driven.held.drag * e.omega[k];
+      alpha += worm_torque_[k] * m.per_worm_torque - m.driven.held.drag * e.omega[k];
       if constexpr (swings)
         alpha += m.driven.held.gravity * arm_.cosine(k);
       else
@@ -185,40 +211,36 @@ class NominalFlow<WormDrive<double, Load>> {
     if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
   }
 
-  /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch the motion.
+  /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch a motion.
   template <class E>
-  static constexpr bool contained =
-      std::is_same_v<E, TorqueSaturation<double>> || std::is_same_v<E, WormInertia<double>> ||
-      std::is_same_v<E, GearInertia<double>> || E::place == Place::sensor;
-  static constexpr bool swings = std::is_same_v<Load, GravityLoad>;
-
+  static constexpr bool contained = std::is_same_v<E, TorqueSaturation<double>> ||
+                                    std::is_same_v<E, ActuatorDelay<double>> ||
+                                    std::is_same_v<E, WormInertia<double>> || std::is_same_v<E, GearInertia<double>> ||
+                                    (!swings && std::is_same_v<E, LoadAngle<double>>) ||
+                                    std::is_same_v<E, StaticFriction<double>> || E::place == Place::sensor;
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
-  static bool is_constant(const Piece& piece) { return piece.cosines.empty() && piece.slope == 0.0; }
-  bool inputs_are_constant() const {
-    if constexpr (swings)
-      return is_constant(motor_);
-    else
-      return is_constant(motor_) && is_constant(load_.piece);
-  }
   HeldTorques held_torques(const NominalEquation& m) const {
-    HeldTorques held = m.driven.under(motor_.constant + disturbance_);
+    // Nothing but the command is left to wait for.
+    HeldTorques rest{disturbance_ * m.per_worm_torque + m.driven.known.push, disturbance_ + m.driven.known.beyond};
     if constexpr (!swings) {
-      held.push += load_.piece.constant * m.per_gear_torque;
-      held.beyond -= load_.piece.constant * surface_;
+      const double load = load_gain_ * load_.piece.constant;
+      rest.push += load * m.per_gear_torque;
+      rest.beyond -= load * surface_;
     }
-    return held;
+    return {motor_.constant * m.driven.per_command + rest.push, motor_.constant * m.driven.gain + rest.beyond};
   }
 
   /// Terms of coefficient k <= 2 of the torques on both sides where the latest step begins.
   Terms worm_terms(double t, int k) const {
-    return {std::abs(worm_torque_[k]), most_of_input(motor_, t, k) + (k == 0 ? std::abs(disturbance_) : 0.0)};
+    return {std::abs(worm_torque_[k]), std::abs(response_.gain) * most_of_input(motor_, t - late_, k) +
+                                           (k == 0 ? std::abs(response_.offset) + std::abs(disturbance_) : 0.0)};
   }
   Terms gear_terms(const Motion& e, double t, int k) const {
     if constexpr (swings) {
       const double v = std::abs(e.omega[0]), turned = k == 0 ? 1.0 : k == 1 ? v : 0.5 * (v * v + std::abs(e.omega[1]));
       return std::abs(load_.amplitude) * Terms{std::abs(arm_.cosine(k)), turned};
     } else {
-      return {std::abs(gear_torque_[k]), most_of_input(load_.piece, t, k)};
+      return {std::abs(gear_torque_[k]), std::abs(load_gain_) * most_of_input(load_.piece, t, k)};
     }
   }
   double amplitude() const {
@@ -254,13 +276,16 @@ class NominalFlow<WormDrive<double, Load>> {
   double beyond(const NominalEquation& m, int k, const Motion& e) const {
     const double load = swings ? m.driven.held.lift * arm_.cosine(k) : surface_ * gear_torque_[k];
     const double distance = worm_torque_[k] - load - m.driven.held.skew * e.omega[k];
-    return k == 0 ? distance + m.driven.friction.beyond : distance;
+    return k == 0 ? distance + m.friction.beyond : distance;
   }
 
   const Piece& motor_;
   const double& disturbance_;  ///< of the worm's shaft, beside the motor [N m]
   const Load& load_;
+  double late_;  ///< how old a command is that the motor has [s]
   double surface_;
+  AffineMotor response_;    ///< of the motor to its command
+  double load_gain_ = 1.0;  ///< of a load over time
   bool covers_ = true;
   std::array<NominalEquation, 6> equations_{};
   const NominalEquation* mode_ = &equations_[0];  ///< that of the latest mode

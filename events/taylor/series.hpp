@@ -24,6 +24,11 @@ class SeriesFlow {
   /// The motion from now on, accurate over a step of at most h.
   static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     to_order<8>(system, now, h, accuracy, e);
+    end_where_it_fails(system, now, accuracy, e);
+  }
+
+  /// Ends the step where the equations are no longer those of the series.
+  static void end_where_it_fails(const System& system, const Instant& now, const TaylorAccuracy& accuracy, Motion& e) {
     const auto step = [&](const Roundings& inputs) {
       return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, inputs); });
     };

@@ -11,6 +11,7 @@
 #include "events/taylor/nominal.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
+#include "events/taylor/taped.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {
@@ -25,7 +26,7 @@ class TaylorSolver {
 
   /// The system must outlive the solver; its inputs may change between restarts, its parameters must not.
   TaylorSolver(const System& system, const SolverSettings& settings)
-      : system_(system), accuracy_(settings), max_step_(settings.max_step), nominal_(system) {}
+      : system_(system), accuracy_(settings), max_step_(settings.max_step), nominal_(system), taped_(system) {}
 
   /// The mode in which the system goes on after its inputs were set from outside.
   Mode settle(const Instant& now) {
@@ -98,30 +99,38 @@ class TaylorSolver {
     return no_guard;
   }
 
-  /// Goes on to the limit without a search for events, where the nominal flow can vouch for it.
+  /// Goes on to the limit without a search for events, where the formulas can vouch for it.
   bool leap(Instant& now, double limit) {
-    leapt_ = false;
+    leapt_ = Leap::none;
+    if (limit - now.t > max_step_) return false;
+    bool held = false;
     if constexpr (NominalFlow<System>::known) {
-      if (limit - now.t > max_step_ || !nominal_.covers()) return false;
-      if (!nominal_.leap(now, limit, accuracy_)) return false;
-      ++count_.steps;
-      ++count_.evaluations;
-      end_ = limit;
-      leapt_ = true;
+      held = nominal_.covers() && nominal_.inputs_are_constant();
+      if (held && !nominal_.leap(now, limit, accuracy_)) return false;
     }
-    return leapt_;
+    if (!held && !leap_by_tape(now, limit)) return false;
+    leapt_ = held ? Leap::nominal : Leap::taped;
+    ++count_.steps;
+    ++count_.evaluations;
+    end_ = limit;
+    return true;
+  }
+  [[gnu::noinline]] bool leap_by_tape(Instant& now, double limit) {
+    if constexpr (TapedFlow<System>::known) return taped_.covers(now.mode) && taped_.leap(now, limit, accuracy_);
+    return false;
   }
 
   /// The motion at a time of the present step.
   Instant at(double t) {
-    if constexpr (NominalFlow<System>::known) {
-      if (leapt_ && t == end_) return there_;
-      if (leapt_) {
+    if (leapt_ != Leap::none && t == end_) return there_;
+    if constexpr (NominalFlow<System>::known)
+      if (leapt_ == Leap::nominal) {
         Instant then = begin_;
         nominal_.leap(then, t, accuracy_);  // what it vouched for up to the end it vouches for on the way
         return then;
       }
-    }
+    if constexpr (TapedFlow<System>::known)
+      if (leapt_ == Leap::taped) return System::within_mode({t, taped_.state(t - begin_.t), begin_.mode});
     const double s = t == end_ ? length_ : t - begin_.t;
     return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
   }
@@ -170,6 +179,8 @@ class TaylorSolver {
   void expand(const Instant& now, double h) {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
+    if constexpr (TapedFlow<System>::known)
+      if (taped_.covers(now.mode)) return taped_.expand(now, h, accuracy_, series_);
     SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
   }
 
@@ -242,12 +253,14 @@ class TaylorSolver {
   TaylorAccuracy accuracy_;
   double max_step_;
   NominalFlow<System> nominal_;
+  TapedFlow<System> taped_;
   Expansion<System::guard_count> series_;
   Instant begin_{};      ///< of the present step
   double end_ = 0.0;     ///< of the present step [s] ...
   double length_ = 0.0;  ///< ... and how far it goes, which may be less than time resolves [s]
   double waited_ = 0.0;  ///< how long the clock has stood [s]
-  bool leapt_ = false;   ///< the step is a leap to there_; else series_ describes it
+  enum class Leap { none, nominal, taped };
+  Leap leapt_ = Leap::none;  ///< the step is a leap to there_; else series_ describes it
   Instant there_{};
   int fired_ = no_guard;  ///< the guard that falls through zero at the end
   RootSearch search_;

@@ -36,14 +36,15 @@ class StribeckCurve {
   bool falls() const { return exponent_ > 0; }
   double least_friction() const { return least_; }
 
-  /// product: motion times flank of the mode; Jg: inertia of the gear side with the load's own.
-  Branch branch(const GearMesh<double>& mesh, double Jg, int product) const {
+  /// least_mu: the lowest friction of the mode; product: its motion times flank; Jg: inertia of the gear side with the
+  /// load's own.
+  Branch branch(const GearMesh<double>& mesh, double least_mu, double Jg, int product) const {
     const auto inertia = [&](double mu) {
       return mesh.Jw * mesh.i * mesh.gear_arm(product * mu) + Jg * mesh.worm_arm(product * mu);
     };
-    const double least = inertia(least_);
+    const double least = inertia(least_mu);
     return {mesh.lg * mesh.lw * portable::cos(mesh.phi_n) * product * drop_ * Jg / (least * least),
-            (inertia(least_ + drop_) - least) / least};
+            (inertia(least_mu + drop_) - least) / least};
   }
 
   /// Begins the series of a motion at a speed; time_unit [s] is that of its coefficients.

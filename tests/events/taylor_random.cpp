@@ -207,6 +207,44 @@ Comparison compare_random_stribeck(Dice& dice) {
   return compare(drive(p, arm, motor, on), {0, {dice.between(-3, 3), omega}, {}});
 }
 
+/// Any load and effects, tables too, under torques that are held for milliseconds, as a controller holds them: most
+/// steps are leaps of which it is proved beforehand that no event falls into them.
+Comparison compare_random_held(Dice& dice) {
+  const MeshParameters<double> p = table1(dice.between(0.2, 0.35));
+  Effects<double> on = random_effects(dice);
+  if (dice.one_in(4)) {
+    std::get<std::optional<Stribeck<double>>>(on.list) = {};
+    std::get<std::optional<Agma<double>>>(on.list) = {dice.between(0.5, 1.2)};
+  }
+  maybe(dice, on, TorqueSaturation<double>{dice.between(0.02, 0.04)});
+  if (dice.one_in(4)) std::get<std::optional<DcMotor<double>>>(on.list) = {dice.between(1, 3), dice.between(0.02, 0.1)};
+  Samples held{.interpolation = Interpolation::hold};
+  double torque = 0.0;
+  for (double t = 0.0; t < duration; t += 0.005) {
+    torque = std::clamp(torque + dice.between(-0.008, 0.008), -0.04, 0.04);
+    held.times.push_back(t);
+    held.values.push_back(torque);
+  }
+  const Signal motor{{held}};
+  const typename WormDrive<double, GravityLoad>::Instant start{0, {dice.between(-3, 3), dice.between(-2, 2)}, {}};
+  switch (dice.below(4)) {
+    case 0: return compare(drive(p, constant(dice.between(-0.1, 0.1)), motor, on), {0, start.x, {}});
+    case 1: return compare(drive(p, Signal{{random_term(dice, 0.05)}}, motor, on), {0, start.x, {}});
+    case 2: {
+      AngleTable table;
+      for (double angle = -12.0; angle < 12.0; angle += dice.between(0.2, 1.0)) {
+        table.angles.push_back(angle);
+        table.torques.push_back(dice.between(-0.1, 0.1));
+      }
+      return compare(drive(p, table, motor, on), {0, start.x, {}});
+    }
+  }
+  GravityArm arm;
+  arm.amplitude = dice.between(-0.1, 0.1);
+  arm.offset = dice.between(-3, 3);
+  return compare(drive(p, arm, motor, on), start);
+}
+
 }  // namespace
 
 TEST_CASE("a run that grazes an event by less than 1e-7 is known as such") {
@@ -274,6 +312,14 @@ TEST_CASE("in 100 random runs with loads that add up, power series and CVODE tel
   const Tally tally = require_same(100, 3000, 1e-8, " with loads that add up", compare_random_sums);
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);
+}
+
+TEST_CASE(
+    "in 40 random runs under held torques with tables and effects, power series and CVODE tell the same within 1e-8",
+    "[slow]") {
+  const Tally tally = require_same(40, 3000, 1e-8, " under held torques", compare_random_held);
+  REQUIRE(tally.set_aside <= 40 / 4);
+  REQUIRE(tally.events >= 100);
 }
 
 TEST_CASE("in 100 random runs with a Stribeck curve and bearings, power series and CVODE tell the same within 1e-9",

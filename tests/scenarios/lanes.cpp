@@ -130,6 +130,18 @@ TEST_CASE("lanes: the same far from the horizontal, at rest, and where Lemma 1 i
   require_the_same(scenarios);
 }
 
+TEST_CASE(
+    "lanes: the same with a motor of another gain, offset and limit, and friction that depends on the direction") {
+  std::mt19937_64 random(15);
+  std::vector<Scenario> scenarios;
+  for (const char* effect :
+       {"effect.torque_gain.share=0.1", "effect.torque_offset.torque_Nm=1e-3", "effect.torque_saturation.limit_Nm=0.03",
+        "effect.friction_asymmetry.change=0.02", "effect.static_friction.rise=0.02"})
+    for (const char* other : {"effect.worm_coulomb.torque_Nm=1e-4", "effect.torque_gain.share=-0.05"})
+      scenarios.push_back(varied(figure_10({effect, other, "metrics.from_s=0"}), random, 0.2));
+  require_the_same(scenarios);
+}
+
 TEST_CASE("lanes: scenarios that do not fit into a lane, or not with the others, run all the same") {
   std::mt19937_64 random(13);
   std::vector<Scenario> scenarios;

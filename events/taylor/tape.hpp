@@ -1,0 +1,170 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "core/numbers/cubic_table.hpp"
+#include "core/numbers/series.hpp"
+
+namespace wormdrive {
+
+class Taped;
+
+/// The operations of which equations consist, one after the other: what they do to numbers they do to power series,
+/// coefficient by coefficient, and to discs of complex numbers around them. The equations are recorded once, with Taped
+/// for a scalar; what they do with an effect that is off leaves no trace.
+class Tape {
+ public:
+  enum class Operation {
+    add,
+    subtract,
+    multiply,
+    divide,
+    shift,        ///< a + constant
+    scale,        ///< constant a
+    invert,       ///< constant / a
+    sine_cosine,  ///< sine, and cosine in the place behind it
+    exponential,
+    table,  ///< in the place behind it the slope between the point where a cubic begins and a
+  };
+  struct Step {
+    Operation operation;
+    int a, b, result;
+    double constant;
+    const CubicTable* table;
+  };
+  /// A place whose value the equations hold for only while it is above a least one.
+  struct Condition {
+    int place;
+    double least;
+  };
+
+  /// Places of inputs come first.
+  explicit Tape(int inputs) : places_(inputs) {}
+  Tape(const Tape&) = delete;  // scalars point to it
+  Tape& operator=(const Tape&) = delete;
+
+  Taped input(int place);
+  /// Where a result stands, a constant as well.
+  int place(const Taped& result);
+
+  const std::vector<Step>& steps() const { return steps_; }
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  int places() const { return places_; }
+  /// False where the equations compare what is not known beforehand.
+  bool is_complete() const { return complete_; }
+
+  // ---- while the equations are recorded --------------------------------------------------------------------------
+
+  Taped record(Operation operation, int a, int b = 0, double constant = 0.0, const CubicTable* table = nullptr);
+  void hold(const Condition& condition) { conditions_.push_back(condition); }
+  /// Of a comparison that cannot be recorded, an answer all the same.
+  bool give_up() { return complete_ = false; }
+
+ private:
+  std::vector<Step> steps_;
+  std::vector<Condition> conditions_;
+  int places_;
+  bool complete_ = true;
+};
+
+/// A number in equations that are recorded: a constant, or the place of a result.
+class Taped {
+ public:
+  Taped() = default;
+  Taped(double constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor): a scalar
+
+  Taped& operator+=(const Taped& b) { return *this = *this + b; }
+  Taped& operator-=(const Taped& b) { return *this = *this - b; }
+  Taped operator-() const { return -1.0 * *this; }
+  friend Taped operator+(const Taped& a, const Taped& b) {
+    if (!a.tape_ && !b.tape_) return a.constant_ + b.constant_;
+    if (!a.tape_) return b + a;
+    if (b.tape_) return a.tape_->record(Operation::add, a.place_, b.place_);
+    return b.constant_ == 0.0 ? a : a.tape_->record(Operation::shift, a.place_, 0, b.constant_);
+  }
+  friend Taped operator-(const Taped& a, const Taped& b) {
+    if (!b.tape_) return a + Taped(-b.constant_);
+    return a.tape_ ? a.tape_->record(Operation::subtract, a.place_, b.place_) : -b + a;
+  }
+  friend Taped operator*(const Taped& a, const Taped& b) {
+    if (!a.tape_ && !b.tape_) return a.constant_ * b.constant_;
+    if (!a.tape_) return b * a;
+    if (b.tape_) return a.tape_->record(Operation::multiply, a.place_, b.place_);
+    if (b.constant_ == 0.0) return 0.0;
+    return b.constant_ == 1.0 ? a : a.tape_->record(Operation::scale, a.place_, 0, b.constant_);
+  }
+  friend Taped operator/(const Taped& a, const Taped& b) {
+    if (!b.tape_) return a.tape_ ? a * Taped(1.0 / b.constant_) : Taped(a.constant_ / b.constant_);
+    if (!a.tape_) return b.tape_->record(Operation::invert, b.place_, 0, a.constant_);
+    return a.tape_->record(Operation::divide, a.place_, b.place_);
+  }
+  friend Taped sin(const Taped& x) {
+    return x.tape_ ? x.tape_->record(Operation::sine_cosine, x.place_) : Taped(sine_and_cosine(x.constant_).sine);
+  }
+  friend Taped cos(const Taped& x) {
+    if (!x.tape_) return sine_and_cosine(x.constant_).cosine;
+    Taped cosine = sin(x);
+    ++cosine.place_;
+    return cosine;
+  }
+  friend Taped exp(const Taped& x) {
+    return x.tape_ ? x.tape_->record(Operation::exponential, x.place_) : Taped(portable::exp(x.constant_));
+  }
+  /// x, which stays above a limit.
+  friend Taped at_least(const Taped& x, double least) {
+    if (!x.tape_) return at_least(x.constant_, least);
+    x.tape_->hold({x.place_, least});
+    return x;
+  }
+  friend Taped look_up(const CubicTable& table, const Taped& x) {
+    return x.tape_ ? x.tape_->record(Operation::table, x.place_, 0, 0.0, &table) : Taped(table(x.constant_));
+  }
+  friend bool operator<(const Taped& a, const Taped& b) {
+    for (const Taped* x : {&a, &b})
+      if (x->tape_) return x->tape_->give_up();
+    return a.constant_ < b.constant_;
+  }
+  friend bool operator>(const Taped& a, const Taped& b) { return b < a; }
+  friend bool operator<=(const Taped& a, const Taped& b) {
+    for (const Taped* x : {&a, &b})
+      if (x->tape_) return x->tape_->give_up();
+    return a.constant_ <= b.constant_;
+  }
+  friend bool operator>=(const Taped& a, const Taped& b) { return b <= a; }
+
+ private:
+  friend class Tape;
+  using Operation = Tape::Operation;
+
+  Taped(Tape* tape, int place) : tape_(tape), place_(place) {}
+
+  Tape* tape_ = nullptr;  ///< none: a constant
+  int place_ = 0;
+  double constant_ = 0.0;
+};
+
+template <>
+struct ConstantOfScalar<Taped> {
+  using type = double;
+};
+
+inline Taped Tape::input(int place) { return {this, place}; }
+
+inline int Tape::place(const Taped& result) {
+  if (result.tape_) return result.place_;
+  const Taped nothing = record(Operation::scale, 0, 0, 0.0);
+  return record(Operation::shift, nothing.place_, 0, result.constant_).place_;
+}
+
+/// What has been worked out before is not worked out again.
+inline Taped Tape::record(Operation operation, int a, int b, double constant, const CubicTable* table) {
+  for (const Step& s : steps_)
+    if (s.operation == operation && s.a == a && s.b == b && s.constant == constant && s.table == table)
+      return {this, s.result};
+  const bool two = operation == Operation::sine_cosine || operation == Operation::table;
+  steps_.push_back({operation, a, b, places_, constant, table});
+  places_ += two ? 2 : 1;
+  return {this, steps_.back().result};
+}
+
+}  // namespace wormdrive
