@@ -25,7 +25,8 @@ class TapedFlow {
 /// The motion of a worm drive with any effects by its own equations, recorded once in each mode: what SeriesFlow finds,
 /// many times faster.
 template <class Load>
-class TapedFlow<WormDrive<double, Load>> {
+requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have to be inputs of the tape
+    class TapedFlow<WormDrive<double, Load>> {
  public:
   static constexpr bool known = true;
   using System = WormDrive<double, Load>;
@@ -130,7 +131,7 @@ class TapedFlow<WormDrive<double, Load>> {
       const auto at = system.moment(tape.input(time), tape.input(angle), tape.input(speed));
       const Taped motor = system.effects().motor_torque(tape.input(command), at);
       const Side tau =
-          system.with_bearings(Side{motor + tape.input(disturbance), load_torque(system, at)}, at, mode.motion);
+          system.with_bearings(Side{motor + tape.input(disturbance), load_torque(system, at, mode)}, at, mode.motion);
       acceleration = tape.place(system.acceleration(tau, at, mode));
       operations = tape.steps().size();
       beyond = tape.place(system.beyond_surface(tau, at));
@@ -148,11 +149,11 @@ class TapedFlow<WormDrive<double, Load>> {
       Taped input;
       const Taped& torque(const Moment<Taped>&) const { return input; }
     };
-    Taped load_torque(const System& system, const Moment<Taped>& at) {
+    Taped load_torque(const System& system, const Moment<Taped>& at, Mode mode) {
       if constexpr (std::is_same_v<Load, TimedLoad>)
-        return system.effects().load_torque(Given{tape.input(load)}, at);
+        return system.effects().load_torque(Given{tape.input(load)}, at, mode.motion);
       else
-        return system.effects().load_torque(system.load(), at);
+        return system.effects().load_torque(system.load(), at, mode.motion);
     }
   };
 
