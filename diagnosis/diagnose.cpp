@@ -11,10 +11,12 @@
 #include <fmt/ranges.h>
 
 #include "description/build.hpp"
+#include "description/keys.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/inference/alone.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
@@ -22,6 +24,7 @@
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/experiment.hpp"
 #include "diagnosis/verdict/extended_scenario.hpp"
+#include "diagnosis/verdict/other_ratio.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
@@ -94,6 +97,16 @@ Hypothesis as_stated(const Evaluation& evaluation, Hypothesis base) {
   for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
   evaluate(evaluation, base);
   return base;
+}
+
+/// What may be missing in the drive, or wrong with its recordings.
+std::vector<Candidate> everything(const Scenario& scenario, const std::vector<PreparedRecording>& recordings,
+                                  const Magnitudes& sizes, const std::vector<Coordinate>& stated) {
+  std::vector<Candidate> all = candidates(scenario.effects, sizes, stated);
+  const bool spikes = std::any_of(recordings.begin(), recordings.end(),
+                                  [](const PreparedRecording& r) { return !r.torque_spikes.empty(); });
+  for (Candidate& fault : fault_candidates(sizes, spikes)) all.push_back(std::move(fault));
+  return all;
 }
 
 std::vector<RankedCandidate> ranking(const Evaluation& evaluation, const Selection& selection,
@@ -206,11 +219,12 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
-  const std::vector<Candidate> all = candidates(scenario.effects, sizes, stated);
+  const std::vector<Candidate> all = everything(scenario, all_prepared, sizes, stated);
   const Evaluation evaluation(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
 
   const Hypothesis base = stated_hypothesis(scenario.effects, stated);
-  const Selection found = search(evaluation, all, base, sizes.torque, settings);
+  Selection found = search(evaluation, all, base, sizes.torque, settings);
+  try_alone(evaluation, all, found);
 
   Diagnosis d;
   d.seed = settings.seed;
@@ -256,10 +270,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   judge(d, found, all, sizes);
 
   if (!d.causes.empty() || (found.causes.empty() && calibration_matters(d))) {
-    Effects<double> with_causes = extended(last);
+    Effects<double> with_causes = extended(last).effects;
     for (const Found& f : found.causes)
       if (std::none_of(d.causes.begin(), d.causes.end(),
-                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }))
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }) &&
+          !all[f.candidate].of_recording)
         switch_off(with_causes, all[f.candidate].effect);
     d.extended = extended_scenario(scenario, with_causes, last.noise.impact, d.remarks);
   } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
@@ -268,6 +283,13 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     describe(d, evaluation, before, found.base);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
+  if (auto remark = other_ratio(d, scenario, sizes.has_worm_encoder)) d.remarks.push_back(std::move(*remark));
+  for (const PreparedRecording& r : evaluation.layout().recordings)
+    if (r.every > 1)
+      d.remarks.push_back(
+          fmt::format("{}: one in {} readings is used: a step of the encoder, {:.2g} {}, is longer than "
+                      "the way between two samples",
+                      r.data.name, r.every, r.data.gear_resolution, units_on(scenario.axis, "rad")));
   for (const NotExamined& n : not_examined(scenario.effects, sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
   d.passes = evaluation.passes() + by_all.passes();

@@ -27,8 +27,9 @@ struct Estimate {
 
 /// An effect with its parameters.
 struct EstimatedEffect {
-  std::string effect;  ///< id in the catalogue
+  std::string effect;  ///< id in the catalogue, or of a fault of the recording
   std::vector<Estimate> parameters;
+  std::string remedy{};  ///< of such a fault: what to change in the file, a sentence; empty of an effect
 };
 
 /// What data leave open of several numbers together: a normal distribution.

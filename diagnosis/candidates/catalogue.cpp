@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/candidates/kinds.hpp"
+
 namespace wormdrive {
 
 namespace {
@@ -14,20 +16,6 @@ using enum CoordinateForm;
 /// What a fall over the speed gets wrong by the shape of its law, as a share of it.
 constexpr double shape_error = 0.1;
 
-/// One coordinate that is a field.
-Coordinate plain_coordinate(std::string_view effect, std::string_view field, double scale, double low, double high) {
-  return {.effect = effect, .field = field, .scale = scale, .low = low, .high = high, .none_at_low = low == 0.0};
-}
-
-/// An effect that acts in proportion to one field.
-Candidate linear(std::string_view effect, std::string_view field, double scale, double low, double high) {
-  Candidate s;
-  s.effect = effect;
-  s.coordinates = {plain_coordinate(effect, field, scale, low, high)};
-  s.starts = {{{0.0}, {}}};
-  return s;
-}
-
 /// An amplitude with a phase.
 Candidate periodic(std::string_view effect, double scale, double most) {
   Candidate s;
@@ -36,15 +24,6 @@ Candidate periodic(std::string_view effect, double scale, double most) {
     s.coordinates.push_back(
         {.effect = effect, .field = "amplitude", .scale = scale, .low = -most, .high = most, .form = form});
   s.starts = {{{0.0, 0.0}, {}}};
-  return s;
-}
-
-Candidate finite(std::string_view effect, std::string_view field, double scale, double low, double high,
-                 const std::vector<double>& starts) {
-  Candidate s = linear(effect, field, scale, low, high);
-  s.finite = true;
-  s.starts.clear();
-  for (const double x : starts) s.starts.push_back({{x}, {}});
   return s;
 }
 
@@ -76,14 +55,6 @@ Candidate cogging(const Magnitudes& m) {
   for (const double order : orders) s.starts.push_back({{0.0, 0.0}, {{"cogging", "periods", order}}});
   s.choices = 2.0 * std::log(static_cast<double>(orders.size()));
   for (Coordinate& c : s.coordinates) c.tried = "periods";
-  return s;
-}
-
-/// What holds back a torque that is held over a sample.
-Candidate late(std::string_view effect, std::string_view field, double period, double least) {
-  Candidate s = finite(effect, field, period, least, 30.0 * period, {0.5 * period, 3.0 * period});
-  s.coordinates[0].model_error = {.of_scale = 0.0, .size = 1.5e-5};
-  s.coordinates[0].none_at_low = true;
   return s;
 }
 

@@ -36,6 +36,10 @@ struct Candidate {
   bool falls = false;                ///< friction falls with the speed, by a law whose shape is uncertain
   std::string_view limiting_case{};  ///< the effect that it becomes where its second coordinate is small
 
+  bool rare = false;          ///< it shows at few moments
+  bool alone = false;         ///< sought by itself only: beside others it is what they are together
+  bool of_recording = false;  ///< a fault of the recording, not an effect of the drive
+
   /// Whether all its coordinates have a tolerance.
   bool toleranced = false;
 };
@@ -43,6 +47,9 @@ struct Candidate {
 /// Every effect that could be at work in a drive of this kind.
 std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitudes& sizes,
                                   const std::vector<Coordinate>& toleranced);
+
+/// Every fault that a recording may have itself.
+std::vector<Candidate> fault_candidates(const Magnitudes& sizes, bool has_torque_spikes);
 
 /// Effects of the catalogue that are no candidates in a drive of this kind that has these effects, with the reason.
 struct NotExamined {

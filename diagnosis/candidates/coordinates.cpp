@@ -31,7 +31,8 @@ constexpr std::string_view phase = "phase";
 
 }  // namespace
 
-FieldOfEffect field_of(const Effects<double>& effects, std::string_view effect, std::string_view field) {
+template <class Catalogue>
+FieldOfEffect field_of(const Catalogue& effects, std::string_view effect, std::string_view field) {
   FieldOfEffect found;
   with_field(effects, effect, field, [&](const auto& optional, const auto& f) {
     found = {optional.has_value(), optional ? (*optional).*f.member : 0.0, f.unit, f.bounds};
@@ -39,20 +40,23 @@ FieldOfEffect field_of(const Effects<double>& effects, std::string_view effect, 
   return found;
 }
 
-void set_field(Effects<double>& effects, const FieldValue& to) {
+template <class Catalogue>
+void set_field(Catalogue& effects, const FieldValue& to) {
   with_field(effects, to.effect, to.field, [&](auto& optional, const auto& f) {
     if (!optional) optional.emplace();
     (*optional).*f.member = to.value;
   });
 }
 
-void switch_off(Effects<double>& effects, std::string_view id) {
+template <class Catalogue>
+void switch_off(Catalogue& effects, std::string_view id) {
   effects.for_each([&]<class E>(std::optional<E>& optional) {
     if (E::id == id) optional.reset();
   });
 }
 
-void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, std::span<const double> values) {
+template <class Catalogue>
+void apply(Catalogue& effects, std::span<const Coordinate> coordinates, std::span<const double> values) {
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const Coordinate& c = coordinates[k];
     switch (c.form) {
@@ -66,6 +70,15 @@ void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, st
     }
   }
 }
+
+template FieldOfEffect field_of(const Effects<double>&, std::string_view, std::string_view);
+template FieldOfEffect field_of(const RecordedDrive&, std::string_view, std::string_view);
+template void set_field(Effects<double>&, const FieldValue&);
+template void set_field(RecordedDrive&, const FieldValue&);
+template void switch_off(Effects<double>&, std::string_view);
+template void switch_off(RecordedDrive&, std::string_view);
+template void apply(Effects<double>&, std::span<const Coordinate>, std::span<const double>);
+template void apply(RecordedDrive&, std::span<const Coordinate>, std::span<const double>);
 
 double coordinate_value(const Effects<double>& effects, const Coordinate& c) {
   const double value = field_of(effects, c.effect, c.field).value;

@@ -5,6 +5,7 @@
 
 #include "core/effects.hpp"
 #include "core/unit.hpp"
+#include "diagnosis/candidates/recorded_drive.hpp"
 
 namespace wormdrive {
 
@@ -59,17 +60,23 @@ struct FieldOfEffect {
   Bounds bounds{};
 };
 
+// A catalogue is the effects of a drive, or these with the faults of a recording.
+
 /// Looks a field up by its names. Throws std::invalid_argument where the catalogue has none of that name.
-FieldOfEffect field_of(const Effects<double>& effects, std::string_view effect, std::string_view field);
+template <class Catalogue = RecordedDrive>
+FieldOfEffect field_of(const Catalogue& effects, std::string_view effect, std::string_view field);
 
 /// Gives a field a value; an effect that is off is switched on, with zeros in its other fields.
-void set_field(Effects<double>& effects, const FieldValue& to);
+template <class Catalogue>
+void set_field(Catalogue& effects, const FieldValue& to);
 
 /// Switches an effect off.
-void switch_off(Effects<double>& effects, std::string_view effect);
+template <class Catalogue>
+void switch_off(Catalogue& effects, std::string_view effect);
 
 /// Gives the fields of all coordinates their values.
-void apply(Effects<double>& effects, std::span<const Coordinate> coordinates, std::span<const double> values);
+template <class Catalogue>
+void apply(Catalogue& effects, std::span<const Coordinate> coordinates, std::span<const double> values);
 
 /// What a coordinate of an effect that is on amounts to.
 double coordinate_value(const Effects<double>& effects, const Coordinate& coordinate);

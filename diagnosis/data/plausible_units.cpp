@@ -89,6 +89,37 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
          fmt::format("{} {} {}: {:.3g} times its derivative", table.speed.name, why, table.angle.name, factor));
 }
 
+/// A worm turns as often as the ratio says, whatever drives it: how its angle goes with the gear's tells the ratio.
+void refuse_other_ratio(const RecordedTable& table, const Scenario& scenario) {
+  const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);
+  const Values &worm = table.worm_angle.values, &gear = table.angle.values;
+  if (!mesh || worm.empty()) return;
+  const double n = static_cast<double>(worm.size());
+  double worm_mean = 0.0, gear_mean = 0.0, product = 0.0, square = 0.0, other = 0.0;
+  for (std::size_t k = 0; k < worm.size(); ++k) {
+    worm_mean += worm[k] / n;
+    gear_mean += gear[k] / n;
+  }
+  for (std::size_t k = 0; k < worm.size(); ++k) {
+    product += (worm[k] - worm_mean) * (gear[k] - gear_mean);
+    square += std::pow(gear[k] - gear_mean, 2);
+    other += std::pow(worm[k] - worm_mean, 2);
+  }
+  // Both move together, and no encoder's scale is off by so much: what is closer is for the diagnosis.
+  constexpr double together = 0.99, too_far = 0.1;
+  if (square == 0.0 || product * product < together * square * other) return;
+  const double ratio = product / square;
+  if (std::abs(ratio / mesh->i - 1.0) < too_far) return;
+  const auto is = [&](double expected) { return std::abs(ratio / expected - 1.0) < 0.02; };
+  const std::string remedy = is(-mesh->i)                             ? "turn its sign"
+                             : is(1.0)                                ? "it is counted at the gear"
+                             : is(mesh->i * 180.0 / std::numbers::pi) ? "it is in degrees"
+                             : is(mesh->i / (2.0 * std::numbers::pi)) ? "it is in turns"
+                                                                      : fmt::format("state ratio = {:.4g}", ratio);
+  reject(table.where(), fmt::format("{} goes {:.4g} times as far as {}, where the scenario states a ratio of {:g}: {}",
+                                    table.worm_angle.name, ratio, table.angle.name, mesh->i, remedy));
+}
+
 /// What an arm that stands at another angle than stated would leave, which is a matter of the diagnosis.
 double least_missed_by_turned_arm(const RecordedTable& table, double period, Scenario scenario) {
   double least = std::numeric_limits<double>::infinity();
@@ -115,6 +146,7 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
            fmt::format("{} moves by {:.3g} {}, less than 20 steps of its encoder: too little to learn from",
                        table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
   refuse_other_speed(table, period, scenario);
+  refuse_other_ratio(table, scenario);
   const auto fit = [&](const Values& torque, const Values& angle) {
     return TorqueJudge(table, torque, angle, period).fit(scenario);
   };

@@ -48,6 +48,26 @@ std::vector<double> worm_at_gear(const Recording& recording, double ratio) {
   return angle;
 }
 
+/// How many samples apart the readings of an encoder have to be so that one in four at most, while the gear moves,
+/// repeats the one before. Rounding errors of readings that are closer are alike: they would pass for something that
+/// the model can follow. Not beyond the slowest sampling that shows how a drive starts and stops.
+std::size_t telling_interval(const Recording& recording, const std::vector<std::uint8_t>& moving) {
+  if (recording.gear_resolution == 0.0) return 1;
+  constexpr double most_repeated = 0.25;
+  const auto longest = static_cast<std::size_t>(longest_period / recording.period);
+  const std::vector<double>& y = recording.gear_angle;
+  for (std::size_t every = 1; every < longest; ++every) {
+    std::size_t repeated = 0, all = 0;
+    for (std::size_t k = every; k < y.size(); k += every) {
+      if (!moving[k]) continue;
+      ++all;
+      if (std::abs(y[k] - y[k - every]) < 0.5 * recording.gear_resolution) ++repeated;
+    }
+    if (static_cast<double>(repeated) <= most_repeated * static_cast<double>(all)) return every;
+  }
+  return std::max<std::size_t>(1, longest);
+}
+
 }  // namespace
 
 PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
@@ -66,6 +86,7 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
     begin = end;
   }
   p.rms_speed = root_mean_square(p.speed);
+  p.torque_spikes = torque_spikes(recording);
   p.rms_torque = root_mean_square(recording.motor_torque);
   for (const double u : recording.motor_torque) p.largest_torque = std::max(p.largest_torque, std::abs(u));
   p.block_length = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rules.block / Ts)));
@@ -74,7 +95,15 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
   p.held_out.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     p.moving[k] = std::abs(p.speed[k]) > rules.standing_share * p.rms_speed;
-    p.used[k] = static_cast<double>(k) * Ts >= rules.burn_in && (recording.valid.empty() || recording.valid[k]);
+  }
+  if (!recording.has_worm_encoder()) p.every = telling_interval(recording, p.moving);
+  if (p.every > 1) {
+    p.data.valid.resize(n, 1);
+    for (std::size_t k = 0; k < n; ++k)
+      if (k % p.every != 0) p.data.valid[k] = 0;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    p.used[k] = static_cast<double>(k) * Ts >= rules.burn_in && (p.data.valid.empty() || p.data.valid[k]);
     const std::size_t block = first_block + k / p.block_length;
     p.held_out[k] =
         block % static_cast<std::size_t>(rules.held_out_every) == static_cast<std::size_t>(rules.held_out_every) - 1;

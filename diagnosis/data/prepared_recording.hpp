@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/data/recording.hpp"
+#include "diagnosis/data/torque_spikes.hpp"
 
 namespace wormdrive {
 
@@ -26,10 +27,12 @@ struct PreparedRecording {
   std::vector<std::uint8_t> moving;    ///< 0: standing
   std::vector<std::uint8_t> used;      ///< 0: left out, or in the burn-in
   std::vector<std::uint8_t> held_out;  ///< not used for fits
-  std::size_t block_length{};          ///< samples
-  double rms_speed{};                  ///< [rad/s]
-  double rms_torque{};                 ///< [N m]
-  double largest_torque{};             ///< magnitude [N m]
+  std::vector<TorqueSpike> torque_spikes;
+  std::size_t block_length{};  ///< samples
+  std::size_t every = 1;       ///< every so many-th reading is used: an encoder of long steps repeats itself
+  double rms_speed{};          ///< [rad/s]
+  double rms_torque{};         ///< [N m]
+  double largest_torque{};     ///< magnitude [N m]
 
   std::size_t samples() const { return data.samples(); }
   std::size_t blocks() const { return (samples() + block_length - 1) / block_length; }

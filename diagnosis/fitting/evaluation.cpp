@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "description/build.hpp"
+#include "diagnosis/faults/mended_recording.hpp"
 #include "diagnosis/predictor/predictor.hpp"
 
 namespace wormdrive {
@@ -17,23 +18,26 @@ Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
 }
 
 template <class Use>
-void Evaluation::with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
+void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                                 std::span<const double> extra, Use&& use) const {
-  Effects<double> followed = effects;
+  Effects<double> followed = drive.effects;
   const TakenOut out = take_out(followed);
-  const PreparedRecording& prepared = layout_.recordings[recording];
+  const PreparedRecording& as_recorded = layout_.recordings[recording];
+  const bool is_wrong = drive.faults.any();
+  const PreparedRecording as_it_was = is_wrong ? mended(as_recorded, drive.faults) : PreparedRecording{};
+  const PreparedRecording& prepared = is_wrong ? as_it_was : as_recorded;
   std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(drive), out, noise.impact, prepared, observer_gains(noise, prepared.data),
-                                  extra);
+        WormDrive<double, Load> followed_drive(stated_mesh(scenario_), make_load(parameters), followed, {});
+        Predictor<Load> predictor(std::move(followed_drive), out, noise.impact, prepared,
+                                  observer_gains(noise, prepared.data), extra);
         use(predictor);
       },
       prepared.data.load ? *prepared.data.load : scenario_.load);
 }
 
-std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>& effects, const ProcessNoise& noise,
+std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& drive, const ProcessNoise& noise,
                                                            std::span<const double> extra,
                                                            std::vector<FilteredStates>* states) const {
   std::vector<double> e(layout_.size, 0.0);
@@ -44,7 +48,7 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
       const PreparedRecording& recording = layout_.recordings[r];
       FilteredStates* kept = states ? &(*states)[r] : nullptr;
       if (kept) *kept = FilteredStates(recording.samples());
-      with_predictor(effects, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
+      with_predictor(drive, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
                      [&](auto& predictor) {
                        const std::span<double> all(e);
                        predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
@@ -58,7 +62,7 @@ std::optional<std::vector<double>> Evaluation::innovations(const Effects<double>
   return e;
 }
 
-std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effects, const ProcessNoise& noise,
+std::vector<std::vector<double>> Evaluation::run_on(const RecordedDrive& drive, const ProcessNoise& noise,
                                                     std::size_t recording, const FilteredStates& states,
                                                     std::span<const std::size_t> begins, std::size_t steps,
                                                     std::span<const double> innovations) const {
@@ -69,7 +73,7 @@ std::vector<std::vector<double>> Evaluation::run_on(const Effects<double>& effec
     of_worm = layout_.of_worm(recording, innovations);
   }
   const PreparedRecording& data = layout_.recordings[recording];
-  with_predictor(effects, recording, noise, {}, [&](auto& predictor) {
+  with_predictor(drive, recording, noise, {}, [&](auto& predictor) {
     for (const std::size_t begin : begins) {
       // not a number from where the model can no longer move
       std::vector<double> angles(std::min(steps, data.end_of_stretch(begin) - 1 - begin), std::nan(""));

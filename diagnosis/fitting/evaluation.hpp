@@ -12,7 +12,7 @@
 
 namespace wormdrive {
 
-/// Predicts all recordings by a scenario whose effects are changed.
+/// Predicts all recordings, once their faults are mended, by a scenario whose effects are changed.
 class Evaluation {
  public:
   Evaluation(Scenario scenario, InnovationLayout layout, int threads);
@@ -27,20 +27,19 @@ class Evaluation {
 
   /// Innovations of all recordings [rad]; nothing where the model cannot move so. extra: torque added to the command at
   /// every sample [N m], empty for none. states: of every recording, if wanted.
-  std::optional<std::vector<double>> innovations(const Effects<double>& effects, const ProcessNoise& noise,
+  std::optional<std::vector<double>> innovations(const RecordedDrive& drive, const ProcessNoise& noise,
                                                  std::span<const double> extra = {},
                                                  std::vector<FilteredStates>* states = nullptr) const;
 
   /// The gear angles that the sensor would show `steps` samples on from samples of one recording, row by row [rad], if
   /// these were the innovations of all; predictions without any.
-  std::vector<std::vector<double>> run_on(const Effects<double>& effects, const ProcessNoise& noise,
-                                          std::size_t recording, const FilteredStates& states,
-                                          std::span<const std::size_t> begins, std::size_t steps,
-                                          std::span<const double> innovations = {}) const;
+  std::vector<std::vector<double>> run_on(const RecordedDrive& drive, const ProcessNoise& noise, std::size_t recording,
+                                          const FilteredStates& states, std::span<const std::size_t> begins,
+                                          std::size_t steps, std::span<const double> innovations = {}) const;
 
  private:
   template <class Use>
-  void with_predictor(const Effects<double>& effects, std::size_t recording, const ProcessNoise& noise,
+  void with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;
 
   Scenario scenario_;

@@ -9,7 +9,7 @@ namespace wormdrive {
 
 Hypothesis stated_hypothesis(const Effects<double>& effects, const std::vector<Coordinate>& stated) {
   Hypothesis h;
-  h.effects = effects;
+  h.drive.effects = effects;
   for (const Coordinate& c : stated)
     if (c.tolerance > 0.0) {
       h.free.push_back(c);
@@ -18,10 +18,10 @@ Hypothesis stated_hypothesis(const Effects<double>& effects, const std::vector<C
   return h;
 }
 
-Effects<double> extended(const Hypothesis& h) {
-  Effects<double> effects = h.effects;
-  apply(effects, h.free, h.values);
-  return effects;
+RecordedDrive extended(const Hypothesis& h) {
+  RecordedDrive drive = h.drive;
+  apply(drive, h.free, h.values);
+  return drive;
 }
 
 Hypothesis without_noise_model(Hypothesis h) {
@@ -82,8 +82,8 @@ void add_candidate(Hypothesis& h, const std::vector<Candidate>& all, std::size_t
   }
   for (Coordinate& c : h.free)
     if (c.effect == candidate.frees) c.tolerance = 0.0;
-  apply(h.effects, candidate.coordinates, from.values);  // so that what is chosen finds the effect on
-  for (const FieldValue& f : from.chosen) set_field(h.effects, f);
+  apply(h.drive, candidate.coordinates, from.values);  // so that what is chosen finds the effect on
+  for (const FieldValue& f : from.chosen) set_field(h.drive, f);
   h.choices += candidate.choices;
   h.causes.push_back(index);
 }
@@ -111,7 +111,7 @@ std::vector<double> difference(const Evaluation& evaluation, const Hypothesis& h
 }
 
 std::vector<double> sensitivity(const Evaluation& evaluation, const Hypothesis& h, std::size_t k, double step) {
-  Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values, .noise = h.noise};
+  Hypothesis moved{.drive = h.drive, .free = h.free, .values = h.values, .noise = h.noise};
   const Coordinate& c = h.free[k];
   for (const double turned : {step, -step}) {
     moved.values[k] = h.values[k] + turned * c.scale;
@@ -129,7 +129,7 @@ double inertia_on_worm(const Evaluation& evaluation, const Hypothesis& h, std::s
   const std::optional<LoadParameters>& own = evaluation.layout().recordings[recording].data.load;
   Scenario scenario = evaluation.scenario();
   if (own) scenario.load = *own;
-  return with_drive(scenario, extended(h), Signal{}, [](const auto& drive) {
+  return with_drive(scenario, extended(h).effects, Signal{}, [](const auto& drive) {
     return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
   });
 }

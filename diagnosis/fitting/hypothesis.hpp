@@ -11,7 +11,7 @@ namespace wormdrive {
 /// A model of the data: the scenario with some candidates, what of it is free, and how well it does.
 struct Hypothesis {
   std::vector<std::size_t> causes{};  ///< candidates that are in it, by their index
-  Effects<double> effects{};          ///< with what is chosen; the free coordinates are set by extended()
+  RecordedDrive drive{};              ///< with what is chosen; the free coordinates are set by extended()
   std::vector<Coordinate> free{};
   std::vector<double> values{};  ///< of the free coordinates
   ProcessNoise noise{};
@@ -30,8 +30,8 @@ struct Hypothesis {
 /// What is stated: these effects, with the numbers that have a tolerance free at their stated values. To be evaluated.
 Hypothesis stated_hypothesis(const Effects<double>& effects, const std::vector<Coordinate>& stated);
 
-/// The effects with the free coordinates at their values.
-Effects<double> extended(const Hypothesis& h);
+/// Drive and recording with the free coordinates at their values.
+RecordedDrive extended(const Hypothesis& h);
 
 /// The same with white noise alone, which takes no slow structure for its own. To be evaluated.
 Hypothesis without_noise_model(Hypothesis h);

@@ -38,8 +38,8 @@ std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::siz
 class Forecast {
  public:
   Forecast(const Evaluation& evaluation, const Hypothesis& h)
-      : evaluation_(evaluation), noise_(h.noise), effects_(extended(h)) {
-    goes_on_ = evaluation.innovations(effects_, noise_, {}, &states_).has_value();
+      : evaluation_(evaluation), noise_(h.noise), drive_(extended(h)) {
+    goes_on_ = evaluation.innovations(drive_, noise_, {}, &states_).has_value();
   }
 
   /// Against what was measured.
@@ -57,7 +57,7 @@ class Forecast {
   /// Against its own motion with innovations.
   std::vector<Stretch> of_noise(double horizon, std::span<const double> innovations) const {
     return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
-      return evaluation_.run_on(effects_, noise_, r, states_[r], begins, steps, innovations);
+      return evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps, innovations);
     });
   }
 
@@ -72,7 +72,7 @@ class Forecast {
       const PreparedRecording& recording = layout.recordings[r];
       const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
       const std::vector<std::size_t> begins = beginnings(recording, steps);
-      auto errors = evaluation_.run_on(effects_, noise_, r, states_[r], begins, steps);
+      auto errors = evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps);
       const auto told = truth(r, begins, steps);
       for (std::size_t q = 0; q < begins.size(); ++q) {
         for (std::size_t k = 0; k < errors[q].size(); ++k) errors[q][k] -= told[q][k];
@@ -85,7 +85,7 @@ class Forecast {
 
   const Evaluation& evaluation_;
   ProcessNoise noise_;
-  Effects<double> effects_;
+  RecordedDrive drive_;
   std::vector<FilteredStates> states_;
   bool goes_on_ = false;
 };

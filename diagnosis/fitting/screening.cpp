@@ -149,7 +149,7 @@ Screening screen(const Evaluation& evaluation, const Hypothesis& h, const std::v
   for (std::size_t k = 0; k < h.free.size(); ++k) J.col(static_cast<Eigen::Index>(k)) = weigh(s.free_columns[k]);
 
   for (std::size_t c = 0; c < all.size(); ++c)
-    if (!is_in(h, all, c))
+    if (!all[c].alone && !is_in(h, all, c))
       for (std::size_t start = 0; start < all[c].starts.size() + all[c].far.size(); ++start)
         s.found.push_back({.candidate = c, .start = start, .is_far = start >= all[c].starts.size()});
   parallel_for(s.found.size(), evaluation.threads(),

@@ -71,7 +71,7 @@ bool holds(const Evidence& e, const Candidate& candidate, const AcceptanceRules&
   if (candidate.toleranced) return e.held_out > -std::max(rules.least_held_out, rules.loss_share * e.delta_bic);
   const bool has_steps = std::any_of(candidate.coordinates.begin(), candidate.coordinates.end(),
                                      [](const Coordinate& c) { return !has_slope(c); });
-  return steady || broad || (has_steps && gains && e.everywhere_but_best > rules.least_bic);
+  return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules.least_bic);
 }
 
 /// The first rule that is broken, empty if none is.

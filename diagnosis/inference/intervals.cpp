@@ -146,7 +146,7 @@ Eigen::VectorXd field_slope(const Hypothesis& h, std::string_view effect, std::s
   for (std::size_t k = 0; k < h.free.size(); ++k) {
     if (h.free[k].effect != effect) continue;
     constexpr double step = 1e-5;
-    Hypothesis moved{.effects = h.effects, .free = h.free, .values = h.values};
+    Hypothesis moved{.drive = h.drive, .free = h.free, .values = h.values};
     moved.values[k] += step * h.free[k].scale;
     const double change = field_of(extended(moved), effect, field).value - value;
     slope[static_cast<Eigen::Index>(k)] =
@@ -175,7 +175,7 @@ Estimate estimate(std::string_view field, const FieldOfEffect& at, double varian
 EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
                           const std::vector<Coordinate>& coordinates) {
   EstimatedEffect e{std::string(effect), {}};
-  const Effects<double> now = extended(h);
+  const RecordedDrive now = extended(h);
   const Eigen::MatrixXd spread = with_structural_errors(h, covariance);
   for (const Coordinate& c : coordinates)
     for (const std::string_view field : fields_of(c)) {
@@ -184,12 +184,15 @@ EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance
     }
   if (const std::string_view tried = coordinates.front().tried; !tried.empty())
     e.parameters.push_back(estimate(tried, field_of(now, effect, tried), 0.0));
+  now.faults.for_each([&]<class Fault>(const std::optional<Fault>& fault) {
+    if (fault && Fault::id == effect) e.remedy = fault->remedy();
+  });
   return e;
 }
 
 JointEstimate joint_estimate(const Hypothesis& h, const Eigen::MatrixXd& covariance) {
   JointEstimate joint;
-  const Effects<double> now = extended(h);
+  const RecordedDrive now = extended(h);
   std::vector<Eigen::VectorXd> slopes;
   const Eigen::MatrixXd spread = with_structural_errors(h, covariance);
   for (const Coordinate& c : h.free)

@@ -23,7 +23,7 @@ class Promise {
     for (const StartColumns* e : together) in.insert(in.end(), e->columns.begin(), e->columns.end());
     Eigen::MatrixXd A = linear_.A(in, in);
     Eigen::VectorXd g = linear_.b(in);
-    Hypothesis tolerances{.effects = {}, .free = base_.free, .values = base_.values};
+    Hypothesis tolerances{.drive = {}, .free = base_.free, .values = base_.values};
     for (const StartColumns* e : together)
       for (Coordinate& c : tolerances.free)
         for (const Coordinate& own : all_[e->candidate].coordinates)

@@ -42,8 +42,8 @@ Hypothesis CauseSearch::fit_causes(const std::vector<std::size_t>& causes, const
     h.noise = warm->noise;
     for (const std::size_t c : causes)
       for (const FieldValue& f : all_[c].starts.front().chosen)
-        if (field_of(warm->effects, f.effect, f.field).on)
-          set_field(h.effects, {f.effect, f.field, field_of(warm->effects, f.effect, f.field).value});
+        if (field_of(warm->drive, f.effect, f.field).on)
+          set_field(h.drive, {f.effect, f.field, field_of(warm->drive, f.effect, f.field).value});
   }
   fit(evaluation_, h, rounds);
   return h;

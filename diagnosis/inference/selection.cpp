@@ -209,7 +209,7 @@ bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, co
   const EstimatedEffect found =
       estimated(with, covariance(evaluation_, with, 1), candidate.effect, candidate.coordinates);
   const Estimate& size = found.parameters.front();
-  const double stated = field_of(evaluation_.scenario().effects, found.effect, size.field).value;
+  const double stated = field_of(RecordedDrive(evaluation_.scenario().effects), found.effect, size.field).value;
   return stated < size.low || stated > size.high;
 }
 
@@ -250,6 +250,8 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     for (const Tried& other : tried) {
       const Candidate& rival = all_[other.candidate];
       if (other.candidate == t.candidate || other.evidence.at_bound || rival.frees == candidate.effect) continue;
+      // a delay that is stated and is not there shows as a torque that comes late by it
+      if (rival.of_recording && is_removed(t.model, candidate)) continue;
       if (t.evidence.delta_bic - other.evidence.delta_bic < equivalence_margin(best) ||
           (indistinguishable_from(t.model, candidate, rival) && accepted(other.evidence, rival)))
         found.equals.push_back(other.candidate);

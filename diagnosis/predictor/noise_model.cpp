@@ -192,7 +192,11 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
     const std::size_t begin = channel.begin, end = begin + recording.samples();
     for (std::size_t k = begin; k < end; ++k) {
       const std::vector<double>& pool = pools[layout.group[k]];
-      if (pool.empty()) continue;
+      const bool is_read = recording.data.valid.empty() || recording.data.valid[k - begin] != 0;
+      if (pool.empty() || !is_read) {
+        z.add(0.0);
+        continue;
+      }
       const std::uint64_t draw = random();  // its lowest bit is the sign
       e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
       // weights that keep most of what is steady tell of slow structure, and would let noise grow

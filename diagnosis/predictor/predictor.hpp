@@ -120,7 +120,8 @@ class Predictor {
   /// Brings the inputs to a sample; what is on the way then was commanded before it.
   void rewind(std::size_t k) {
     drive().rewind();
-    const std::size_t memory = std::min<std::size_t>(k, static_cast<std::size_t>(0.1 / recording_.data.period));
+    const std::size_t memory =
+        std::min<std::size_t>(k, static_cast<std::size_t>(remembered_time / recording_.data.period));
     drive().enter(time(k - memory));
     for (std::size_t j = k - memory; j < k; ++j) {
       const double t = time(j), end = time(j + 1);

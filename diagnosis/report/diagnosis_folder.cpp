@@ -19,7 +19,8 @@ namespace {
 /// The ids of effects, "none" without one.
 std::string ids(const std::vector<EstimatedEffect>& effects) {
   std::vector<std::string> names;
-  for (const EstimatedEffect& effect : effects) names.push_back(effect.effect);
+  for (const EstimatedEffect& effect : effects)
+    if (effect.remedy.empty()) names.push_back(effect.effect);
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -33,6 +34,9 @@ constexpr const char* file_names[] = {"diagnosis.h5", "extended.toml", "experime
 
 std::string extended_file(const Diagnosis& d) {
   std::string text = fmt::format("# A scenario that wormdrive diagnose has extended; causes: {}.\n", ids(d.causes));
+  for (const EstimatedEffect& cause : d.causes)
+    if (!cause.remedy.empty())
+      text += fmt::format("# A fault of the recording and not of the drive: {}. {}\n", cause.effect, cause.remedy);
   for (const std::vector<std::string>& members : d.classes)
     text += fmt::format("# The data cannot tell the causes of this class apart: {}.\n", fmt::join(members, ", "));
   std::vector<EstimatedEffect> moved;

@@ -31,6 +31,12 @@ json as_json(const EstimatedEffect& effect) {
   return {{"effect", effect.effect}, {"parameters", parameters}};
 }
 
+json cause_as_json(const EstimatedEffect& cause) {
+  json made = as_json(cause);
+  made["remedy"] = cause.remedy.empty() ? json(nullptr) : json(cause.remedy);
+  return made;
+}
+
 json as_json(const JointEstimate& u) {
   json numbers = json::array();
   for (std::size_t k = 0; k < u.numbers.size(); ++k) {
@@ -100,10 +106,12 @@ std::string name(Verdict verdict) {
 }
 
 nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const std::vector<std::string>& files) {
+  json causes = json::array();
+  for (const EstimatedEffect& cause : d.causes) causes.push_back(cause_as_json(cause));
   return {{"verdict", name(d.verdict)},
           {"sentence", d.sentence},
           {"data", {{"kind", data_kind}, {"files", files}}},
-          {"causes", list_of(d.causes)},
+          {"causes", causes},
           {"classes", d.classes},
           {"ranking", list_of(d.ranking)},
           {"gain", list_of(d.prediction)},

@@ -44,10 +44,25 @@ std::vector<std::string> certain_fields(const Diagnosis& d) {
   return list;
 }
 
+/// Without the faults of a recording, which no drive has.
+JointEstimate of_drive(const JointEstimate& all) {
+  JointEstimate u;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < all.numbers.size(); ++k)
+    if (!is_recording_fault(all.effects[k])) kept.push_back(k);
+  for (const std::size_t a : kept) {
+    u.effects.push_back(all.effects[a]);
+    u.numbers.push_back(all.numbers[a]);
+    u.correlation.emplace_back();
+    for (const std::size_t b : kept) u.correlation.back().push_back(all.correlation[a][b]);
+  }
+  return u;
+}
+
 }  // namespace
 
 std::string uncertainty_study(const Diagnosis& d) {
-  const JointEstimate& u = d.uncertainty;
+  const JointEstimate u = of_drive(d.uncertainty);
   if (u.numbers.empty()) return "";
   std::string text =
       "# The joint distribution that the data of a diagnosis leave for the numbers that they determine. To learn what "

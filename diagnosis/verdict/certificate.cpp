@@ -189,7 +189,7 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
       list.push_back(v);
     }
   }
-  for (const NotExamined& n : not_examined(base.effects, sizes)) {
+  for (const NotExamined& n : not_examined(base.drive.effects, sizes)) {
     if (!n.needs_worm_encoder) continue;
     Visibility v;
     v.effect = n.effect;

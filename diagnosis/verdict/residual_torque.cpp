@@ -18,7 +18,7 @@ std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hyp
   std::vector<std::vector<double>> all;
   for (std::size_t recording = 0; recording < evaluation.layout().recordings.size(); ++recording) {
     const PreparedRecording& r = evaluation.layout().recordings[recording];
-    const double Ts = r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
+    const double Ts = static_cast<double>(r.every) * r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
     const double per_acceleration = inertia_on_worm(evaluation, h, recording);
     std::vector<double>& torque = all.emplace_back(r.samples(), 0.0);
     for (std::size_t k = 0; goes_on && k < torque.size(); ++k) {
@@ -45,14 +45,16 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
     const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(mean_over / recording.data.period)));
     with_drive(loaded, [&](auto& drive) {
       for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
-        double sum_then = 0.0, sum_now = 0.0;
+        double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
         bool whole = true;
         for (std::size_t k = begin; k < begin + bin; ++k) {
-          whole = whole && recording.moving[k] && recording.used[k];
-          sum_then += then[k] / static_cast<double>(bin);
-          sum_now += now[k] / static_cast<double>(bin);
+          whole = whole && recording.moving[k] && (recording.used[k] || k % recording.every != 0);
+          if (!recording.used[k]) continue;
+          sum_then += then[k];
+          sum_now += now[k];
+          readings += 1.0;
         }
-        if (!whole) continue;
+        if (!whole || readings == 0.0) continue;
         const std::size_t middle = begin + bin / 2;
         const double t = recording.data.time(middle);
         const double angle = recording.data.gear_angle[middle];
@@ -65,8 +67,8 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
         map.gear_speed.push_back(recording.speed[middle]);
         map.load_torque.push_back(load.torque(at));
         map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
-        map.before.push_back(sum_then);
-        map.after.push_back(sum_now);
+        map.before.push_back(sum_then / readings);
+        map.after.push_back(sum_now / readings);
         map.held_out.push_back(recording.held_out[middle]);
       }
     });

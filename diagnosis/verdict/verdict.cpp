@@ -54,9 +54,16 @@ constexpr double most_noise = 1.0 / 3.0;
 
 bool noise_dominated(const Diagnosis& d, double torque) { return !impacts(d) && d.noise_torque > most_noise * torque; }
 
-std::string remainder_sentence(const Diagnosis& d, double torque) {
+std::string remainder_sentence(const Diagnosis& d, const Magnitudes& sizes) {
+  const double torque = sizes.torque;
   const bool linear = d.extended.axis == Axis::linear;
   const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
+  if (noise_dominated(d, torque) && sizes.coarse_step > 0.0)
+    return fmt::format(
+        " The encoder is too coarse for this motion: within its step of {:.2g} {} noise of {:.2g} {} rms does not "
+        "show, "
+        "compared with {:.2g} {} of the motor. Finer steps, or larger and faster motions, would show more.",
+        sizes.coarse_step, linear ? unit::metre.symbol : unit::radian.symbol, d.noise_torque, unit, torque, unit);
   if (noise_dominated(d, torque))
     return fmt::format(" Noise of {:.2g} {} rms remains, compared with {:.2g} {} of the motor.", d.noise_torque, unit,
                        torque, unit);
@@ -65,6 +72,23 @@ std::string remainder_sentence(const Diagnosis& d, double torque) {
     return fmt::format(" A {} of {:.2g} {} rms over {} remains unexplained.", linear ? "force" : "torque", r.torque,
                        unit, r.axis);
   return fmt::format(" {} remains unexplained.", r.axis);
+}
+
+/// What the drive lacks, and what is wrong with the recording and how to mend it.
+std::string causes_sentences(const Diagnosis& d) {
+  std::vector<std::string> lacking, wrong;
+  std::string remedies;
+  for (const EstimatedEffect& cause : d.causes) {
+    (cause.remedy.empty() ? lacking : wrong).push_back(phrase(cause, d.extended.axis));
+    if (!cause.remedy.empty()) remedies += " " + cause.remedy;
+  }
+  std::string text;
+  if (!lacking.empty())
+    text = (d.remainders.empty() ? "The simulation lacks " : "The simulation lacks, among other things, ") +
+           joined(lacking, "and") + ".";
+  if (!wrong.empty())
+    text += fmt::format("{}The recording is faulty: {}.{}", text.empty() ? "" : " ", joined(wrong, "and"), remedies);
+  return text;
 }
 
 }  // namespace
@@ -124,8 +148,8 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   if (d.causes.empty()) {
     const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);
     d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
-    d.sentence = adequate ? "The simulation contains every effect that these data show"
-                          : lacking + remainder_sentence(d, sizes.torque);
+    d.sentence =
+        adequate ? "The simulation contains every effect that these data show" : lacking + remainder_sentence(d, sizes);
     if (adequate) d.sentence += calibration_matters(d) ? calibration_clause(d, selection.base) + gain_sentence(d) : ".";
     return;
   }
@@ -158,15 +182,12 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   }
   if (d.causes.empty()) {
     d.verdict = Verdict::unexplained;
-    d.sentence = lacking + remainder_sentence(d, sizes.torque);
+    d.sentence = lacking + remainder_sentence(d, sizes);
     return;
   }
 
-  std::vector<std::string> phrases;
-  for (const EstimatedEffect& cause : d.causes) phrases.push_back(phrase(cause, d.extended.axis));
   d.verdict = d.classes.empty() ? Verdict::named : Verdict::ambiguous;
-  d.sentence = (d.remainders.empty() ? "The simulation lacks " : "The simulation lacks, among other things, ") +
-               joined(phrases, "and") + ".";
+  d.sentence = causes_sentences(d);
   for (const std::vector<std::string>& members : d.classes) {
     std::vector<std::string> others;
     for (std::size_t k = 1; k < members.size(); ++k) others.push_back(in_words(members[k]));
@@ -178,7 +199,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
         "the error {} s ahead is not smaller: the named causes rest on the likelihood of the single samples, "
         "{:.3g} nats{}",
         e->horizon, explained, impacts(d) ? "; teeth that bounce cannot be followed far" : ""));
-  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes);
 }
 
 }  // namespace wormdrive

@@ -119,7 +119,7 @@ TEST_CASE("the measured axis: Coulomb, viscous friction and offset alone come wi
   fit(evaluation, h, 12);
   adjust_noise(evaluation, h, 10);
   fit(evaluation, h, 12, 0.01);
-  const AxisModel found = axis_model(extended(h));
+  const AxisModel found = axis_model(extended(h).effects);
   CAPTURE(found.coulomb_forward, found.viscous_forward, found.offset, h.noise.white);
   CHECK(close(found.coulomb_forward, published.coulomb_forward, 0.02));
   CHECK(close(found.viscous_forward, published.viscous_forward, 0.02));

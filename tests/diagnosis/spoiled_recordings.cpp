@@ -44,6 +44,12 @@ void add_speed(Sheet& s, double factor) {
   }
 }
 
+/// Adds an encoder on the worm that goes so many times as far as the gear.
+void add_worm(Sheet& s, double factor) {
+  s.names.push_back("worm_angle_rad");
+  for (std::size_t k = 0; k < s.rows.size(); ++k) s.rows[k].push_back(fmt::format("{:.9g}", factor * s.number(k, y)));
+}
+
 const double degree = std::numbers::pi / 180.0;
 
 // clang-format off
@@ -138,6 +144,18 @@ const std::vector<Spoiled> spoiled{
     {"speed in rpm",
      [](Sheet& s) { add_speed(s, 30 / std::numbers::pi); },
      "r.csv: error: gear_speed_rad_per_s is in rpm, which does not match gear_angle_rad: 9.56 times its derivative"},
+    {"worm with another ratio",
+     [](Sheet& s) { add_worm(s, 30); },
+     "r.csv: error: worm_angle_rad goes 30 times as far as gear_angle_rad, where the scenario states a ratio of 60: state ratio = 30"},
+    {"worm with the other sign",
+     [](Sheet& s) { add_worm(s, -60); },
+     "r.csv: error: worm_angle_rad goes -60 times as far as gear_angle_rad, where the scenario states a ratio of 60: turn its sign"},
+    {"worm in degrees",
+     [](Sheet& s) { add_worm(s, 60 / degree); },
+     "r.csv: error: worm_angle_rad goes 3438 times as far as gear_angle_rad, where the scenario states a ratio of 60: it is in degrees"},
+    {"worm counted at the gear",
+     [](Sheet& s) { add_worm(s, 1); },
+     "r.csv: error: worm_angle_rad goes 1 times as far as gear_angle_rad, where the scenario states a ratio of 60: it is counted at the gear"},
     {"speed of the worm",
      [](Sheet& s) { add_speed(s, 60); },
      "r.csv: error: gear_speed_rad_per_s is the speed of the worm, which does not match gear_angle_rad: 60.1 times its derivative"}};
