@@ -78,7 +78,7 @@ TEST_CASE("the JSON of a diagnosis has every key with its type, and null instead
                     {"settings", "object"},
                     {"program", "string"}});
   check_members(d["data"], {{"kind", "string"}, {"files", "array"}});
-  check_members(d["causes"].at(0), {{"effect", "string"}, {"parameters", "array"}});
+  check_members(d["causes"].at(0), {{"effect", "string"}, {"parameters", "array"}, {"remedy", "string,null"}});
   check_members(d["causes"][0]["parameters"].at(0), {{"name", "string"},
                                                      {"value", "number"},
                                                      {"standard_error", "number"},

@@ -218,7 +218,7 @@ Comparison compare_random_held(Dice& dice) {
   }
   maybe(dice, on, TorqueSaturation<double>{dice.between(0.02, 0.04)});
   if (dice.one_in(4)) std::get<std::optional<DcMotor<double>>>(on.list) = {dice.between(1, 3), dice.between(0.02, 0.1)};
-  Samples held{.interpolation = Interpolation::hold};
+  Samples held;
   double torque = 0.0;
   for (double t = 0.0; t < duration; t += 0.005) {
     torque = std::clamp(torque + dice.between(-0.008, 0.008), -0.04, 0.04);
