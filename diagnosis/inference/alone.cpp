@@ -9,18 +9,20 @@ namespace wormdrive {
 
 namespace {
 
+/// From its starts, and from far values that do better than the base as they are.
 Hypothesis best_fit(const Evaluation& evaluation, const std::vector<Candidate>& all, std::size_t candidate,
                     const Hypothesis& base) {
-  std::vector<Hypothesis> fitted(all[candidate].starts.size() + all[candidate].far.size(), base);
-  parallel_for(fitted.size(), evaluation.threads(), [&](std::size_t start) {
-    add_candidate(fitted[start], all, candidate, start);
-    fit(evaluation, fitted[start], 6);
+  std::vector<Hypothesis> trials(all[candidate].starts.size() + all[candidate].far.size(), base);
+  parallel_for(trials.size(), evaluation.threads(), [&](std::size_t start) {
+    add_candidate(trials[start], all, candidate, start);
+    evaluate(evaluation, trials[start]);
+    if (start < all[candidate].starts.size() || trials[start].objective < base.objective)
+      fit(evaluation, trials[start], 6);
   });
-  Hypothesis best = *std::min_element(fitted.begin(), fitted.end(),
-                                      [](const Hypothesis& a, const Hypothesis& b) { return a.bic < b.bic; });
-  if (best.bic >= base.bic) return best;
+  Hypothesis best = *std::min_element(trials.begin(), trials.end(),
+                                      [](const Hypothesis& x, const Hypothesis& y) { return x.bic < y.bic; });
   constexpr int turns = 2;  // far from what is stated noise and model are found by turns
-  for (int turn = 0; turn < turns; ++turn) {
+  for (int turn = 0; turn < turns && base.bic - best.bic > AcceptanceRules{}.least_bic; ++turn) {
     restart_noise(evaluation, best);
     adjust_noise(evaluation, best, 3);
     fit(evaluation, best, 4);
@@ -34,9 +36,11 @@ void try_alone(const Evaluation& evaluation, const std::vector<Candidate>& all, 
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (!all[c].alone) continue;
     Hypothesis with = best_fit(evaluation, all, c, found.base);
-    Hypothesis without = found.base;  // a better mixture of noise is no merit of the candidate
-    without.noise = with.noise;
-    fit(evaluation, without, 5);
+    Hypothesis without = found.base;
+    if (found.base.bic - with.bic > AcceptanceRules{}.least_bic) {  // a better mixture of noise is no merit of it
+      without.noise = with.noise;
+      fit(evaluation, without, 5);
+    }
     const Evidence evidence =
         compare(without.objective < found.base.objective ? without : found.base, with, all[c], evaluation.layout());
     found.tried.push_back({c, with, evidence});
