@@ -84,15 +84,16 @@ class SlidingLawOf {
   /// load: estimated load torque tau_l_hat at the measured angle [N m].
   [[gnu::always_inline]] ControlSignalsOf<V> operator()(const MeasurementOf<V>& m, const V& load) {
     integrate((m.angle - m.desired.angle) * m.period);
-    return decide(m, load);
+    return decide(m, load, branches(m, load));
   }
   /// Lets the integral of the error grow by itself ...
   [[gnu::always_inline]] void integrate(const V& growth) { integral_ += growth; }
-  /// ... and decides with what it is now.
-  [[gnu::always_inline]] ControlSignalsOf<V> decide(const MeasurementOf<V>& m, const V& load) const {
+  /// ... and decides with what it is now. sides: the branches [N m].
+  [[gnu::always_inline]] ControlSignalsOf<V> decide(const MeasurementOf<V>& m, const V& load,
+                                                    const std::array<V, 2>& sides) const {
     const V e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
     const V s = e_rate + twice_lambda_ * e + lambda_squared_ * integral_;
-    const auto [u1, u2] = branches(m, load);
+    const auto& [u1, u2] = sides;
     const V share = within_limits<V>(s * per_layer_, -1.0, 1.0);
     const V u = 0.5 * (1.0 + share) * u1 + 0.5 * (1.0 - share) * u2;  // [eq. 24]
     const V compensation = break_in_compensation<V>(C_[0], C_[1], load, m.speed, m.desired.speed, epsilon_);
@@ -139,8 +140,8 @@ class SlidingController {
     const double load = nominal_.load(m.angle);
     if (growth_.method == AntiWindup::none) return law_(m, load);
     law_.integrate(growth_(m.angle - m.desired.angle, m.period, beyond(m.applied)));
-    before_ = law_.decide(m, load);
     branches_ = law_.branches(m, load);
+    before_ = law_.decide(m, load, branches_);
     return before_;
   }
   /// Time constant of the anti-windup [s], that of the error within the layer.

@@ -19,11 +19,7 @@ bool has_sensor(const Effects<double>& effects) {
   return sensor;
 }
 
-}  // namespace
-
-namespace {
-
-/// The same with torques that may be cut at a limit.
+/// Whether lanes know the drive, whose torques may be cut at a limit.
 bool has_limited_lane_plant(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
   return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&

@@ -61,8 +61,7 @@ std::string remainder_sentence(const Diagnosis& d, const Magnitudes& sizes) {
   if (noise_dominated(d, torque) && sizes.coarse_step > 0.0)
     return fmt::format(
         " The encoder is too coarse for this motion: within its step of {:.2g} {} noise of {:.2g} {} rms does not "
-        "show, "
-        "compared with {:.2g} {} of the motor. Finer steps, or larger and faster motions, would show more.",
+        "show, compared with {:.2g} {} of the motor. Finer steps, or larger and faster motions, would show more.",
         sizes.coarse_step, linear ? unit::metre.symbol : unit::radian.symbol, d.noise_torque, unit, torque, unit);
   if (noise_dominated(d, torque))
     return fmt::format(" Noise of {:.2g} {} rms remains, compared with {:.2g} {} of the motor.", d.noise_torque, unit,

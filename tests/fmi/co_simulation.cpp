@@ -84,22 +84,15 @@ void agrees(const std::string& file, std::vector<std::string> overrides, std::si
   }
 }
 
+/// Of good_scenario.
+const std::string constant_motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
+
+/// Everything in it is late.
 std::string delayed(const Folder& folder) {
-  folder.write("delayed.toml", R"(title = "Everything is late"
-[mesh]
-ratio = 60
-lead_angle_deg = 4
-pressure_angle_deg = 20
-worm_pitch_radius_m = 0.011
-gear_pitch_radius_m = 0.045
-friction = 0.25
-worm_inertia_kgm2 = 2.53e-5
-gear_inertia_kgm2 = 7.39e-4
-[load]
-kind = "gravity_arm"
-torque_Nm = 0.0196
-angle_offset_deg = 0
-[controller]
+  const std::string moved =
+      edited(edited(good_scenario, constant_motor, ""), "[load]\nkind = \"constant\"\ntorque_Nm = 0.02\n",
+             "[load]\nkind = \"gravity_arm\"\ntorque_Nm = 0.0196\nangle_offset_deg = 0\n");
+  folder.write("delayed.toml", edited(moved, "[run]\nduration_s = 0.01\n", R"([controller]
 kind = "pid"
 sample_time_s = 2e-3
 sample_offset_s = 5e-4
@@ -122,7 +115,7 @@ limit_Nm = 0.2
 [run]
 duration_s = 0.5
 report_interval_s = 1e-3
-)");
+)"));
   return folder / "delayed.toml";
 }
 
@@ -161,10 +154,9 @@ TEST_CASE("co-simulation takes anti-windup and an encoder on the worm along") {
 
 TEST_CASE("a plant whose torque is set at communication points is a run under a table of these torques") {
   const Folder folder;
-  const std::string motor = "[motor.torque]\nkind = \"constant\"\ntorque_Nm = -0.05\n";
   folder.write(
       "held.toml",
-      edited(edited(good_scenario, motor,
+      edited(edited(good_scenario, constant_motor,
                     "[motor.torque]\nkind = \"samples\"\ntimes_s = [0, 0.02, 0.05]\ntorques_Nm = [0.05, -0.1, 0]\n"),
              "[run]\nduration_s = 0.01\n",
              "[effect.actuator_lag]\ntime_constant_s = 2e-3\n[run]\nduration_s = 0.1\nreport_interval_s = "

@@ -22,7 +22,7 @@ void write_fmi2_variable(Tree& list, const VariableInfo& variable, const std::ma
   if (variable.min) attribute(type, "min", *variable.min);
   if (variable.max) attribute(type, "max", *variable.max);
   if (variable.start) attribute(type, "start", *variable.start);
-  if (!variable.derivative_of.empty()) attribute(type, "derivative", indices.at(variable.derivative_of));
+  if (variable.is_rate()) attribute(type, "derivative", indices.at(variable.derivative_of));
 }
 
 void write_fmi2_structure(Tree& structure, const std::vector<VariableInfo>& variables) {
@@ -31,11 +31,9 @@ void write_fmi2_structure(Tree& structure, const std::vector<VariableInfo>& vari
     for (std::size_t k = 0; k < variables.size(); ++k)
       if (belongs(variables[k])) attribute(child(at, "Unknown"), "index", k + 1);
   };
-  const auto is_output = [](const VariableInfo& v) { return v.causality == "output"; };
-  const auto is_rate = [](const VariableInfo& v) { return !v.derivative_of.empty(); };
-  list("Outputs", is_output);
-  list("Derivatives", is_rate);
-  list("InitialUnknowns", [&](const VariableInfo& v) { return is_output(v) || is_rate(v); });
+  list("Outputs", [](const VariableInfo& v) { return v.is_output(); });
+  list("Derivatives", [](const VariableInfo& v) { return v.is_rate(); });
+  list("InitialUnknowns", [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
 }
 
 }  // namespace

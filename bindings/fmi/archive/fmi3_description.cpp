@@ -23,7 +23,7 @@ void write_fmi3_variable(Tree& list, const VariableInfo& variable, const std::ma
   state_unit(one, variable);
   if (variable.min) attribute(one, "min", *variable.min);
   if (variable.max) attribute(one, "max", *variable.max);
-  if (!variable.derivative_of.empty()) attribute(one, "derivative", references.at(variable.derivative_of));
+  if (variable.is_rate()) attribute(one, "derivative", references.at(variable.derivative_of));
 }
 
 void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& variables) {
@@ -31,11 +31,9 @@ void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& vari
     for (const VariableInfo& variable : variables)
       if (belongs(variable)) attribute(child(structure, group), "valueReference", variable.reference);
   };
-  const auto is_output = [](const VariableInfo& v) { return v.causality == "output"; };
-  const auto is_rate = [](const VariableInfo& v) { return !v.derivative_of.empty(); };
-  list("Output", is_output);
-  list("ContinuousStateDerivative", is_rate);
-  list("InitialUnknown", [&](const VariableInfo& v) { return is_output(v) || is_rate(v); });
+  list("Output", [](const VariableInfo& v) { return v.is_output(); });
+  list("ContinuousStateDerivative", [](const VariableInfo& v) { return v.is_rate(); });
+  list("InitialUnknown", [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
   list("EventIndicator",
        [](const VariableInfo& v) { return v.reference >= first_indicator && v.reference < first_parameter; });
 }

@@ -19,7 +19,9 @@ struct VariableInfo {
   std::optional<double> start{}, min{}, max{};
   std::string derivative_of{};  ///< name of the state
 
-  bool is_calculated() const { return causality == "output" || causality == "local"; }
+  bool is_output() const { return causality == "output"; }
+  bool is_rate() const { return !derivative_of.empty(); }
+  bool is_calculated() const { return is_output() || causality == "local"; }
 };
 
 /// Every variable of an FMU, in the order in which its description counts them.
