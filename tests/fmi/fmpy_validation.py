@@ -1,4 +1,4 @@
-#!/ usr / bin / env python3
+#!/usr/bin/env python3
 """FMPy's opinion on FMUs, where it is installed (it is not in Debian): fmpy_validation.py PROGRAM SCENARIO...
 
 Its validation finds nothing, and its own integrator with the event indicators runs each FMU to the end. One line per fault.
@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+SKIPPED = 77  # what ctest takes as a test that could not run
 
 def faults(program, scenario, folder):
     """Yields what FMPy finds wrong with the FMU of a scenario."""
@@ -26,11 +27,15 @@ def faults(program, scenario, folder):
 
 def main(program, *scenarios):
     try:
-        import fmpy
-#noqa : F401 except ImportError : print("skipped: FMPy is not installed") return 0 with tempfile.TemporaryDirectory()
-    as folder : found = [f "{Path(s).name}: {fault}" for s in scenarios for fault in faults(
-                             program, Path(s), folder)] print(*found,
-                                                              f "fmpy: {len(scenarios)} FMUs, {len(found)} faults",
-                                                              sep = "\n") return 1 if found else 0
+        import fmpy  # noqa: F401
+    except ImportError:
+        print("skipped: FMPy is not installed")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as folder:
+        found = [f"{Path(s).name}: {fault}" for s in scenarios for fault in faults(program, Path(s), folder)]
+    print(*found, f"fmpy: {len(scenarios)} FMUs, {len(found)} faults", sep="\n")
+    return 1 if found else 0
 
-                         if __name__ == "__main__" : sys.exit(main(*sys.argv [1:]) if len(sys.argv) > 2 else __doc__)
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]) if len(sys.argv) > 2 else __doc__)

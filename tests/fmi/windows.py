@@ -13,6 +13,7 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+SKIPPED = 77  # what ctest takes as a test that could not run
 WINE = ["wine64", "wine", "/usr/lib/wine/wine64"]
 
 
@@ -32,7 +33,7 @@ def main(program, native, foreign, *scenarios):
     wine = next((found for found in map(shutil.which, WINE) if found), None)
     if not wine or not Path(foreign).exists():
         print("skipped: wine is not installed" if not wine else "skipped: no cross compiler for Windows was there")
-        return 0
+        return SKIPPED
     faults = 0
     with tempfile.TemporaryDirectory() as temporary:
         for k, scenario in enumerate(scenarios):
