@@ -23,6 +23,7 @@ struct Sensor {
   };
   static wormdrive::Moment<double> moment(const Instant& now) { return {now.t, now.x[0], now.x[1], 0.0}; }
   static double measured_angle(const Instant& now) { return now.x[0]; }
+  static wormdrive::GearMesh<double> mesh() { return table_1(); }  // of an encoder on the worm, which none has
   static double torque_limit() { return never; }
   static wormdrive::Effects<double> effects() { return {}; }
   static void disturb(double) {}

@@ -44,6 +44,7 @@ std::vector<Scenario> scenarios(double tolerance) {
                .solver = SolverKind::taylor};
   first.control = ControlScenario{.law = fig_10,
                                   .sampling = {.period = period},
+                                  .anti_windup = {},
                                   .nominal = {.C1 = nominal.C1,
                                               .C2 = nominal.C2,
                                               .Jw_i = nominal.Jw_i,

@@ -51,15 +51,56 @@ inline bool stabilises(const PidGains& g, double M) {
 /// Gains that minimise the weighted squares for M e'' = u; all 0 where there are none.
 PidGains lqr_gains(const PidParameters& weights, double M);
 
+/// u = -(Ki Int(e) + Kp e + Kd e') with feedforward and break-in compensation, of one trial or of several at once.
+template <class V>
+class PidLawOf {
+ public:
+  PidLawOf() = default;
+  PidLawOf(const PidGains& gains, const PidParameters& p, const NominalModel& nominal)
+      : Ki_(gains.Ki),
+        Kp_(gains.Kp),
+        Kd_(gains.Kd),
+        feedforward_(p.feedforward * mean_inertia(nominal)),
+        C1_(nominal.C1),
+        C2_(nominal.C2),
+        epsilon_(p.epsilon) {}
+
+  /// load: estimated load torque tau_l_hat at the measured angle [N m].
+  [[gnu::always_inline]] ControlSignalsOf<V> operator()(const MeasurementOf<V>& m, const V& load) {
+    integrate((m.angle - m.desired.angle) * m.period);
+    return decide(m, load);
+  }
+  /// Lets the integral of the error grow by itself ...
+  [[gnu::always_inline]] void integrate(const V& growth) { integral_ += growth; }
+  /// ... and decides with what it is now.
+  [[gnu::always_inline]] ControlSignalsOf<V> decide(const MeasurementOf<V>& m, const V& load) const {
+    const V e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
+    const V feedback = -(Ki_ * integral_ + Kp_ * e + Kd_ * e_rate);
+    const V feedforward = feedforward_ * m.desired.acceleration;
+    const V compensation = break_in_compensation<V>(C1_, C2_, load, m.speed, m.desired.speed, epsilon_);
+    return {feedback + feedforward + compensation, 0.0, 0.0, compensation};
+  }
+  /// Calls visit(number) for every number that samples change.
+  template <class Visit>
+  void visit_memory(Visit&& visit) {
+    visit(integral_);
+  }
+
+ private:
+  V Ki_, Kp_, Kd_;
+  V feedforward_;  ///< inertia that feedforward counts on [kg m^2]
+  V C1_, C2_, epsilon_;
+  V integral_ = 0.0;
+};
+
 /// PID as linear-quadratic regulator with integral action on the nominal model, with the sliding controller's load
 /// and break-in compensation.
 class PidController {
  public:
   PidController(const PidParameters& parameters, const NominalModel& nominal)
-      : p_(parameters),
-        nominal_(nominal),
+      : nominal_(nominal),
         gains_(lqr_gains(parameters, mean_inertia(nominal))),
-        feedforward_(parameters.feedforward * mean_inertia(nominal)),
+        law_(gains_, parameters, nominal),
         per_Ki_(1.0 / gains_.Ki) {}
 
   const PidGains& gains() const { return gains_; }
@@ -68,30 +109,27 @@ class PidController {
   void prevent_windup(const IntegralGrowth& growth) { growth_ = growth; }
 
   ControlSignals operator()(const Measurement& m) {
-    const double e = m.angle - m.desired.angle, e_rate = m.speed - m.desired.speed;
-    integral_ += growth_(e, m.period, (m.applied - decided_) * per_Ki_);
-    const double feedback = -(gains_.Ki * integral_ + gains_.Kp * e + gains_.Kd * e_rate);
-    const double feedforward = feedforward_ * m.desired.acceleration;
-    const double load = nominal_.load(m.angle);
-    const double compensation = break_in_compensation(nominal_, load, m.speed, m.desired.speed, p_.epsilon);
-    decided_ = feedback + feedforward + compensation;
-    return {decided_, 0.0, 0.0, compensation};
+    law_.integrate(growth_(m.angle - m.desired.angle, m.period, (m.applied - decided_) * per_Ki_));
+    const ControlSignals signals = law_.decide(m, nominal_.load(m.angle));
+    decided_ = signals.torque;
+    return signals;
   }
+  /// As it was before its first sample.
+  const PidLawOf<double>& law() const { return law_; }
+  const NominalModel& nominal() const { return nominal_; }
   /// Calls visit(number) for every number that samples change.
   template <class Visit>
   void visit_memory(Visit&& visit) {
-    visit(integral_);
+    law_.visit_memory(visit);
     visit(decided_);
   }
 
  private:
-  PidParameters p_;
   NominalModel nominal_;
   PidGains gains_;
-  double feedforward_;  ///< inertia that feedforward counts on [kg m^2]
-  double per_Ki_;       ///< [rad s/(N m)]
+  PidLawOf<double> law_;
+  double per_Ki_;  ///< [rad s/(N m)]
   IntegralGrowth growth_;
-  double integral_ = 0.0;
   double decided_ = 0.0;  ///< at the sample before [N m]
 };
 

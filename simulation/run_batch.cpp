@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "control/lanes/batch.hpp"
+#include "events/simulation_failure.hpp"
 #include "simulation/lane_run.hpp"
 
 namespace wormdrive {
@@ -32,11 +33,12 @@ class LaneGroup {
 
   /// first: any of their scenarios.
   std::vector<BatchResult> run(const Scenario& first) {
-    bool aligned = true, saturates = false;
+    bool aligned = true;
+    LaneVariant variant = runs_.front()->variant();
     for (int lane = 0; lane < lanes(); ++lane) {
       alive_[lane / width_] |= 1U << lane % width_;
       aligned = aligned && runs_[lane]->estimate_is_aligned();
-      saturates = saturates || runs_[lane]->saturates();
+      variant.ideal = variant.ideal && runs_[lane]->variant().ideal;
       attempt(lane, [&] { runs_[lane]->start(place(lane)); });
     }
     const LaneBatch batch{.trials = memory_.data(),
@@ -44,7 +46,8 @@ class LaneGroup {
                           .alive = alive_.data(),
                           .accuracy = TaylorAccuracy(first.run.solver_settings()),
                           .estimate_is_aligned = aligned,
-                          .saturates = saturates,
+                          .variant = variant,
+                          .is_delayed = first.control->sampling.delay > 0.5,
                           .owner = this,
                           .go_on = go_on,
                           .note = note,
@@ -121,11 +124,10 @@ BatchResult run_alone(const Scenario& scenario) {
   return result;
 }
 
-/// A scenario's run in a lane, if it fits into one.
-std::unique_ptr<LaneRun> lane_run(const Scenario& scenario) {
-  if (!fits_lane(scenario)) return nullptr;
-  auto run = std::make_unique<LaneRun>(scenario);
-  return run->has_closed_form() ? std::move(run) : nullptr;
+/// Whether one kernel can take both.
+bool share_a_kernel(LaneVariant a, const LaneVariant& b) {
+  a.ideal = b.ideal;
+  return a == b;
 }
 
 }  // namespace
@@ -150,7 +152,7 @@ void run_batch(std::span<const Scenario> scenarios, const std::function<void(std
       if (taken[k] || (k > first && !share_samples(scenarios[first], scenarios[k]))) continue;
       auto run = lane_run(scenarios[k]);
       if (!run && k == first) break;
-      if (!run) continue;
+      if (!run || (k > first && !share_a_kernel(run->variant(), runs.front()->variant()))) continue;
       runs.push_back(std::move(run));
       places.push_back(k);
       taken[k] = true;

@@ -79,6 +79,11 @@ class DriveRun {
     if (listeners_.audit) audit();
     return std::move(summary_);
   }
+  /// The same of a controlled run.
+  RunSummary finish(const ControlWatch& watch) {
+    conclude(watch);
+    return finish();
+  }
 
  private:
   void open_loop() {
@@ -101,8 +106,11 @@ class DriveRun {
       watch.meter.instant(now.t, now.mode);
       record(drive, now);
     });
+    conclude(watch);
+  }
+  void conclude(const ControlWatch& watch) {
     summary_.control = watch.summary();
-    summary_.control->follows = !control.reference.terms.empty();
+    summary_.control->follows = !scenario_.control->reference.terms.empty();
   }
 
   void hand_over() {

@@ -4,6 +4,7 @@
 
 #include "control/lanes/kind.hpp"
 #include "control/lanes/trial.hpp"
+#include "control/lanes/variant.hpp"
 #include "control/reference_point.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/accuracy.hpp"
@@ -28,8 +29,9 @@ struct LaneBatch {
   int registers;
   const unsigned* alive;  ///< a bit for every lane of a register that holds a trial which goes on
   TaylorAccuracy accuracy;
-  bool estimate_is_aligned;  ///< no estimated load has an angle offset
-  bool saturates;            ///< a motor's torque has a limit
+  bool estimate_is_aligned;  ///< every load is estimated at the angle of the gear: no offset, and exact encoders
+  LaneVariant variant;
+  bool is_delayed;  ///< a torque is applied a sample after it was decided
 
   void* owner;
   /// Takes a trial, lanes counted through, to the next sample under a torque [N m], events included.

@@ -22,6 +22,7 @@ struct Width {
   [[gnu::always_inline]] static unsigned signs(Bits bits) {
     return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(bits)));
   }
+  [[gnu::always_inline]] static Register roots(Register x) { return _mm256_sqrt_pd(x); }
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ struct Width {
   [[gnu::always_inline]] static unsigned signs(Bits bits) {
     return _mm512_cmplt_epi64_mask(reinterpret_cast<__m512i>(bits), _mm512_setzero_si512());
   }
+  // With a mask: GCC warns of what the intrinsic without one leaves undefined.
+  [[gnu::always_inline]] static Register roots(Register x) { return _mm512_maskz_sqrt_pd(0xff, x); }
 };
 
 }  // namespace

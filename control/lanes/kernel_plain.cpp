@@ -23,6 +23,13 @@ struct Width {
     return (bits[0] < 0 ? 1U : 0U) | (bits[1] < 0 ? 2U : 0U);
 #endif
   }
+  [[gnu::always_inline]] static Register roots(Register x) {
+#if defined(__SSE2__)
+    return _mm_sqrt_pd(x);
+#else
+    return Register{std::sqrt(x[0]), std::sqrt(x[1])};
+#endif
+  }
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ class StepKernel {
     const V torque = load(batch.torque + first);
     V theta = theta_now, omega = omega_now;
     const SineAndCosineOf<V> gear = sine_and_cosine<Width>(theta_now, batch.alive[r], batch.sine_and_cosine);
-    const HeldTorquesOf<V> held = x.driven.under(torque + 0.0);  // the motor adds its signal, none
+    const HeldTorquesOf<V> held = x.driven.template under<false>(torque + 0.0);  // the motor adds its signal, none
     const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
     const auto known = x.driven.held.goes_on(omega, held, arm) &
                        x.driven.held.template leap<true, false>(theta, omega, batch.step, held, arm, batch.accuracy);

@@ -4,25 +4,30 @@
 
 #include "control/lemma1_monitor.hpp"
 #include "control/metrics.hpp"
+#include "control/pid.hpp"
 #include "control/sliding.hpp"
 #include "control/speed_estimator.hpp"
 #include "events/taylor/leap.hpp"
 
 namespace wormdrive {
 
-/// All that a sample of a closed loop changes or needs, of one trial or of several at once: sliding controller, exact
-/// encoder, an arm under gravity, a mode under a held torque. It consists of V alone.
+/// All that a sample of a closed loop changes or needs, of one trial or of several at once: encoder, controller, motor
+/// and a mode under a held torque. It consists of V alone.
 template <class V>
 struct LaneTrial {
-  SlidingLawOf<V> law;
+  SlidingLawOf<V> sliding;
+  PidLawOf<V> pid;
   V load_torque, load_angle_offset, load_constant;  ///< of the estimated load
+  V encoder_share, encoder_zero;  ///< what the encoder shows too much: a share of the angle, and an angle [rad]
   SpeedEstimatorOf<V> speed;
   SampleSums<V> sums;
   Lemma1Quiet<V> quiet;
   V limit;                        ///< of the motor's torque [N m]
+  V left;                         ///< of the torque decided at the sample before, by the limit [N m]
   DrivenMotionOf<V> drive;        ///< the present mode; motion 0 at rest
   SineAndCosineOf<V> arm_offset;  ///< of the arm against the gear
   V theta, omega;                 ///< of the gear [rad, rad/s]
+  V filler = 0.0;                 ///< the Pairs of a trial alone ask for an even number
 };
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);

@@ -18,7 +18,8 @@ struct LaneMask {
 };
 
 /// The same number of several trials side by side in one register; each is rounded as a double alone. Width says how
-/// many: `lanes`, the types `Register` of doubles and `Bits` of 64-bit integers, and `signs(Bits)`, their upper bits.
+/// many: `lanes`, the types `Register` of doubles and `Bits` of 64-bit integers, `signs(Bits)`, their upper bits, and
+/// `roots(Register)`.
 template <class Width>
 struct Lanes {
   using Register = typename Width::Register;
@@ -44,6 +45,7 @@ struct Lanes {
     using Bits = typename Width::Bits;
     return Lanes(reinterpret_cast<Register>(reinterpret_cast<Bits>(a.x) & 0x7fff'ffff'ffff'ffff));
   }
+  [[gnu::always_inline]] friend Lanes sqrt(const Lanes& a) { return Lanes(Width::roots(a.x)); }
   [[gnu::always_inline]] friend Lanes select(const Mask& which, const Lanes& yes, const Lanes& no) {
     return Lanes(which.bits ? yes.x : no.x);
   }

@@ -90,8 +90,9 @@ struct HeldMotionOf {
     certain = certain & (without_teeth | (-flank * distance > nearing));
     V rate = fastest * fastest + alpha, restoring = pull;  // rate: sigma^2
     if constexpr (rubs) {
+      using std::sqrt;
       rate = rate + damping * damping;
-      restoring = restoring + damping * std::sqrt(rate);
+      restoring = restoring + damping * sqrt(rate);
     }
     const V reach = rate * (h * h), error = restoring * restoring * (reach * reach * reach);
     const V allowed = accuracy.allowed(fastest, h);
@@ -190,8 +191,10 @@ struct DrivenMotionOf {
   V per_command, gain;     ///< acceleration and motor torque of a command
   HeldTorquesOf<V> known;  ///< what dry friction of the bearings and other constant torques do to the drive
 
+  /// unit_gain: the gain is 1.
+  template <bool unit_gain>
   [[gnu::always_inline]] HeldTorquesOf<V> under(const V& command) const {
-    return {command * per_command + known.push, command * gain + known.beyond};
+    return {command * per_command + known.push, (unit_gain ? command : command * gain) + known.beyond};
   }
 };
 using DrivenMotion = DrivenMotionOf<double>;

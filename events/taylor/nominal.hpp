@@ -107,11 +107,18 @@ class NominalFlow<WormDrive<double, Load>> {
   bool goes_on(const Instant& now) {
     return inputs_are_constant() && mode_->driven.held.goes_on(now.x[1], held_torques(*mode_), arm_at(now.x[0]));
   }
-  /// A moving mode under held commands, where a leap is in closed form.
+  /// A moving mode under held commands and the present load, where a leap is in closed form.
   std::optional<DrivenMotion> driven(Mode mode) const {
-    const NominalEquation& m = equations_[index(sign(mode.motion), sign(mode.flank))];
-    return swings && covers_ && !curve_.falls() && !m.rubs ? std::optional(m.driven) : std::nullopt;
+    if (!covers_ || curve_.falls() || !inputs_are_constant()) return std::nullopt;
+    const NominalEquation& m = equation(mode);
+    DrivenMotion driven = m.driven;
+    driven.known = uncommanded_torques(m);
+    return driven;
   }
+  /// Whether its bearings are viscous.
+  bool rubs(Mode mode) const { return equation(mode).rubs; }
+  /// What the motor makes of a command.
+  const AffineMotor& response() const { return response_; }
   /// How the arm is turned against the gear.
   const SineAndCosine& arm_offset() const { return offset_; }
 
@@ -121,7 +128,7 @@ class NominalFlow<WormDrive<double, Load>> {
   /// Takes up the mode.
   void begin(const Instant& now) {
     // Modes outlast samples: a branch is foretold, an index would have to wait for the torque.
-    if (now.mode != mode()) mode_ = &equations_[index(sign(now.mode.motion), sign(now.mode.flank))];
+    if (now.mode != mode()) mode_ = &equation(now.mode);
   }
 
   /// One step to next while the inputs are constant, where HeldMotion can vouch for it; otherwise nothing changes.
@@ -219,14 +226,19 @@ class NominalFlow<WormDrive<double, Load>> {
                                     (!swings && std::is_same_v<E, LoadAngle<double>>) ||
                                     std::is_same_v<E, StaticFriction<double>> || E::place == Place::sensor;
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
-  HeldTorques held_torques(const NominalEquation& m) const {
-    // Nothing but the command is left to wait for.
+  const NominalEquation& equation(Mode mode) const { return equations_[index(sign(mode.motion), sign(mode.flank))]; }
+  /// What is held beside the command.
+  HeldTorques uncommanded_torques(const NominalEquation& m) const {
     HeldTorques rest{disturbance_ * m.per_worm_torque + m.driven.known.push, disturbance_ + m.driven.known.beyond};
     if constexpr (!swings) {
       const double load = load_gain_ * load_.piece.constant;
       rest.push += load * m.per_gear_torque;
       rest.beyond -= load * surface_;
     }
+    return rest;
+  }
+  HeldTorques held_torques(const NominalEquation& m) const {
+    const HeldTorques rest = uncommanded_torques(m);  // nothing but the command is left to wait for
     return {motor_.constant * m.driven.per_command + rest.push, motor_.constant * m.driven.gain + rest.beyond};
   }
 

@@ -24,7 +24,8 @@ class DriveStepper final : public SteppedDrive {
       : drive_(std::move(drive)), solver_(drive_, scenario.run.solver_settings()), start_(scenario.initial) {
     begin();
     if constexpr (requires { solver_.nominal().driven(Mode{}); })
-      lane_ = lane && solver_.nominal().driven({Motion::forward, Flank::left});
+      lane_ = lane && solver_.nominal().driven({Motion::forward, Flank::left}) &&
+              !solver_.nominal().rubs({Motion::forward, Flank::left});
   }
 
   StepState state() const override {

@@ -2,8 +2,11 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
+
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "simulation/lane_run.hpp"
 #include "simulation/load_scenario.hpp"
 #include "simulation/run_batch.hpp"
 #include "support.hpp"
@@ -23,9 +26,11 @@ Scenario figure_10(std::vector<std::string> changes = {}) {
 Scenario varied(Scenario scenario, std::mt19937_64& random, double share) {
   const auto vary = [&](double& x) { x *= 1.0 + share * std::uniform_real_distribution(-1.0, 1.0)(random); };
   auto& mesh = std::get<MeshParameters<double>>(scenario.mesh);
-  auto& arm = std::get<GravityArm>(scenario.load);
-  for (double* number : {&mesh.mu, &mesh.Jw, &mesh.Jg, &*arm.amplitude}) vary(*number);
-  arm.offset += share * std::uniform_real_distribution(-1.0, 1.0)(random);
+  for (double* number : {&mesh.mu, &mesh.Jw, &mesh.Jg}) vary(*number);
+  if (auto* const arm = std::get_if<GravityArm>(&scenario.load)) {
+    vary(*arm->amplitude);
+    arm->offset += share * std::uniform_real_distribution(-1.0, 1.0)(random);
+  }
   scenario.initial.theta_g = 0.05 * share * std::uniform_real_distribution(-1.0, 1.0)(random);
   return scenario;
 }
@@ -36,11 +41,14 @@ std::vector<std::uint64_t> bits(const RunSummary& run) {
   const auto add = [&](double x) { all.push_back(std::bit_cast<std::uint64_t>(x)); };
   const auto count = [&](long n) { all.push_back(static_cast<std::uint64_t>(n)); };
   for_each_field<Metrics>([&](const auto& field) { add(run.control->metrics.*field.member); });
-  add(run.control->lemma->reached());
-  for (const Violation& v : run.control->lemma->violations()) {
-    count(v.count);
-    add(v.worst);
-    add(v.first);
+  count(run.control->follows);
+  if (const auto& lemma = run.control->lemma) {
+    add(lemma->reached());
+    for (const Violation& v : lemma->violations()) {
+      count(v.count);
+      add(v.worst);
+      add(v.first);
+    }
   }
   for (const long events : run.events) count(events);
   for (const double x : {run.end.theta_g, run.end.omega_g, run.end.alpha_g, run.end.tau_m, run.end.normal_force})
@@ -139,6 +147,50 @@ TEST_CASE(
         "effect.friction_asymmetry.change=0.02", "effect.static_friction.rise=0.02"})
     for (const char* other : {"effect.worm_coulomb.torque_Nm=1e-4", "effect.torque_gain.share=-0.05"})
       scenarios.push_back(varied(figure_10({effect, other, "metrics.from_s=0"}), random, 0.2));
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: the same where a motor's limit is reached, whatever keeps the integral from winding up") {
+  std::mt19937_64 random(16);
+  std::vector<Scenario> scenarios;
+  for (const std::string_view method : anti_windup_methods)
+    for (const char* law : {"fig10_sliding_014rad_bare.toml", "fig10_pid_014rad_bare.toml"})
+      scenarios.push_back(
+          varied(load_scenario(shipped(law),
+                               {{"run.solver=taylor", "run.duration_s=1", "effect.torque_saturation.limit_Nm=0.012",
+                                 "metrics.from_s=0", fmt::format("controller.anti_windup={}", method)}},
+                               Purpose::run),
+                 random, 0.2));
+  require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and delay lie between angle and torque") {
+  std::mt19937_64 random(17);
+  const auto one_of = [&](const std::vector<std::string>& choices) {
+    return choices[std::uniform_int_distribution<std::size_t>(0, choices.size() - 1)(random)];
+  };
+  std::vector<Scenario> scenarios;
+  for (int k = 0; k < 48; ++k) {
+    std::vector<std::string> changes{"run.solver=taylor", "run.duration_s=0.7", "metrics.from_s=0"};
+    const std::vector<std::string> none{"run.relative_tolerance=1e-8"};
+    for (const std::vector<std::string>& choices : std::vector<std::vector<std::string>>{
+             {none.front(), "load={kind=\"constant\",torque_Nm=0.015}", "load={kind=\"constant\",torque_Nm=-0.2}"},
+             {none.front(), "effect.worm_viscous.coefficient_Nms_per_rad=1e-6",
+              "effect.gear_viscous.coefficient_Nms_per_rad=1e-3"},
+             {none.front(), "effect.encoder_scale.share=0.003"},
+             {none.front(), "effect.encoder_offset.angle_deg=-0.02"},
+             {none.front(), "effect.torque_gain.share=0.1"},
+             {none.front(), "effect.torque_saturation.limit_Nm=0.02"},
+             {none.front(), "effect.worm_coulomb.torque_Nm=1e-4"},
+             {none.front(), "controller.nominal.load_angle_offset_deg=3"},
+             {none.front(), "controller.delay_samples=1"}})
+      changes.push_back(one_of(choices));
+    scenarios.push_back(
+        varied(load_scenario(shipped(one_of({"fig10_sliding_014rad_bare.toml", "fig10_pid_014rad_bare.toml"})), changes,
+                             Purpose::run),
+               random, 0.2));
+    REQUIRE(fits_lane(scenarios.back()));
+  }
   require_the_same(scenarios);
 }
 
