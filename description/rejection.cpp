@@ -141,7 +141,8 @@ std::optional<std::string> why_it_cannot_move(const Scenario& scenario) {
       friction, mesh.C1(), limit, -surface, Jg, -Jw_i / mesh.C1());
 }
 
-/// Both branches must have a positive inertia, for the law divides by it, and the linear design a solution.
+/// Both branches must have a positive inertia, for the law divides by it, the linear design a solution, and no
+/// anti-windup may be faster than the samples.
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario) {
   if (!scenario.control || !has_model(scenario.control->law)) return {};
   std::vector<ControllerRejection> list;
@@ -167,6 +168,12 @@ std::vector<ControllerRejection> controller_rejections(const Scenario& scenario)
       !stabilises(lqr_gains(*pid, mean_inertia(nominal)), mean_inertia(nominal)))
     list.push_back(
         {"kind", "the weights have no stabilising gains in double precision; bring them closer to each other"});
+  const auto& [method, tracking_time] = scenario.control->anti_windup;
+  const double period = scenario.control->sampling.period;
+  if (AntiWindupSettings::tracks(method) && tracking_time && *tracking_time < period)
+    list.push_back({"tracking_time_s", fmt::format("controller.tracking_time_s = {} s must be at least the sample "
+                                                   "time, {} s",
+                                                   *tracking_time, period)});
   return list;
 }
 

@@ -17,6 +17,7 @@ namespace wormdrive {
 template <class ControlRef, class Visit>
 void for_each_control_table(ControlRef& control, Visit&& visit) {
   visit(std::string("controller"), control.sampling);
+  visit(std::string("controller"), control.anti_windup);
   std::visit([&](auto& law) { visit(std::string("controller"), law); }, control.law);
   visit(std::string("controller.nominal"), control.nominal);
   visit(std::string("controller.variation"), control.variations);

@@ -39,6 +39,7 @@ class StepRun {
                   .relative_tolerance = std::clamp(relative_tolerance, tightest_inside, loosest_inside),
                   .absolute_tolerance = 0.01 * std::clamp(relative_tolerance, tightest_inside, loosest_inside)},
         held_from_outside_(model.kind == FmuKind::plant),
+        on_worm_(model.scenario.control && model.scenario.control->sensor.on_worm),
         torque_(torque),
         progress_{timetable(model.scenario, t), start(model.scenario.initial, t), EventLog()},
         indicators_(drive_, progress_.now),
@@ -96,7 +97,11 @@ class StepRun {
   }
   std::array<double, indicator_count> indicators() const { return indicators_.all(drive_, progress_.now); }
   Observation observe() const { return left_ ? left_->at : drive_.observe(progress_.now); }
-  double measured_angle() const { return drive_.measured_angle(progress_.now); }
+  double measured_angle() const {
+    const Instant& now = progress_.now;
+    if (!on_worm_) return drive_.measured_angle(now);
+    return drive_.effects().measured_angle(drive_.moment(now).theta_w / drive_.mesh().i);
+  }
   const EventTally& events() const { return left_ ? left_->events : events_; }
 
   // ---- as numbers ------------------------------------------------------------------------------------------------
@@ -213,6 +218,7 @@ class StepRun {
   Commanded<Drive> drive_;
   SolverSettings settings_;
   bool held_from_outside_;
+  bool on_worm_;  ///< where the encoder sits, which shows the gear by the worm
   double torque_;
   std::optional<double> commanded_;  ///< the torque from outside that the motor was told last [N m]
   std::optional<Loop> loop_;

@@ -105,10 +105,6 @@ class ControlReader {
                   fmt::format("controller.tracking_time_s has no effect with anti_windup = \"{}\"; remove it, or use "
                               "\"back_calculation\" or \"model_recovery\"",
                               *method));
-    else if (settings.tracking_time.value_or(control.sampling.period) < control.sampling.period)
-      table.fault("tracking_time_s",
-                  fmt::format("controller.tracking_time_s = {} s must be at least the sample time, {} s",
-                              *settings.tracking_time, control.sampling.period));
   }
 
   void check_sampling(TableReader& table, const SamplingSettings& sampling) {

@@ -15,7 +15,7 @@ struct Magnitudes {
   double gear_speed{};                   ///< rms [rad/s]
   double worm_speed{};                   ///< rms [rad/s]
   double sliding_speed{};                ///< of the teeth, rms [m/s]; 0 without teeth
-  double load_torque{};                  ///< largest on the gear within the angles of the recordings [N m]
+  double load_torque{};                  ///< largest on the gear in the motions of the recordings [N m]
   double stated_friction{};              ///< of the mesh; 0 without teeth
   double friction{};                     ///< the same, at least that at which the gear locks itself
   double worm_inertia{};                 ///< [kg m^2]; without teeth the only one

@@ -36,8 +36,9 @@ Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Mag
         const double t = r.data.time(k);
         auto load = drive.load();
         load.enter(t);
-        const double tau =
-            sizes.load_torque > 0.0 ? load.torque(drive.moment(t, state.angle[k], 0.0)) / sizes.load_torque : 0.0;
+        const double tau = sizes.load_torque > 0.0
+                               ? load.torque(drive.moment(t, state.angle[k], state.speed[k])) / sizes.load_torque
+                               : 0.0;
         const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
         a.angle.push_back(state.angle[k]);
         a.speed.push_back(state.speed[k]);

@@ -34,10 +34,12 @@ class Collector {
   }
   template <class Load>
   void load(Load& stated) {
-    if constexpr (requires { stated.terms; })
+    if constexpr (requires { stated.terms; }) {
       terms("load", stated);
-    else
+    } else {
       table("load", stated);
+      table("load[0]", stated);
+    }
   }
   void control(ControlScenario& control) {
     table("controller", control.sampling);

@@ -141,6 +141,29 @@ TEST_CASE("every effect of the catalogue is a candidate, a candidate's twin, or 
   });
 }
 
+TEST_CASE(
+    "what a load comes to in a recording follows from angle, speed and time, and whether it turns from its terms") {
+  const PreparedRecording r = prepared(record(nominal_arm(), {.duration = 3}), {}, 0);
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < r.samples(); k += 50) fastest = std::max(fastest, std::abs(r.speed[k]));
+  const Fan fan{.rated_torque = 0.3, .rated_speed = 2.0};
+  GravityArm arm;
+  arm.amplitude = 0.5;
+  const auto of = [&](std::vector<LoadTerm> terms) {
+    Scenario drive = nominal_arm();
+    drive.load = load_of(std::move(terms));
+    return magnitudes(drive, {r});
+  };
+  CHECK(close(of({fan}).load_torque, 0.3 * fastest * fastest / 4.0, 1e-12));
+  CHECK_FALSE(of({fan}).load_turns);
+  CHECK_FALSE(of({fan, Constant{0.1}}).load_turns);
+  CHECK(of({Step{.torque = 0.7, .time = 1.0}}).load_torque == 0.7);
+  CHECK(of({arm, fan}).load_turns);
+  CHECK(of({arm, fan}).load_torque > of({arm}).load_torque);
+  const auto others = not_examined({}, of({fan}));
+  CHECK(std::any_of(others.begin(), others.end(), [](const NotExamined& n) { return n.effect == "load_angle"; }));
+}
+
 TEST_CASE("recordings that cannot be diagnosed are refused") {
   REQUIRE_THROWS_WITH(diagnose(nominal_arm(), {}), "a diagnosis needs a recording");
   Recording still;

@@ -152,6 +152,43 @@ TEST_CASE("co-simulation takes anti-windup and an encoder on the worm along") {
   }
 }
 
+TEST_CASE("the time constant of an anti-windup is a parameter of a loop, with the limit that a scenario has") {
+  std::vector<std::string> stated = limited("back_calculation"), other = stated;
+  stated.emplace_back("controller.tracking_time_s=0.02");
+  other.emplace_back("controller.tracking_time_s=0.005");
+  const std::string file = shipped("fig10_sliding_014rad_bare.toml");
+  const Exported with(file, stated, loop), without(file, other, loop);
+  const double end = 0.5;
+  const auto end_of = [&](const Exported& exported, double tracking_time) {
+    Stepper from(*exported.fmu, end);
+    from.model.call<decltype(fmi2Reset)>("fmi2Reset");
+    from.model.set("controller.tracking_time_s", tracking_time);
+    from.model.call<decltype(fmi2SetupExperiment)>("fmi2SetupExperiment", 0, 0.0, 0.0, 1, end);
+    from.model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
+    from.model.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode");
+    return from.last(end, 0.1).angle;
+  };
+  REQUIRE(end_of(with, 0.005) == Stepper(*without.fmu, end).last(end, 0.1).angle);
+  REQUIRE(end_of(with, 0.005) != Stepper(*with.fmu, end).last(end, 0.1).angle);
+  REQUIRE_THROWS_WITH(end_of(with, 1e-4), Catch::Matchers::Contains("must be at least the sample time"));
+}
+
+TEST_CASE("the angle that a loop measures is that of the shaft on which its encoder sits") {
+  for (const bool on_worm : {false, true}) {
+    const Exported exported(shipped("fig10_sliding_014rad_bare.toml"),
+                            {"run.duration_s=1", "metrics.from_s=0", "effect.transmission_error.amplitude_deg=0.5",
+                             "effect.transmission_error.phase_deg=30", "effect.encoder_scale.share=0.01",
+                             std::string("sensor.shaft=") + (on_worm ? "worm" : "gear")},
+                            loop);
+    Stepper theirs(*exported.fmu, 1.0);
+    for (int k = 0; k < 20; ++k) {
+      const double gear = theirs.step(0.05).angle;
+      const double advance = 0.5 * unit::degree * std::sin(gear + 30 * unit::degree);
+      CHECK(std::abs(theirs.model.real("measured_angle") - 1.01 * (on_worm ? gear + advance : gear)) < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("a plant whose torque is set at communication points is a run under a table of these torques") {
   const Folder folder;
   folder.write(

@@ -127,4 +127,20 @@ TEST_CASE("a sweep varies one of several loads") {
   CHECK(outcome.exit == 0);
 }
 
+TEST_CASE("a sweep names the only one of [[load]] with its index or without, whatever its kind is") {
+  const Folder folder;
+  for (const char* load : {"kind = \"gravity_arm\"\ntorque_Nm = 0.3\n", "kind = \"constant\"\ntorque_Nm = 0.3\n",
+                           "kind = \"fan\"\ntorque_Nm = 0.3\nspeed_rad_per_s = 2\n"})
+    for (const char* path : {"load.torque_Nm", "load[0].torque_Nm"}) {
+      folder.write("one.toml",
+                   good_but("[load]\nkind = \"constant\"\ntorque_Nm = 0.02\n", std::string("[[load]]\n") + load));
+      folder.write("study.toml", std::string("scenario = \"one.toml\"\n[sweep]\ndesign = \"monte_carlo\"\ntrials = 2\n"
+                                             "seed = 1\n[[parameter]]\npath = \"") +
+                                     path + "\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.5\n");
+      const Outcome outcome = folder.run({"sweep", "study.toml", "-q", "--force"});
+      INFO(load << path << outcome.err);
+      CHECK(outcome.exit == 0);
+    }
+}
+
 }  // namespace wormdrive::test::scenarios_load_sums

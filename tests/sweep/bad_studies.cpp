@@ -18,6 +18,34 @@ struct BadStudy {
 
 }  // namespace
 
+TEST_CASE("a trial whose anti-windup is faster than its samples is refused, as its scenario is", "[sweep]") {
+  const StudyFolder folder(R"(scenario = ")" + shipped("fig10_sliding_014rad_bare.toml") + R"("
+set = ["run.solver=taylor", "run.duration_s=0.1", "metrics.from_s=0", "controller.anti_windup=back_calculation",
+       "effect.torque_saturation.limit_Nm=0.05"]
+[sweep]
+design = "monte_carlo"
+trials = 40
+seed = 3
+[[parameter]]
+path = "controller.tracking_time_s"
+distribution = "uniform"
+low = 5e-4
+high = 2e-3
+)");
+  const Outcome outcome = folder.sweep({"-o", "out.h5", "--referee", "0"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  const std::vector<double> status = folder.column("out.h5", "status"),
+                            time = folder.column("out.h5", "controller.tracking_time");
+  long refused = 0;
+  for (std::size_t k = 0; k < status.size(); ++k) {
+    CHECK(status[k] == (time[k] < 1e-3 ? 2.0 : 1.0));
+    refused += time[k] < 1e-3;
+  }
+  CHECK((refused > 3 && refused < 30));
+  CHECK(outcome.out.find("must be at least the sample time, 0.001 s") != std::string::npos);
+}
+
 TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
   const std::vector<BadStudy> cases{
       {"path = \"mesh.friction\"", "path = \"mesh.frction\"",
