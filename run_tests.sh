@@ -9,4 +9,5 @@ cmake --build --preset release
 
 tools/check_layers --self-test
 tools/check_layers
-ctest --preset release -j"$(nproc)" "$@"
+# one more than processors: some tests wait for a browser, for a signal or for other ranks
+ctest --preset release -j"$(($(nproc) + 1))" "$@"
