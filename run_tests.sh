@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 tools/install_packages.sh
 cmake --preset release
-cmake --build --preset release
+cmake --build --preset release -j"$(nproc)"  # not more: a compiler takes up to 2.5 GB
 
 tools/check_layers --self-test
 tools/check_layers
