@@ -5,8 +5,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 tools/install_packages.sh
 cmake --preset release
-cmake --build --preset release
+cmake --build --preset release -j"$(nproc)"  # not more: a compiler takes up to 2.5 GB
 
 tools/check_layers --self-test
 tools/check_layers
-ctest --preset release -j"$(nproc)" "$@"
+# one more than processors: some tests wait for a browser, for a signal or for other ranks
+ctest --preset release -j"$(($(nproc) + 1))" "$@"

@@ -61,6 +61,8 @@ def run(*words):
 def draw(*words):
     """Draws as PLOT.py does, in a process of its own that shares what is imported here; returns exit code and stderr."""
     import plot  # takes a second, once
+    import style
+    style.DPI = 15  # whether a picture is drawn does not depend on its pixels, most of its cost does
     told, tells = os.pipe()
     child = os.fork()
     if child == 0:

@@ -87,7 +87,7 @@ TEST_CASE("what an interrupted sweep has left is looked at as a whole before it 
          write_attribute(file, "sources", 1.0);
        },
        "its attribute 'sources' is not a text"}};
-  const StudyFolder folder(study_but("trials = 200", "trials = 300000"));
+  const StudyFolder folder(study_but("trials = 200", "trials = 60000"));
   REQUIRE(folder.interrupted({"-o", "good.h5"}, SIGKILL).exit == 128 + SIGKILL);
   for (const auto& [name, damage, fault] : damages) {
     INFO(name);

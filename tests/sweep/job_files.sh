@@ -55,7 +55,7 @@ study() { # TRIALS
   sed -e "s/trials = 200/trials = $1/" -e "s|\.\./|$scenarios/|" "$scenarios/studies/fig10_sliding.toml"
 }
 study 10 > study.toml
-study 3000000 > long.toml
+study 90000 > long.toml # many minutes
 wormdrive sweep study.toml -o alone.h5 --quiet
 wormdrive summary alone.h5 --json > alone.json
 is_whole() { # RESULT: its answers are those of one process
@@ -72,7 +72,7 @@ grep -q "^usage: sbatch --array=1-SHARDS slurm_array.sh STUDY RESULT SHARDS$" us
 rc=0
 until_time_is_over shards/long_1_of_3.h5 "$jobs/slurm_array.sh" long.toml long.h5 3 || rc=$?
 [[ $rc == 143 ]] || fail "the array's task ended with $rc: $(cat job.err)"
-grep -q "^wormdrive: interrupted after [1-9][0-9]* of 1000000 trials, which are in shards/long_1_of_3.h5.part;" job.err \
+grep -q "^wormdrive: interrupted after [1-9][0-9]* of 30000 trials, which are in shards/long_1_of_3.h5.part;" job.err \
   || fail "$(cat job.err)"
 
 if command -v parallel > /dev/null; then
@@ -90,7 +90,7 @@ if command -v mpirun > /dev/null && [[ $(ldd "$program") == *libmpi* ]]; then
   is_whole mpi.h5
   rc=0
   until_time_is_over ranks.h5 "$jobs/slurm_mpi.sh" long.toml ranks.h5 || rc=$?
-  grep -q "^wormdrive: stopped after [1-9][0-9]* of 3000000 trials, which are in ranks.h5.rank_\*;" job.err \
+  grep -q "^wormdrive: stopped after [1-9][0-9]* of 90000 trials, which are in ranks.h5.rank_\*;" job.err \
     || fail "the ranks ended with $rc: $(cat job.err)"
 else
   echo "skipped: no mpirun, or built without MPI"
