@@ -10,7 +10,7 @@ namespace wormdrive {
 
 /// How far an indicator lies above its guard: behind an event no guard of the new mode stands at exactly 0, and a guard
 /// that only touches 0 makes no event.
-inline constexpr double hysteresis = 1e-10;
+inline constexpr double hysteresis = 1e-12;
 
 /// What a guard of a drive is divided by to be about 1, in the order of the indicators.
 template <class Load>
