@@ -198,6 +198,27 @@ void FmuInstance::set_integer(unsigned reference) {
   throw std::invalid_argument(fmt::format("no whole number can be set; value reference {}", reference));
 }
 
+std::vector<double> FmuInstance::jacobian(std::span<const unsigned> unknowns, std::span<const unsigned> knowns) {
+  std::vector<double> matrix;
+  with_moved_run([&](auto& run) {
+    const auto all = run.linearization();
+    for (const unsigned unknown : unknowns) {
+      const auto* const value = all.unknown(unknown);
+      if (!value)
+        throw std::invalid_argument(fmt::format(
+            "value reference {} is no continuous output, rate or event indicator to differentiate", unknown));
+      for (const unsigned known : knowns) {
+        const int k = all.known(known);
+        if (k < 0)
+          throw std::invalid_argument(
+              fmt::format("value reference {} is no state and no input to differentiate by", known));
+        matrix.push_back(value->v[k]);
+      }
+    }
+  });
+  return matrix;
+}
+
 // ---- co-simulation --------------------------------------------------------------------------------------------------
 
 void FmuInstance::step(double from, double size, const AtEvent& at_event) {

@@ -94,6 +94,9 @@ class FmuInstance {
     });
   }
 
+  /// Derivatives of outputs, rates and event indicators by states and motor torque in the present mode, row by row.
+  std::vector<double> jacobian(std::span<const unsigned> unknowns, std::span<const unsigned> knowns);
+
   // ---- co-simulation ---------------------------------------------------------------------------------------------
 
   /// Told of every event in a step; when the step ends [s], infinity where that is no matter of the event's.

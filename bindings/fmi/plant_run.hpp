@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/fmi/indicators.hpp"
+#include "bindings/fmi/linearization.hpp"
 #include "core/elastic/compliant_start.hpp"
 #include "core/initial_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
@@ -56,6 +56,10 @@ class PlantRun {
   std::array<double, indicator_count> indicators() {
     take_torque();
     return indicators_.all(drive_, now_);
+  }
+  Linearization<Drive> linearization() {
+    take_torque();
+    return linearize(drive_, indicators_, now_, torque_);
   }
   Observation observe() {
     take_torque();
