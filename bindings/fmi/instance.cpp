@@ -45,7 +45,9 @@ FmuInstance::FmuInstance(FmuModel model, InterfaceType type) : stated_(std::move
   if (type == InterfaceType::model_exchange && !has.model_exchange)
     throw std::logic_error("this FMU is one for co-simulation");
   if (type == InterfaceType::co_simulation && !has.co_simulation)
-    throw std::logic_error("this FMU is one for model exchange");
+    throw std::logic_error(has_elastic_teeth(stated_.scenario.effects)
+                               ? "co-simulation of elastic teeth needs CVODE, which this library does not carry"
+                               : "this FMU is one for model exchange");
 }
 
 void FmuInstance::begin() {
@@ -55,19 +57,23 @@ void FmuInstance::begin() {
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
   if (const auto id = set.effects.first_with_states(); !id.empty())
     throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
-  with_drive(set, [&]<class Drive>(Drive& drive) {
-    using Elastic = decltype(CompliantDrive(drive, tooth_contact(set.effects)));
-    if (type_ == InterfaceType::co_simulation) {
+  const auto take = [&]<class Drive>(Drive drive) {
+    if (type_ == InterfaceType::model_exchange) {
+      state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
+      return;
+    }
+    if constexpr (solved_inside<Drive>) {
       const double tolerance = std::min(state_.experiment.tolerance.value_or(1.0), set.run.relative_tolerance);
-      StepRun<Drive> run(drive, model_, state_.time, state_.torque, tolerance);
+      StepRun<Drive> run(std::move(drive), model_, state_.time, state_.torque, tolerance);
       if (state_.uses_event_mode) run.hold_left_limits();
       state_.run.emplace(std::move(run));
-    } else if (has_elastic_teeth(set.effects)) {
-      state_.run.emplace(PlantRun<Elastic>(CompliantDrive(drive, tooth_contact(set.effects)), set.initial, state_.time,
-                                           state_.torque));
-    } else {
-      state_.run.emplace(PlantRun<Drive>(drive, set.initial, state_.time, state_.torque));
     }
+  };
+  with_drive(set, [&](auto& drive) {
+    if (has_elastic_teeth(set.effects))
+      take(CompliantDrive(std::move(drive), tooth_contact(set.effects)));
+    else
+      take(std::move(drive));
   });
 }
 

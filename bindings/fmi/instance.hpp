@@ -15,7 +15,8 @@
 
 namespace wormdrive {
 
-/// Every drive that an FMU may be: each load with rigid and with elastic teeth, and with a solver of its own.
+/// Every drive that an FMU may be: each load with rigid and with elastic teeth, moved from outside or by a solver
+/// inside.
 template <class Loads>
 struct FmuRuns;
 template <class... Parameters>
@@ -24,6 +25,9 @@ struct FmuRuns<std::variant<Parameters...>> {
   using Load = decltype(make_load(std::declval<const P&>()));
   using type = std::variant<PlantRun<WormDrive<double, Load<Parameters>>>...,
                             PlantRun<CompliantDrive<double, Load<Parameters>>>...,
+#ifdef WORMDRIVE_FMU_CVODE
+                            StepRun<CompliantDrive<double, Load<Parameters>>>...,
+#endif
                             StepRun<WormDrive<double, Load<Parameters>>>...>;
 };
 

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "bindings/fmi/linearization.hpp"
-#include "core/elastic/compliant_start.hpp"
-#include "core/initial_state.hpp"
+#include "bindings/fmi/start_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {
@@ -118,10 +117,7 @@ class PlantRun {
     drive.command(t, torque);
     typename Drive::Instant now{};
     now.t = t;
-    if constexpr (requires { carrying(drive, t, 0.0, 0.0); })
-      now.x = carrying(drive, t, initial.theta_g, initial.omega_g);
-    else
-      now.x = {initial.theta_g, initial.omega_g};
+    now.x = start_state(drive, initial, t);
     now.mode = drive.settle(now);
     return now;
   }

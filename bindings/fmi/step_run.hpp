@@ -10,9 +10,13 @@
 
 #include "bindings/fmi/fmu_model.hpp"
 #include "bindings/fmi/indicators.hpp"
+#include "bindings/fmi/start_state.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
 #include "events/taylor/solver.hpp"
+#ifdef WORMDRIVE_FMU_CVODE
+#include "events/cvode_solver.hpp"
+#endif
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {
@@ -21,6 +25,31 @@ namespace wormdrive {
 /// points that cut its steps elsewhere then change no result by 1e-9.
 inline constexpr double loosest_inside = 1e-12;
 inline constexpr double tightest_inside = 1e-14;  ///< as in a scenario: below it is rounding
+
+/// The solver inside: power series, or CVODE where teeth are elastic. It starts anew with every step, so that a step is
+/// the same however the run came to its start.
+template <class Drive>
+struct SolverInside {
+  using type = TaylorSolver<Drive>;
+  static SolverSettings settings(double relative_tolerance) {
+    const double share = std::clamp(relative_tolerance, tightest_inside, loosest_inside);
+    return {.solver = SolverKind::taylor, .relative_tolerance = share, .absolute_tolerance = 0.01 * share};
+  }
+};
+#ifdef WORMDRIVE_FMU_CVODE
+/// CVODE errs by more than its tolerance in every step: the tightest that its arithmetic bears is asked for.
+template <class T, class Load>
+struct SolverInside<Commanded<CompliantDrive<T, Load>>> {
+  using type = CvodeSolver<Commanded<CompliantDrive<T, Load>>>;
+  static SolverSettings settings(double) {
+    return {.method = Method::adams, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-15};
+  }
+};
+#endif
+
+/// Whether there is a solver inside for a drive.
+template <class Drive>
+inline constexpr bool solved_inside = shaft_count<Drive>() == 1 || elastic_teeth_inside;
 
 /// A drive that goes from one communication point to the next by its own solver, through every event on the way; under
 /// a motor torque that is held meanwhile, or with all that moves it inside.
@@ -35,9 +64,7 @@ class StepRun {
   /// Starts at t [s] with a motor torque [N m], which counts for a plant only.
   StepRun(Drive drive, const FmuModel& model, double t, double torque, double relative_tolerance)
       : drive_(std::move(drive)),
-        settings_{.solver = SolverKind::taylor,
-                  .relative_tolerance = std::clamp(relative_tolerance, tightest_inside, loosest_inside),
-                  .absolute_tolerance = 0.01 * std::clamp(relative_tolerance, tightest_inside, loosest_inside)},
+        settings_(SolverInside<Commanded<Drive>>::settings(relative_tolerance)),
         held_from_outside_(model.kind == FmuKind::plant),
         torque_(torque),
         progress_{timetable(model.scenario, t), start(model.scenario.initial, t), EventLog()},
@@ -61,7 +88,7 @@ class StepRun {
   template <class End>
   void step(double until, End&& end) {
     left_.reset();
-    TaylorSolver<Drive> solver(drive_, settings_);
+    Solver solver(drive_, settings_);
     prepare(solver, until);
     Mover mover{*this};
     std::optional<Left> left;
@@ -162,6 +189,7 @@ class StepRun {
     void operator()(const ControlRecord&) const {}
   };
   using Loop = ClosedLoop<AnyController, Unheard>;
+  using Solver = typename SolverInside<Commanded<Drive>>::type;
 
   /// In the place of a controller: the loop inside, or the torque from outside.
   struct Mover {
@@ -184,14 +212,14 @@ class StepRun {
     if (held_from_outside_) drive_.command(t, torque_);
     Instant now;
     now.t = t;
-    now.x = {initial.theta_g, initial.omega_g};
+    now.x = start_state(drive_, initial, t);
     now.mode = drive_.settle(now);
     drive_.next_knot(t);
     return now;
   }
 
   /// A torque from outside is commanded where it changes; else the run is taken up where it was left.
-  void prepare(TaylorSolver<Drive>& solver, double until) {
+  void prepare(Solver& solver, double until) {
     const Instant& now = progress_.now;
     if (held_from_outside_ && (!commanded_ || *commanded_ != torque_)) {
       commanded_ = torque_;

@@ -54,6 +54,7 @@ class CompliantDrive {
   void rewind() { rigid_.rewind(); }
   bool command(double t, double tau_m) { return rigid_.command(t, tau_m); }
   void disturb(double torque) { rigid_.disturb(torque); }
+  const double& disturbance() const { return rigid_.disturbance(); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input(double t) const { return rigid_.fastest_input(t); }
 
