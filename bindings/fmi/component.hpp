@@ -131,6 +131,21 @@ inline Status no_variables(void* c, const char* function, std::size_t count) {
   });
 }
 
+/// Derivatives of outputs by time, of the first order.
+inline Status output_derivatives(void* c, const char* function, const unsigned references[], std::size_t count,
+                                 const int orders[], double values[]) {
+  return call(
+      c, function, Phase::step | Phase::event | Phase::intermediate | Phase::terminated, [&](FmuInstance& instance) {
+        need_list(references, count, "the list of value references");
+        need_list(orders, count, "the list of orders");
+        need_list(values, count, "the list of values");
+        for (std::size_t k = 0; k < count; ++k)
+          if (orders[k] != 1)
+            throw std::invalid_argument(fmt::format("there are no derivatives of order {}, only of 1", orders[k]));
+        for (std::size_t k = 0; k < count; ++k) values[k] = instance.output_rate(references[k]);
+      });
+}
+
 /// Calls add(row, column, derivative) for every one of the Jacobian, with the result set to zero before.
 template <class Add>
 Status differentiate(void* c, const char* function, std::span<const unsigned> unknowns,

@@ -176,9 +176,9 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
                                        const fmi2Real[]) {
   return as_fmi2(unsupported(c, __func__));
 }
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference[], size_t, const fmi2Integer[],
-                                        fmi2Real[]) {
-  return as_fmi2(unsupported(c, __func__));
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t count,
+                                        const fmi2Integer orders[], fmi2Real values[]) {
+  return as_fmi2(output_derivatives(c, __func__, r, count, orders, values));
 }
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real now, fmi2Real step, fmi2Boolean) {
   return call2(c, __func__, Phase::step, [&](FmuInstance& instance) {

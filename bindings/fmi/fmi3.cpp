@@ -225,6 +225,11 @@ fmi3Status fmi3EnterStepMode(fmi3Instance c) {
   return call3(c, __func__, Phase::event,
                [](FmuInstance& instance) { instance.leave_event_mode(InterfaceType::co_simulation); });
 }
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference r[], size_t count,
+                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t size) {
+  return size < count ? too_few_values(c, __func__)
+                      : as_fmi3(output_derivatives(c, __func__, r, count, orders, values));
+}
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 now, fmi3Float64 step, fmi3Boolean, fmi3Boolean* event,
                       fmi3Boolean* terminate, fmi3Boolean* early, fmi3Float64* reached) {
   return call3(c, __func__, Phase::step, [&](FmuInstance& instance) {

@@ -35,6 +35,8 @@ bool same_point(double a, double b, double step) {
   return std::abs(a - b) <= 1e-9 * std::max({std::abs(a), std::abs(b), step});
 }
 
+constexpr auto motor_torque = static_cast<unsigned>(ScalarVariable::motor_torque);
+
 /// A controller that samples so often within a step has slipped in the unit.
 constexpr double most_samples_in_step = 1e9;
 
@@ -121,11 +123,10 @@ void FmuInstance::set_time(double t) {
 
 // ---- variables ------------------------------------------------------------------------------------------------------
 
-double FmuInstance::reference_point(unsigned reference) const {
+ReferencePoint FmuInstance::reference_point(unsigned reference) const {
   const auto& control = model_.scenario.control;
   if (!control || control->reference.terms.empty()) unknown(reference);
-  const ReferencePoint desired = control->reference.at(state_.time);
-  return static_cast<ScalarVariable>(reference) == ScalarVariable::reference_angle ? desired.angle : desired.speed;
+  return control->reference.at(state_.time);
 }
 
 double FmuInstance::real(unsigned reference) {
@@ -138,8 +139,8 @@ double FmuInstance::real(unsigned reference) {
   const auto variable = static_cast<ScalarVariable>(reference);
   if (variable == ScalarVariable::time) return state_.time;
   if (variable == ScalarVariable::motor_torque && model_.kind == FmuKind::plant) return state_.torque;
-  if (variable == ScalarVariable::reference_angle || variable == ScalarVariable::reference_speed)
-    return reference_point(reference);
+  if (variable == ScalarVariable::reference_angle) return reference_point(reference).angle;
+  if (variable == ScalarVariable::reference_speed) return reference_point(reference).speed;
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
     const auto at = [&](const auto& list) {
@@ -204,17 +205,33 @@ void FmuInstance::set_integer(unsigned reference) {
   throw std::invalid_argument(fmt::format("no whole number can be set; value reference {}", reference));
 }
 
+double FmuInstance::output_rate(unsigned reference) {
+  const auto variable = static_cast<ScalarVariable>(reference);
+  if (variable == ScalarVariable::reference_angle) return real(static_cast<unsigned>(ScalarVariable::reference_speed));
+  if (variable == ScalarVariable::reference_speed) return reference_point(reference).acceleration;
+  return with_run([&]<class Run>(Run& run) {
+    const bool input = reference == motor_torque && model_.kind == FmuKind::plant;
+    if constexpr (!MovedFromOutside<Run>) {
+      const auto shown = run.along_motion();
+      if (const auto* const value = input ? nullptr : shown.find(reference)) return value->v[0];
+    }
+    throw std::invalid_argument(
+        fmt::format("value reference {} is no continuous output with a rate in co-simulation", reference));
+    return 0.0;
+  });
+}
+
 std::vector<double> FmuInstance::jacobian(std::span<const unsigned> unknowns, std::span<const unsigned> knowns) {
   std::vector<double> matrix;
-  with_moved_run([&](auto& run) {
+  with_moved_run([&]<class Run>(Run& run) {
     const auto all = run.linearization();
     for (const unsigned unknown : unknowns) {
-      const auto* const value = all.unknown(unknown);
+      const auto* const value = unknown == motor_torque ? nullptr : all.find(unknown);
       if (!value)
         throw std::invalid_argument(fmt::format(
             "value reference {} is no continuous output, rate or event indicator to differentiate", unknown));
       for (const unsigned known : knowns) {
-        const int k = all.known(known);
+        const int k = derivative_by<typename Run::System>(known);
         if (k < 0)
           throw std::invalid_argument(
               fmt::format("value reference {} is no state and no input to differentiate by", known));

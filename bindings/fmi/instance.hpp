@@ -111,6 +111,8 @@ class FmuInstance {
   /// Goes on from a communication point by a step [s]. Throws StepHalted where the drive cannot go on.
   void step(double from, double size, const AtEvent& at_event);
   double time() const { return state_.time; }
+  /// Rate of a continuous output along the motion, in its unit per second.
+  double output_rate(unsigned reference);
   /// Why the drive cannot go on, if it cannot.
   const std::optional<std::string>& halted() const { return state_.halted; }
 
@@ -147,7 +149,7 @@ class FmuInstance {
 
  private:
   void begin();
-  double reference_point(unsigned reference) const;
+  ReferencePoint reference_point(unsigned reference) const;
   void reject_unsettable(unsigned reference, double value);
 
   FmuModel stated_, model_;  ///< as exported; with the parameters that the importer has set

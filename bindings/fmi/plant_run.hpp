@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/fmi/linearization.hpp"
+#include "bindings/fmi/shown.hpp"
 #include "bindings/fmi/start_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 
@@ -17,6 +17,7 @@ namespace wormdrive {
 template <class Drive>
 class PlantRun {
  public:
+  using System = Drive;
   using Ports = Interface<Drive>;
   static constexpr std::size_t state_size = Drive::state_size, indicator_count = Ports::indicators.size();
   using States = std::array<double, state_size>;
@@ -56,7 +57,8 @@ class PlantRun {
     take_torque();
     return indicators_.all(drive_, now_);
   }
-  Linearization<Drive> linearization() {
+  /// What is shown, with the derivatives that derivative_by() counts.
+  auto linearization() {
     take_torque();
     return linearize(drive_, indicators_, now_, torque_);
   }

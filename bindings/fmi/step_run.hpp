@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/fmi/fmu_model.hpp"
-#include "bindings/fmi/indicators.hpp"
+#include "bindings/fmi/shown.hpp"
 #include "bindings/fmi/start_state.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
@@ -122,6 +122,8 @@ class StepRun {
     return rate;
   }
   std::array<double, indicator_count> indicators() const { return indicators_.all(drive_, progress_.now); }
+  /// What is shown, with the derivatives by time. Of an event that is not taken it is that just behind it.
+  auto along_motion() const { return wormdrive::along_motion<Drive>(drive_, indicators_, progress_.now); }
   Observation observe() const { return left_ ? left_->at : drive_.observe(progress_.now); }
   double measured_angle() const { return drive_.measured_angle(progress_.now); }
   const EventTally& events() const { return left_ ? left_->events : events_; }

@@ -1,7 +1,6 @@
 // Directional derivatives of an FMU, judged by central differences through the same FMU, and by the equations of the
 // paper; over random drives, states and torques.
 #include <algorithm>
-#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -236,7 +235,6 @@ TEST_CASE("FMI 3.0: adjoint derivatives are the transpose of the directional one
   double one = 0.0, other = 0.0;
   for (std::size_t k = 0; k < of.size(); ++k) one += u[k] * forward[k];
   for (std::size_t k = 0; k < by.size(); ++k) other += v[k] * backward[k];
-  CHECK(one != 0.0);
   CHECK(std::abs(one - other) < 1e-12 * std::abs(one));
   CHECK(forward[2] == v[0]);
   CHECK_THROWS_WITH((model.call<decltype(fmi3GetAdjointDerivative)>("fmi3GetAdjointDerivative", of.data(), of.size(),

@@ -67,7 +67,11 @@ std::string fmi2_description(const FmuModel& model) {
     attribute(type, "completedIntegratorStepNotNeeded", true);
     attribute(type, "providesDirectionalDerivative", true);
   }
-  if (has.co_simulation) attribute(interface("CoSimulation"), "canHandleVariableCommunicationStepSize", true);
+  if (has.co_simulation) {
+    Tree& type = interface("CoSimulation");
+    attribute(type, "canHandleVariableCommunicationStepSize", true);
+    attribute(type, "maxOutputDerivativeOrder", 1);
+  }
   write_units(top, variables);
   write_log_categories(top);
   write_experiment(top, model.scenario.run);

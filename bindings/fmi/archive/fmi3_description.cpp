@@ -69,6 +69,7 @@ std::string fmi3_description(const FmuModel& model) {
     for (const char* can : {"canHandleVariableCommunicationStepSize", "providesIntermediateUpdate",
                             "mightReturnEarlyFromDoStep", "canReturnEarlyAfterIntermediateUpdate", "hasEventMode"})
       attribute(type, can, true);
+    attribute(type, "maxOutputDerivativeOrder", 1);
   }
   write_units(top, variables);
   write_log_categories(top);
