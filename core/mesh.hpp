@@ -109,9 +109,10 @@ class GearMesh {
 
   /// Wn [N] >= 0 between the torques of both sides [N m]: from the balance of the gear with its inertial torque Jg
   /// theta_g'' and the signed friction m while moving [YehWu2009, eq. 12, 14], from rest [eq. 6-7] while stuck.
-  T normal_force(const T& tau_w, const T& tau_g, const T& inertial, Mode mode, const T& m) const {
+  template <class S>
+  S normal_force(const S& tau_w, const S& tau_g, const S& inertial, Mode mode, const S& m) const {
     using std::abs, portable::cos;
-    if (!has_teeth) return T(0);
+    if (!has_teeth) return S(T(0));
     if (mode.motion == Motion::stuck) return abs(tau_g / lg * cos_lambda_ - tau_w / lw * sin_lambda_) / cos(phi_n);
     return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(m);
   }

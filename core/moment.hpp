@@ -17,4 +17,10 @@ struct Moment {
   S rest{-1.0};
 };
 
+/// A moment that says what the motor is told [N m], in the place of its input: for derivatives by that.
+template <class S>
+struct CommandedMoment : Moment<S> {
+  S command;
+};
+
 }  // namespace wormdrive

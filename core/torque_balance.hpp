@@ -111,7 +111,7 @@ class TorqueBalance {
   /// states of effects or without.
   template <class S, template <class> class M>
   SideTorques<S> inputs(const M<S>& at, Motion motion) const {
-    return {effects_.motor_torque(motor_(at.t), at), effects_.load_torque(load_, at, motion)};
+    return {effects_.motor_torque(command_at(at), at), effects_.load_torque(load_, at, motion)};
   }
   template <class S, template <class> class M>
   SideTorques<S> side_torques(const M<S>& at, Motion motion) const {
@@ -189,12 +189,23 @@ class TorqueBalance {
     const Transmission<S> worm = effects_.transmission(at.theta_g);
     return tau.worm - surface() * (worm.slope * tau.gear) - Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
   }
-  /// A torque on the worm [N m] as one on a worm of even pitch.
-  T along_gear(const T& torque, const Moment<T>& at) const {
-    return pitch_varies_ ? effects_.transmission(at.theta_g).slope * torque : torque;
+  /// Wn [N] where the gear accelerates so [rad/s^2], 0 at rest.
+  template <class S>
+  S normal_force(const SideTorques<S>& tau, const Moment<S>& at, const S& alpha, Mode mode) const {
+    const S worm =
+        pitch_varies_ ? effects_.transmission(at.theta_g).slope * tau.worm : tau.worm;  // on one of even pitch
+    return mesh_.normal_force(worm, tau.gear, S(Jg_ * alpha), mode, signed_friction(at, mode));
   }
 
  private:
+  /// What the motor is told at a moment [N m].
+  template <class S, template <class> class M>
+  S command_at(const M<S>& at) const {
+    if constexpr (requires { at.command; })
+      return at.command;
+    else
+      return motor_(at.t);
+  }
   static Moment<T> turning() { return {T(0), T(0), T(1), T(1), T(0)}; }
   template <class Torque>
   static bool depends_on_motion(Torque torque) {

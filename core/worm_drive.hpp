@@ -24,7 +24,7 @@ class WormDrive : public TorqueBalance<T, Load> {
 
  public:
   using Balance::acceleration, Balance::beyond_surface, Balance::effects, Balance::fastest_input, Balance::inputs,
-      Balance::Jg, Balance::mesh, Balance::moment, Balance::motor_command, Balance::side_torques,
+      Balance::Jg, Balance::mesh, Balance::moment, Balance::motor_command, Balance::normal_force, Balance::side_torques,
       Balance::signed_friction, Balance::surface;
   template <class S>
   using SideTorques = typename Balance::template SideTorques<S>;
@@ -212,8 +212,7 @@ class WormDrive : public TorqueBalance<T, Load> {
             .alpha_g = alpha,
             .tau_m = input.worm,
             .tau_l = input.gear,
-            .normal_force = mesh().normal_force(this->along_gear(tau.worm, at), tau.gear, Jg() * alpha, now.mode,
-                                                signed_friction(at, now.mode)),
+            .normal_force = normal_force(tau, at, alpha, now.mode),
             .mode = now.mode,
             .winding = winding(effects(), motor_command(at.t), at)};
   }

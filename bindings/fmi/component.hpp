@@ -131,6 +131,51 @@ inline Status no_variables(void* c, const char* function, std::size_t count) {
   });
 }
 
+/// Derivatives of outputs by time, of the first order.
+inline Status output_derivatives(void* c, const char* function, const unsigned references[], std::size_t count,
+                                 const int orders[], double values[]) {
+  return call(
+      c, function, Phase::step | Phase::event | Phase::intermediate | Phase::terminated, [&](FmuInstance& instance) {
+        need_list(references, count, "the list of value references");
+        need_list(orders, count, "the list of orders");
+        need_list(values, count, "the list of values");
+        for (std::size_t k = 0; k < count; ++k)
+          if (orders[k] != 1)
+            throw std::invalid_argument(fmt::format("there are no derivatives of order {}, only of 1", orders[k]));
+        for (std::size_t k = 0; k < count; ++k) values[k] = instance.output_rate(references[k]);
+      });
+}
+
+/// Calls add(row, column, derivative) for every one of the Jacobian, with the result set to zero before.
+template <class Add>
+Status differentiate(void* c, const char* function, std::span<const unsigned> unknowns,
+                     std::span<const unsigned> knowns, const double* seed, std::span<double> result, Add&& add) {
+  return call(c, function, Phase::initialization | Phase::event | Phase::continuous | Phase::terminated,
+              [&](FmuInstance& instance) {
+                need_list(unknowns.data(), unknowns.size(), "the list of unknowns");
+                need_list(knowns.data(), knowns.size(), "the list of knowns");
+                need(seed, "the seed");
+                need_list(result.data(), result.size(), "the list of derivatives");
+                const std::vector<double> matrix = instance.jacobian(unknowns, knowns);
+                std::fill(result.begin(), result.end(), 0.0);
+                for (std::size_t row = 0; row < unknowns.size(); ++row)
+                  for (std::size_t column = 0; column < knowns.size(); ++column)
+                    add(row, column, matrix[row * knowns.size() + column]);
+              });
+}
+/// The Jacobian times a seed of the knowns.
+inline Status directional_derivative(void* c, const char* function, std::span<const unsigned> unknowns,
+                                     std::span<const unsigned> knowns, const double* seed, double* result) {
+  return differentiate(c, function, unknowns, knowns, seed, {result, unknowns.size()},
+                       [&](std::size_t row, std::size_t column, double d) { result[row] += d * seed[column]; });
+}
+/// A seed of the unknowns times the Jacobian.
+inline Status adjoint_derivative(void* c, const char* function, std::span<const unsigned> unknowns,
+                                 std::span<const unsigned> knowns, const double* seed, double* result) {
+  return differentiate(c, function, unknowns, knowns, seed, {result, knowns.size()},
+                       [&](std::size_t row, std::size_t column, double d) { result[column] += d * seed[row]; });
+}
+
 inline Status keep_state(void* c, const char* function, void** state) {
   return call(c, function, outside_step, [&](FmuInstance& instance) {
     need(state, "the place of the state");

@@ -103,9 +103,10 @@ fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference[], size_t co
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], size_t count, const fmi2String[]) {
   return as_fmi2(no_variables(c, __func__, count));
 }
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference[], size_t, const fmi2ValueReference[],
-                                        size_t, const fmi2Real[], fmi2Real[]) {
-  return as_fmi2(unsupported(c, __func__));
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t rows,
+                                        const fmi2ValueReference knowns[], size_t columns, const fmi2Real seed[],
+                                        fmi2Real result[]) {
+  return as_fmi2(directional_derivative(c, __func__, {unknowns, rows}, {knowns, columns}, seed, result));
 }
 
 // ---- kept states ----------------------------------------------------------------------------------------------------
@@ -175,9 +176,9 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
                                        const fmi2Real[]) {
   return as_fmi2(unsupported(c, __func__));
 }
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference[], size_t, const fmi2Integer[],
-                                        fmi2Real[]) {
-  return as_fmi2(unsupported(c, __func__));
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t count,
+                                        const fmi2Integer orders[], fmi2Real values[]) {
+  return as_fmi2(output_derivatives(c, __func__, r, count, orders, values));
 }
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real now, fmi2Real step, fmi2Boolean) {
   return call2(c, __func__, Phase::step, [&](FmuInstance& instance) {

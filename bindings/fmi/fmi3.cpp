@@ -128,6 +128,19 @@ fmi3Status fmi3SetInt32(fmi3Instance c, const fmi3ValueReference r[], size_t cou
   return as_fmi3(set_integers(c, __func__, r, count));
 }
 
+fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], size_t rows,
+                                        const fmi3ValueReference knowns[], size_t columns, const fmi3Float64 seed[],
+                                        size_t seeds, fmi3Float64 result[], size_t results) {
+  if (seeds < columns || results < rows) return too_few_values(c, __func__);
+  return as_fmi3(directional_derivative(c, __func__, {unknowns, rows}, {knowns, columns}, seed, result));
+}
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], size_t rows,
+                                    const fmi3ValueReference knowns[], size_t columns, const fmi3Float64 seed[],
+                                    size_t seeds, fmi3Float64 result[], size_t results) {
+  if (seeds < rows || results < columns) return too_few_values(c, __func__);
+  return as_fmi3(adjoint_derivative(c, __func__, {unknowns, rows}, {knowns, columns}, seed, result));
+}
+
 // ---- kept states ----------------------------------------------------------------------------------------------------
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState* state) { return as_fmi3(keep_state(c, __func__, state)); }
@@ -211,6 +224,11 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t* count) {
 fmi3Status fmi3EnterStepMode(fmi3Instance c) {
   return call3(c, __func__, Phase::event,
                [](FmuInstance& instance) { instance.leave_event_mode(InterfaceType::co_simulation); });
+}
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference r[], size_t count,
+                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t size) {
+  return size < count ? too_few_values(c, __func__)
+                      : as_fmi3(output_derivatives(c, __func__, r, count, orders, values));
 }
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 now, fmi3Float64 step, fmi3Boolean, fmi3Boolean* event,
                       fmi3Boolean* terminate, fmi3Boolean* early, fmi3Float64* reached) {

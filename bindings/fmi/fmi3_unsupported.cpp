@@ -126,15 +126,3 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance c, fmi3ValueReference, size_
                                        fmi3DependencyKind[], size_t) {
   return refused(c, __func__);
 }
-fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3ValueReference[],
-                                        size_t, const fmi3Float64[], size_t, fmi3Float64[], size_t) {
-  return refused(c, __func__);
-}
-fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3ValueReference[],
-                                    size_t, const fmi3Float64[], size_t, fmi3Float64[], size_t) {
-  return refused(c, __func__);
-}
-fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3Int32[],
-                                    fmi3Float64[], size_t) {
-  return refused(c, __func__);
-}

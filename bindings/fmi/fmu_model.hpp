@@ -31,16 +31,27 @@ struct FmuModel {
 /// What messages are about, for importers that choose among them.
 inline constexpr std::array<std::string_view, 2> log_categories{"logStatusDiscard", "logStatusError"};
 
+/// Whether CVODE, which elastic teeth need, is part of the library of FMUs: not of that for Windows, nor where there is
+/// no static library of it.
+#ifdef WORMDRIVE_FMU_CVODE
+inline constexpr bool elastic_teeth_inside = true;
+#else
+inline constexpr bool elastic_teeth_inside = false;
+#endif
+
 /// The interface types that an FMU has.
 struct Offered {
   bool model_exchange, co_simulation;
 };
-/// An importer's solver knows neither the past, which delays and lags need, nor samples; the FMU's own solver follows
-/// rigid teeth only.
+/// An importer's solver knows neither the past, which delays and lags need, nor samples.
 inline Offered offered(const FmuModel& model) {
   const Effects<double>& on = model.scenario.effects;
   const bool past = on.delay() > 0.0 || on.lag() > 0.0 || on.measuring_delay() > 0.0;
-  return {model.kind == FmuKind::plant && !past, !has_elastic_teeth(on)};
+  return {model.kind == FmuKind::plant && !past, elastic_teeth_inside || !has_elastic_teeth(on)};
+}
+/// Whether the library for Windows has a solver for what the FMU offers, at least an importer's.
+inline bool runs_under_windows(const FmuModel& model) {
+  return !has_elastic_teeth(model.scenario.effects) || offered(model).model_exchange;
 }
 
 /// What of a model's inputs follows from more than its present numbers: a lag of a torque over time.

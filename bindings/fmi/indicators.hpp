@@ -10,7 +10,7 @@ namespace wormdrive {
 
 /// How far an indicator lies above its guard: behind an event no guard of the new mode stands at exactly 0, and a guard
 /// that only touches 0 makes no event.
-inline constexpr double hysteresis = 1e-10;
+inline constexpr double hysteresis = 1e-12;
 
 /// What a guard of a drive is divided by to be about 1, in the order of the indicators.
 template <class Load>
@@ -43,20 +43,19 @@ class Indicators {
 
   /// Of the guards that the present mode has, in their order.
   std::array<double, Drive::guard_count> of_guards(const Drive& drive, const Instant& now) const {
-    std::array<double, Drive::guard_count> z = drive.guards(drive.moment(now), now.mode);
-    for (int g = 0; g < Drive::guard_count; ++g) {
-      z[g] = z[g] / scales_[index(now, g)] + hysteresis;
-      if (z[g] == 0.0) z[g] = -std::numeric_limits<double>::min();
-    }
+    std::array<double, Drive::guard_count> z = scaled(drive.guards(drive.moment(now), now.mode), now);
+    for (double& one : z)
+      if (one == 0.0) one = -std::numeric_limits<double>::min();
     return z;
   }
   /// Of all guards; those of other modes are 1.
   std::array<double, count> all(const Drive& drive, const Instant& now) const {
-    std::array<double, count> z;
-    z.fill(1.0);
-    const auto present = of_guards(drive, now);
-    for (int g = Drive::guard_count - 1; g >= 0; --g) z[index(now, g)] = present[g];  // of one name the first counts
-    return z;
+    return spread(of_guards(drive, now), now);
+  }
+  /// The same of guards that are known, with their derivatives.
+  template <class S>
+  std::array<S, count> all(const std::array<S, Drive::guard_count>& guards, const Instant& now) const {
+    return spread(scaled(guards, now), now);
   }
 
   /// What the guards are divided by, for a copy that starts elsewhere.
@@ -64,6 +63,18 @@ class Indicators {
   const std::array<double, count>& scales() const { return scales_; }
 
  private:
+  template <class S>
+  std::array<S, Drive::guard_count> scaled(std::array<S, Drive::guard_count> guards, const Instant& now) const {
+    for (int g = 0; g < Drive::guard_count; ++g) guards[g] = guards[g] / scales_[index(now, g)] + hysteresis;
+    return guards;
+  }
+  template <class S>
+  static std::array<S, count> spread(const std::array<S, Drive::guard_count>& present, const Instant& now) {
+    std::array<S, count> z;
+    z.fill(S(1.0));
+    for (int g = Drive::guard_count - 1; g >= 0; --g) z[index(now, g)] = present[g];  // of one name the first counts
+    return z;
+  }
   static std::size_t index(const Instant& now, int guard) {
     const auto& names = Ports::indicators;
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), Drive::guard_name(now.mode, guard)) -

@@ -35,6 +35,8 @@ bool same_point(double a, double b, double step) {
   return std::abs(a - b) <= 1e-9 * std::max({std::abs(a), std::abs(b), step});
 }
 
+constexpr auto motor_torque = static_cast<unsigned>(ScalarVariable::motor_torque);
+
 /// A controller that samples so often within a step has slipped in the unit.
 constexpr double most_samples_in_step = 1e9;
 
@@ -45,7 +47,9 @@ FmuInstance::FmuInstance(FmuModel model, InterfaceType type) : stated_(std::move
   if (type == InterfaceType::model_exchange && !has.model_exchange)
     throw std::logic_error("this FMU is one for co-simulation");
   if (type == InterfaceType::co_simulation && !has.co_simulation)
-    throw std::logic_error("this FMU is one for model exchange");
+    throw std::logic_error(has_elastic_teeth(stated_.scenario.effects)
+                               ? "co-simulation of elastic teeth needs CVODE, which this library does not carry"
+                               : "this FMU is one for model exchange");
 }
 
 void FmuInstance::begin() {
@@ -55,19 +59,23 @@ void FmuInstance::begin() {
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
   if (const auto id = set.effects.first_with_states(); !id.empty())
     throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
-  with_drive(set, [&]<class Drive>(Drive& drive) {
-    using Elastic = decltype(CompliantDrive(drive, tooth_contact(set.effects)));
-    if (type_ == InterfaceType::co_simulation) {
+  const auto take = [&]<class Drive>(Drive drive) {
+    if (type_ == InterfaceType::model_exchange) {
+      state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
+      return;
+    }
+    if constexpr (solved_inside<Drive>) {
       const double tolerance = std::min(state_.experiment.tolerance.value_or(1.0), set.run.relative_tolerance);
-      StepRun<Drive> run(drive, model_, state_.time, state_.torque, tolerance);
+      StepRun<Drive> run(std::move(drive), model_, state_.time, state_.torque, tolerance);
       if (state_.uses_event_mode) run.hold_left_limits();
       state_.run.emplace(std::move(run));
-    } else if (has_elastic_teeth(set.effects)) {
-      state_.run.emplace(PlantRun<Elastic>(CompliantDrive(drive, tooth_contact(set.effects)), set.initial, state_.time,
-                                           state_.torque));
-    } else {
-      state_.run.emplace(PlantRun<Drive>(drive, set.initial, state_.time, state_.torque));
     }
+  };
+  with_drive(set, [&](auto& drive) {
+    if (has_elastic_teeth(set.effects))
+      take(CompliantDrive(std::move(drive), tooth_contact(set.effects)));
+    else
+      take(std::move(drive));
   });
 }
 
@@ -115,11 +123,10 @@ void FmuInstance::set_time(double t) {
 
 // ---- variables ------------------------------------------------------------------------------------------------------
 
-double FmuInstance::reference_point(unsigned reference) const {
+ReferencePoint FmuInstance::reference_point(unsigned reference) const {
   const auto& control = model_.scenario.control;
   if (!control || control->reference.terms.empty()) unknown(reference);
-  const ReferencePoint desired = control->reference.at(state_.time);
-  return static_cast<ScalarVariable>(reference) == ScalarVariable::reference_angle ? desired.angle : desired.speed;
+  return control->reference.at(state_.time);
 }
 
 double FmuInstance::real(unsigned reference) {
@@ -132,8 +139,8 @@ double FmuInstance::real(unsigned reference) {
   const auto variable = static_cast<ScalarVariable>(reference);
   if (variable == ScalarVariable::time) return state_.time;
   if (variable == ScalarVariable::motor_torque && model_.kind == FmuKind::plant) return state_.torque;
-  if (variable == ScalarVariable::reference_angle || variable == ScalarVariable::reference_speed)
-    return reference_point(reference);
+  if (variable == ScalarVariable::reference_angle) return reference_point(reference).angle;
+  if (variable == ScalarVariable::reference_speed) return reference_point(reference).speed;
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
     const auto at = [&](const auto& list) {
@@ -196,6 +203,43 @@ void FmuInstance::set_reals(std::span<const unsigned> references, std::span<cons
 
 void FmuInstance::set_integer(unsigned reference) {
   throw std::invalid_argument(fmt::format("no whole number can be set; value reference {}", reference));
+}
+
+double FmuInstance::output_rate(unsigned reference) {
+  const auto variable = static_cast<ScalarVariable>(reference);
+  if (variable == ScalarVariable::reference_angle) return real(static_cast<unsigned>(ScalarVariable::reference_speed));
+  if (variable == ScalarVariable::reference_speed) return reference_point(reference).acceleration;
+  return with_run([&]<class Run>(Run& run) {
+    const bool input = reference == motor_torque && model_.kind == FmuKind::plant;
+    if constexpr (!MovedFromOutside<Run>) {
+      const auto shown = run.along_motion();
+      if (const auto* const value = input ? nullptr : shown.find(reference)) return value->v[0];
+    }
+    throw std::invalid_argument(
+        fmt::format("value reference {} is no continuous output with a rate in co-simulation", reference));
+    return 0.0;
+  });
+}
+
+std::vector<double> FmuInstance::jacobian(std::span<const unsigned> unknowns, std::span<const unsigned> knowns) {
+  std::vector<double> matrix;
+  with_moved_run([&]<class Run>(Run& run) {
+    const auto all = run.linearization();
+    for (const unsigned unknown : unknowns) {
+      const auto* const value = unknown == motor_torque ? nullptr : all.find(unknown);
+      if (!value)
+        throw std::invalid_argument(fmt::format(
+            "value reference {} is no continuous output, rate or event indicator to differentiate", unknown));
+      for (const unsigned known : knowns) {
+        const int k = derivative_by<typename Run::System>(known);
+        if (k < 0)
+          throw std::invalid_argument(
+              fmt::format("value reference {} is no state and no input to differentiate by", known));
+        matrix.push_back(value->v[k]);
+      }
+    }
+  });
+  return matrix;
 }
 
 // ---- co-simulation --------------------------------------------------------------------------------------------------

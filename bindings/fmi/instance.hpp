@@ -15,7 +15,8 @@
 
 namespace wormdrive {
 
-/// Every drive that an FMU may be: each load with rigid and with elastic teeth, and with a solver of its own.
+/// Every drive that an FMU may be: each load with rigid and with elastic teeth, moved from outside or by a solver
+/// inside.
 template <class Loads>
 struct FmuRuns;
 template <class... Parameters>
@@ -24,6 +25,9 @@ struct FmuRuns<std::variant<Parameters...>> {
   using Load = decltype(make_load(std::declval<const P&>()));
   using type = std::variant<PlantRun<WormDrive<double, Load<Parameters>>>...,
                             PlantRun<CompliantDrive<double, Load<Parameters>>>...,
+#ifdef WORMDRIVE_FMU_CVODE
+                            StepRun<CompliantDrive<double, Load<Parameters>>>...,
+#endif
                             StepRun<WormDrive<double, Load<Parameters>>>...>;
 };
 
@@ -94,6 +98,9 @@ class FmuInstance {
     });
   }
 
+  /// Derivatives of outputs, rates and event indicators by states and motor torque in the present mode, row by row.
+  std::vector<double> jacobian(std::span<const unsigned> unknowns, std::span<const unsigned> knowns);
+
   // ---- co-simulation ---------------------------------------------------------------------------------------------
 
   /// Told of every event in a step; when the step ends [s], infinity where that is no matter of the event's.
@@ -104,6 +111,8 @@ class FmuInstance {
   /// Goes on from a communication point by a step [s]. Throws StepHalted where the drive cannot go on.
   void step(double from, double size, const AtEvent& at_event);
   double time() const { return state_.time; }
+  /// Rate of a continuous output along the motion, in its unit per second.
+  double output_rate(unsigned reference);
   /// Why the drive cannot go on, if it cannot.
   const std::optional<std::string>& halted() const { return state_.halted; }
 
@@ -140,7 +149,7 @@ class FmuInstance {
 
  private:
   void begin();
-  double reference_point(unsigned reference) const;
+  ReferencePoint reference_point(unsigned reference) const;
   void reject_unsettable(unsigned reference, double value);
 
   FmuModel stated_, model_;  ///< as exported; with the parameters that the importer has set

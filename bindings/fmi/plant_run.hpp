@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/fmi/indicators.hpp"
-#include "core/elastic/compliant_start.hpp"
-#include "core/initial_state.hpp"
+#include "bindings/fmi/shown.hpp"
+#include "bindings/fmi/start_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {
@@ -18,6 +17,7 @@ namespace wormdrive {
 template <class Drive>
 class PlantRun {
  public:
+  using System = Drive;
   using Ports = Interface<Drive>;
   static constexpr std::size_t state_size = Drive::state_size, indicator_count = Ports::indicators.size();
   using States = std::array<double, state_size>;
@@ -56,6 +56,11 @@ class PlantRun {
   std::array<double, indicator_count> indicators() {
     take_torque();
     return indicators_.all(drive_, now_);
+  }
+  /// What is shown, with the derivatives that derivative_by() counts.
+  auto linearization() {
+    take_torque();
+    return linearize(drive_, indicators_, now_, torque_);
   }
   Observation observe() {
     take_torque();
@@ -114,10 +119,7 @@ class PlantRun {
     drive.command(t, torque);
     typename Drive::Instant now{};
     now.t = t;
-    if constexpr (requires { carrying(drive, t, 0.0, 0.0); })
-      now.x = carrying(drive, t, initial.theta_g, initial.omega_g);
-    else
-      now.x = {initial.theta_g, initial.omega_g};
+    now.x = start_state(drive, initial, t);
     now.mode = drive.settle(now);
     return now;
   }

@@ -9,10 +9,14 @@
 #include <vector>
 
 #include "bindings/fmi/fmu_model.hpp"
-#include "bindings/fmi/indicators.hpp"
+#include "bindings/fmi/shown.hpp"
+#include "bindings/fmi/start_state.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
 #include "events/taylor/solver.hpp"
+#ifdef WORMDRIVE_FMU_CVODE
+#include "events/cvode_solver.hpp"
+#endif
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {
@@ -21,6 +25,31 @@ namespace wormdrive {
 /// points that cut its steps elsewhere then change no result by 1e-9.
 inline constexpr double loosest_inside = 1e-12;
 inline constexpr double tightest_inside = 1e-14;  ///< as in a scenario: below it is rounding
+
+/// The solver inside: power series, or CVODE where teeth are elastic. It starts anew with every step, so that a step is
+/// the same however the run came to its start.
+template <class Drive>
+struct SolverInside {
+  using type = TaylorSolver<Drive>;
+  static SolverSettings settings(double relative_tolerance) {
+    const double share = std::clamp(relative_tolerance, tightest_inside, loosest_inside);
+    return {.solver = SolverKind::taylor, .relative_tolerance = share, .absolute_tolerance = 0.01 * share};
+  }
+};
+#ifdef WORMDRIVE_FMU_CVODE
+/// CVODE errs by more than its tolerance in every step: the tightest that its arithmetic bears is asked for.
+template <class T, class Load>
+struct SolverInside<Commanded<CompliantDrive<T, Load>>> {
+  using type = CvodeSolver<Commanded<CompliantDrive<T, Load>>>;
+  static SolverSettings settings(double) {
+    return {.method = Method::adams, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-15};
+  }
+};
+#endif
+
+/// Whether there is a solver inside for a drive.
+template <class Drive>
+inline constexpr bool solved_inside = shaft_count<Drive>() == 1 || elastic_teeth_inside;
 
 /// A drive that goes from one communication point to the next by its own solver, through every event on the way; under
 /// a motor torque that is held meanwhile, or with all that moves it inside.
@@ -35,9 +64,7 @@ class StepRun {
   /// Starts at t [s] with a motor torque [N m], which counts for a plant only.
   StepRun(Drive drive, const FmuModel& model, double t, double torque, double relative_tolerance)
       : drive_(std::move(drive)),
-        settings_{.solver = SolverKind::taylor,
-                  .relative_tolerance = std::clamp(relative_tolerance, tightest_inside, loosest_inside),
-                  .absolute_tolerance = 0.01 * std::clamp(relative_tolerance, tightest_inside, loosest_inside)},
+        settings_(SolverInside<Commanded<Drive>>::settings(relative_tolerance)),
         held_from_outside_(model.kind == FmuKind::plant),
         on_worm_(model.scenario.control && model.scenario.control->sensor.on_worm),
         torque_(torque),
@@ -62,7 +89,7 @@ class StepRun {
   template <class End>
   void step(double until, End&& end) {
     left_.reset();
-    TaylorSolver<Drive> solver(drive_, settings_);
+    Solver solver(drive_, settings_);
     prepare(solver, until);
     Mover mover{*this};
     std::optional<Left> left;
@@ -96,6 +123,8 @@ class StepRun {
     return rate;
   }
   std::array<double, indicator_count> indicators() const { return indicators_.all(drive_, progress_.now); }
+  /// What is shown, with the derivatives by time. Of an event that is not taken it is that just behind it.
+  auto along_motion() const { return wormdrive::along_motion<Drive>(drive_, indicators_, progress_.now); }
   Observation observe() const { return left_ ? left_->at : drive_.observe(progress_.now); }
   double measured_angle() const {
     const Instant& now = progress_.now;
@@ -167,6 +196,7 @@ class StepRun {
     void operator()(const ControlRecord&) const {}
   };
   using Loop = ClosedLoop<AnyController, Unheard>;
+  using Solver = typename SolverInside<Commanded<Drive>>::type;
 
   /// In the place of a controller: the loop inside, or the torque from outside.
   struct Mover {
@@ -189,14 +219,14 @@ class StepRun {
     if (held_from_outside_) drive_.command(t, torque_);
     Instant now;
     now.t = t;
-    now.x = {initial.theta_g, initial.omega_g};
+    now.x = start_state(drive_, initial, t);
     now.mode = drive_.settle(now);
     drive_.next_knot(t);
     return now;
   }
 
   /// A torque from outside is commanded where it changes; else the run is taken up where it was left.
-  void prepare(TaylorSolver<Drive>& solver, double until) {
+  void prepare(Solver& solver, double until) {
     const Instant& now = progress_.now;
     if (held_from_outside_ && (!commanded_ || *commanded_ != torque_)) {
       commanded_ = torque_;

@@ -20,7 +20,7 @@ namespace {
 std::string interface_types(const FmuModel& model) {
   const Offered has = offered(model);
   if (has.model_exchange && has.co_simulation) return "model exchange and co-simulation";
-  if (has.model_exchange) return "model exchange only: the solver inside an FMU follows rigid teeth";
+  if (has.model_exchange) return "model exchange only: CVODE, which elastic teeth need, is not inside";
   return model.kind == FmuKind::loop
              ? "co-simulation: everything is inside"
              : "co-simulation only: no solver of an importing tool remembers what is delayed or lags";
@@ -59,6 +59,10 @@ int fmu_command(const FmuOptions& options) {
     print_item("outside", fmt::format("{}: motor_torque is the input, set by the importing tool{}",
                                       scenario.control ? "[controller]" : "[motor.torque]",
                                       has.co_simulation ? "; --kind loop takes it in" : ""));
+  if (elastic_teeth_inside && has_elastic_teeth(scenario.effects))
+    print_item("windows", has.model_exchange
+                              ? "model exchange only: CVODE, which elastic teeth need, is not in the library there"
+                              : "none: CVODE, which elastic teeth need, is not in the library there");
   print_item("wrote", output);
   return 0;
 }

@@ -54,6 +54,7 @@ class CompliantDrive {
   void rewind() { rigid_.rewind(); }
   bool command(double t, double tau_m) { return rigid_.command(t, tau_m); }
   void disturb(double torque) { rigid_.disturb(torque); }
+  const double& disturbance() const { return rigid_.disturbance(); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input(double t) const { return rigid_.fastest_input(t); }
 
@@ -78,8 +79,8 @@ class CompliantDrive {
     return contact_.force(d, v);
   }
   /// Wf [N], positive against forward motion. At rest it holds the worm as far as it can; bearings hold the rest.
-  template <class S>
-  S friction(const Moment<S>& at, Mode mode, const S& Wn) const {
+  template <class S, template <class> class M>
+  S friction(const M<S>& at, Mode mode, const S& Wn) const {
     const auto sliding = [&](Motion motion) { return S(T(sign(motion)) * rigid_.friction(at, motion) * Wn); };
     if (mode.contact == Flank::none) return S(T(0));
     if (mode.worm != Motion::stuck) return sliding(mode.worm);
@@ -93,8 +94,8 @@ class CompliantDrive {
     S worm, gear;  ///< [rad/s^2]
   };
   /// theta_w'' and theta_g'', 0 for a shaft that is stuck.
-  template <class S>
-  Accelerations<S> accelerations(const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  Accelerations<S> accelerations(const M<S>& at, Mode mode) const {
     const S Wn = normal_force(at, mode), Wf = friction(at, mode, Wn), push = T(sign(mode.contact)) * Wn;
     Accelerations<S> a{S(T(0)), S(T(0))};
     if (mode.worm != Motion::stuck)
@@ -168,8 +169,8 @@ class CompliantDrive {
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,
   /// in the gap the distance to each flank; for a moving shaft its speed, for a stuck one its two margins to break-in.
-  template <class S>
-  std::array<S, guard_count> guards(const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  std::array<S, guard_count> guards(const M<S>& at, Mode mode) const {
     std::array<S, guard_count> g;
     g.fill(S(T(1)));
     if (mode.contact == Flank::none) {
@@ -269,8 +270,8 @@ class CompliantDrive {
   }
 
   /// The acceleration that a shaft at rest would have, moving in this direction.
-  template <class S>
-  S release_acceleration(const Moment<S>& at, Mode mode, Shaft shaft, Motion motion) const {
+  template <class S, template <class> class M>
+  S release_acceleration(const M<S>& at, Mode mode, Shaft shaft, Motion motion) const {
     const Accelerations<S> a = accelerations(at, mode.with(shaft, motion));
     return shaft == Shaft::worm ? a.worm : a.gear;
   }

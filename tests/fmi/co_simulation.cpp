@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "fmi/exported.hpp"
+#include "fmi/stepper.hpp"
 #include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;
@@ -11,37 +12,6 @@ using namespace wormdrive::test;
 namespace {
 
 const std::vector<std::string> loop{"--kind", "loop"};
-
-/// What an importer sees at a communication point.
-struct Point {
-  double t, angle, speed;
-  int events;
-  double latest;
-};
-
-/// One instance that goes from step to step [FMI 2.0.4, section 4.2.4].
-class Stepper {
- public:
-  Stepper(const Fmu& fmu, double end, double start = 0.0) : model(fmu, "", fmi2CoSimulation), t(start) {
-    model.call<decltype(fmi2SetupExperiment)>("fmi2SetupExperiment", 0, 0.0, start, 1, end);
-    model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
-    model.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode");
-  }
-  Point step(double h) {
-    model.call<decltype(fmi2DoStep)>("fmi2DoStep", t, h, fmi2Boolean{1});
-    t += h;
-    return {t, model.real("gear_angle"), model.real("gear_speed"), model.integer("event_count"),
-            model.real("event_time")};
-  }
-  Point last(double end, double h) {
-    Point at{};
-    for (long k = std::lround((end - t) / h); k > 0; --k) at = step(h);
-    return at;
-  }
-
-  Instance model;
-  double t;
-};
 
 double angle_at(const Trajectory& run, double t, double speed) {
   const auto after =
@@ -129,6 +99,42 @@ std::vector<std::string> limited(const std::string& anti_windup) {
           "sensor.shaft=worm"};
 }
 
+/// An importer that goes back to a kept state, or to one in bytes in another instance, makes the same bits.
+void goes_back(const Exported& exported) {
+  Stepper one(*exported.fmu, 0.4), other(*exported.fmu, 0.4);
+  one.last(0.1234, 0.0617);
+  fmi2FMUstate kept = nullptr;
+  one.model.call<decltype(fmi2GetFMUstate)>("fmi2GetFMUstate", &kept);
+  size_t size = 0;
+  one.model.call<decltype(fmi2SerializedFMUstateSize)>("fmi2SerializedFMUstateSize", kept, &size);
+  std::vector<char> bytes(size);
+  one.model.call<decltype(fmi2SerializeFMUstate)>("fmi2SerializeFMUstate", kept, bytes.data(), size);
+  const double then = one.t;
+  const Point first = one.last(0.3, 0.0883);
+  one.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", kept);
+  one.t = then;
+  const Point again = one.last(0.3, 0.0883);
+  CHECK(again.angle == first.angle);
+  CHECK(again.speed == first.speed);
+  CHECK(again.events == first.events);
+  one.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &kept);
+
+  fmi2FMUstate made = nullptr;
+  other.model.call<decltype(fmi2DeSerializeFMUstate)>("fmi2DeSerializeFMUstate", static_cast<const char*>(bytes.data()),
+                                                      size, &made);
+  other.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", made);
+  other.t = then;
+  const Point elsewhere = other.last(0.3, 0.0883);
+  CHECK(std::abs(elsewhere.angle - first.angle) < 1e-13);
+  CHECK(std::abs(elsewhere.speed - first.speed) < 1e-13);
+  CHECK(elsewhere.events == first.events);
+  other.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &made);
+  bytes[size / 2] ^= 1;
+  CHECK_THROWS_WITH(other.model.call<decltype(fmi2DeSerializeFMUstate)>(
+                        "fmi2DeSerializeFMUstate", static_cast<const char*>(bytes.data()), size, &made),
+                    "the bytes are no state of this FMU: they are damaged");
+}
+
 }  // namespace
 
 TEST_CASE("co-simulation of fig. 9 makes its events, whatever the steps are") {
@@ -139,6 +145,21 @@ TEST_CASE("co-simulation of the closed loop of fig. 10 makes its events, whateve
   agrees(shipped("fig10_sliding_014rad_bare.toml"),
          {"run.duration_s=1", "metrics.from_s=0", "run.report_interval_s=1e-3"}, 4);
 }
+
+#if WORMDRIVE_ELASTIC_TEETH_INSIDE  // where CVODE can be linked into an FMU
+TEST_CASE("co-simulation of elastic teeth makes every impact, and jams as the drive does") {
+  agrees(shipped("fig09_backlash.toml"), {"run.duration_s=0.5", "run.report_interval_s=1e-3"}, 11);
+  agrees(shipped("jam.toml"), {}, 30);
+}
+
+TEST_CASE("co-simulation of a closed loop around elastic teeth makes its impacts") {
+  agrees(shipped("fig10_sliding_014rad_bare.toml"),
+         {"run.duration_s=0.3", "metrics.from_s=0", "run.report_interval_s=1e-3",
+          "effect.tooth_compliance.stiffness_N_per_m=1e6", "effect.tooth_compliance.damping_s_per_m=300",
+          "effect.backlash.gap_deg=0.02"},
+         4);
+}
+#endif
 
 TEST_CASE("co-simulation carries delays, a lag and late samples") {
   const Folder folder;
@@ -211,45 +232,15 @@ TEST_CASE("a plant whose torque is set at communication points is a run under a 
 
 TEST_CASE("an importer that goes back to a kept state, or to one in bytes in another instance, makes the same bits") {
   const Folder folder;
-  for (const Exported& exported :
-       {Exported(shipped("fig09_switching.toml"), {}, loop), Exported(delayed(folder), {}, loop),
-        Exported(shipped("fig10_pid_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop),
-        Exported(shipped("fig10_pid_014rad_bare.toml"), limited("back_calculation"), loop),
-        Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("conditional"), loop),
-        Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("model_recovery"), loop)}) {
-    Stepper one(*exported.fmu, 0.4), other(*exported.fmu, 0.4);
-    one.last(0.1234, 0.0617);
-    fmi2FMUstate kept = nullptr;
-    one.model.call<decltype(fmi2GetFMUstate)>("fmi2GetFMUstate", &kept);
-    size_t size = 0;
-    one.model.call<decltype(fmi2SerializedFMUstateSize)>("fmi2SerializedFMUstateSize", kept, &size);
-    std::vector<char> bytes(size);
-    one.model.call<decltype(fmi2SerializeFMUstate)>("fmi2SerializeFMUstate", kept, bytes.data(), size);
-    const double then = one.t;
-    const Point first = one.last(0.3, 0.0883);
-    one.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", kept);
-    one.t = then;
-    const Point again = one.last(0.3, 0.0883);
-    CHECK(again.angle == first.angle);
-    CHECK(again.speed == first.speed);
-    CHECK(again.events == first.events);
-    one.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &kept);
-
-    fmi2FMUstate made = nullptr;
-    other.model.call<decltype(fmi2DeSerializeFMUstate)>("fmi2DeSerializeFMUstate",
-                                                        static_cast<const char*>(bytes.data()), size, &made);
-    other.model.call<decltype(fmi2SetFMUstate)>("fmi2SetFMUstate", made);
-    other.t = then;
-    const Point elsewhere = other.last(0.3, 0.0883);
-    CHECK(std::abs(elsewhere.angle - first.angle) < 1e-13);
-    CHECK(std::abs(elsewhere.speed - first.speed) < 1e-13);
-    CHECK(elsewhere.events == first.events);
-    other.model.call<decltype(fmi2FreeFMUstate)>("fmi2FreeFMUstate", &made);
-    bytes[size / 2] ^= 1;
-    CHECK_THROWS_WITH(other.model.call<decltype(fmi2DeSerializeFMUstate)>(
-                          "fmi2DeSerializeFMUstate", static_cast<const char*>(bytes.data()), size, &made),
-                      "the bytes are no state of this FMU: they are damaged");
-  }
+  goes_back(Exported(shipped("fig09_switching.toml"), {}, loop));
+  goes_back(Exported(delayed(folder), {}, loop));
+  goes_back(Exported(shipped("fig10_pid_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop));
+  goes_back(Exported(shipped("fig10_pid_014rad_bare.toml"), limited("back_calculation"), loop));
+  goes_back(Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("conditional"), loop));
+  goes_back(Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("model_recovery"), loop));
+#if WORMDRIVE_ELASTIC_TEETH_INSIDE
+  goes_back(Exported(shipped("jam.toml"), {}, loop));
+#endif
 }
 
 TEST_CASE("steps that cannot be are refused and change nothing") {

@@ -1,90 +1,13 @@
 // FMUs of FMI 3.0 in an importer that knows the standard only: the events of `wormdrive run`, found by the importer's
 // event mode, and looked at within long steps.
-#include "bindings/fmi/fmi3.h"
-
 #include "fmi/exported.hpp"
+#include "fmi/importer3.hpp"
 #include "simulation/run_scenario.hpp"
 
 using namespace wormdrive;
 using namespace wormdrive::test;
 
 namespace {
-
-/// One instance of FMI 3.0; a call that does not return fmi3OK throws what the FMU logged.
-class Instance3 {
- public:
-  Instance3(const Fmu& fmu, bool co_simulation, bool event_mode = false, bool early = false,
-            fmi3IntermediateUpdateCallback look = nullptr)
-      : fmu_(fmu) {
-    const std::string resources = fmu.resources().substr(7) + "/";
-    instance_ = co_simulation ? function<decltype(fmi3InstantiateCoSimulation)>("fmi3InstantiateCoSimulation")(
-                                    "drive", fmu.guid().c_str(), resources.c_str(), false, false, event_mode, early,
-                                    nullptr, 0, this, log, look)
-                              : function<decltype(fmi3InstantiateModelExchange)>("fmi3InstantiateModelExchange")(
-                                    "drive", fmu.guid().c_str(), resources.c_str(), false, false, this, log);
-    if (!instance_) throw std::runtime_error(log_);
-  }
-  Instance3(const Instance3&) = delete;
-  Instance3& operator=(const Instance3&) = delete;
-  ~Instance3() { function<decltype(fmi3FreeInstance)>("fmi3FreeInstance")(instance_); }
-
-  template <class Function, class... Arguments>
-  void call(const char* name, Arguments... arguments) {
-    log_.clear();
-    if (function<Function>(name)(instance_, arguments...) != fmi3OK) throw std::runtime_error(log_);
-  }
-  void initialize(double end) {
-    call<decltype(fmi3EnterInitializationMode)>("fmi3EnterInitializationMode", false, 0.0, 0.0, true, end);
-    call<decltype(fmi3ExitInitializationMode)>("fmi3ExitInitializationMode");
-  }
-  double real(const std::string& name) {
-    const fmi3ValueReference reference = fmu_.reference(name);
-    double value;
-    call<decltype(fmi3GetFloat64)>("fmi3GetFloat64", &reference, size_t{1}, &value, size_t{1});
-    return value;
-  }
-  int whole(const std::string& name) {
-    const fmi3ValueReference reference = fmu_.reference(name);
-    fmi3Int32 value;
-    call<decltype(fmi3GetInt32)>("fmi3GetInt32", &reference, size_t{1}, &value, size_t{1});
-    return value;
-  }
-  bool update() {
-    bool need = true, terminate = true, nominals = true, values = false, defined = true;
-    double next = 0.0;
-    call<decltype(fmi3UpdateDiscreteStates)>("fmi3UpdateDiscreteStates", &need, &terminate, &nominals, &values,
-                                             &defined, &next);
-    CHECK_FALSE(need);
-    CHECK_FALSE(terminate);
-    return values;
-  }
-
-  struct Step {
-    bool event = false, terminate = false, early = false;
-    double reached = 0.0;
-  };
-  Step step(double from, double size) {
-    Step s;
-    call<decltype(fmi3DoStep)>("fmi3DoStep", from, size, true, &s.event, &s.terminate, &s.early, &s.reached);
-    return s;
-  }
-  std::vector<double> looked{};  ///< times of intermediate updates
-  double wanted_end = -1.0;      ///< early return asked for there [s]
-
- private:
-  template <class Function>
-  Function* function(const char* name) const {
-    if (void* const found = fmu_.symbol(name)) return reinterpret_cast<Function*>(found);
-    throw std::runtime_error(std::string("no function ") + name);
-  }
-  static void log(fmi3InstanceEnvironment self, fmi3Status, fmi3String, fmi3String text) {
-    static_cast<Instance3*>(self)->log_ = text;
-  }
-
-  const Fmu& fmu_;
-  std::string log_;
-  fmi3Instance instance_ = nullptr;
-};
 
 void look(fmi3InstanceEnvironment self, double t, bool set, bool get, bool, bool can_return, bool* early,
           double* until) {

@@ -76,6 +76,15 @@ inline void state_unit(Tree& at, const VariableInfo& variable) {
   if (base_units.contains(variable.unit)) attribute(at, "unit", variable.unit);
 }
 
+/// What alone an unknown depends on while the model runs, where that is known; numbers: of the variables by name.
+template <class Number>
+void state_dependencies(Tree& unknown, const VariableInfo& variable, const std::map<std::string, Number>& numbers) {
+  if (!variable.depends_on) return;
+  std::vector<Number> list;
+  for (const std::string& name : *variable.depends_on) list.push_back(numbers.at(name));
+  attribute(unknown, "dependencies", fmt::format("{}", fmt::join(list, " ")));
+}
+
 /// The units that the variables have.
 inline void write_units(Tree& model, const std::vector<VariableInfo>& variables) {
   std::set<std::string> used;

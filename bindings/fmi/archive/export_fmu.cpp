@@ -94,10 +94,11 @@ constexpr Platform own_platform{sizeof(void*) == 8 ? "linux64" : "linux32",
 #endif
 constexpr Platform windows{"win64", "x86_64-windows", "dll"};
 
-std::vector<Binary> read_binaries(int version) {
+std::vector<Binary> read_binaries(int version, bool for_windows) {
   std::vector<Binary> found;
   std::filesystem::path path = resource("lib/wormdrive/fmi/wormdrive_fmu.so");
   for (const Platform& platform : {own_platform, windows}) {
+    if (platform.suffix == windows.suffix && !for_windows) continue;
     path.replace_extension(platform.suffix);
     std::optional<std::string> content = read_library(path);
     if (!content && found.empty()) throw OutputFault(fmt::format("cannot make an FMU: cannot read {}", path.string()));
@@ -117,7 +118,7 @@ std::optional<std::string> not_exportable(const FmuModel& model) {
   const Effects<double>& on = model.scenario.effects;
   if (const auto id = on.first_with_states(); !id.empty())
     return fmt::format("effect.{} has a state, which the FMU does not carry; set effect.{}.inductance_H = 0", id, id);
-  const bool elastic = has_elastic_teeth(on), plant = model.kind == FmuKind::plant;
+  const bool elastic = has_elastic_teeth(on) && !elastic_teeth_inside, plant = model.kind == FmuKind::plant;
   if (elastic && !plant)
     return "effect.tooth_compliance needs CVODE, which an FMU does not carry; use --kind plant, whose importing tool "
            "integrates";
@@ -136,7 +137,7 @@ void export_fmu(const FmuModel& stated, int version, const std::string& path, Re
   const std::string json = plant_to_json(stated), file = followed(path);
   FmuModel model = stated;
   model.token = guid_of(json);
-  const std::vector<Binary> binaries = read_binaries(version);
+  const std::vector<Binary> binaries = read_binaries(version, runs_under_windows(model));
   reject_replacing_unmarked(file, archive_mark, replace);
   Zip zip(file);
   zip.add(std::string(archive_mark), "An FMU of a worm-gear drive, made by wormdrive.\n");

@@ -25,15 +25,20 @@ void write_fmi2_variable(Tree& list, const VariableInfo& variable, const std::ma
   if (variable.is_rate()) attribute(type, "derivative", indices.at(variable.derivative_of));
 }
 
-void write_fmi2_structure(Tree& structure, const std::vector<VariableInfo>& variables) {
-  const auto list = [&](const char* group, auto&& belongs) {
+void write_fmi2_structure(Tree& structure, const std::vector<VariableInfo>& variables,
+                          const std::map<std::string, std::size_t>& indices) {
+  const auto list = [&](const char* group, bool running, auto&& belongs) {
     Tree& at = child(structure, group);
-    for (std::size_t k = 0; k < variables.size(); ++k)
-      if (belongs(variables[k])) attribute(child(at, "Unknown"), "index", k + 1);
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      if (!belongs(variables[k])) continue;
+      Tree& unknown = child(at, "Unknown");
+      attribute(unknown, "index", k + 1);
+      if (running) state_dependencies(unknown, variables[k], indices);
+    }
   };
-  list("Outputs", [](const VariableInfo& v) { return v.is_output(); });
-  list("Derivatives", [](const VariableInfo& v) { return v.is_rate(); });
-  list("InitialUnknowns", [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
+  list("Outputs", true, [](const VariableInfo& v) { return v.is_output(); });
+  list("Derivatives", true, [](const VariableInfo& v) { return v.is_rate(); });
+  list("InitialUnknowns", false, [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
 }
 
 }  // namespace
@@ -57,8 +62,16 @@ std::string fmi2_description(const FmuModel& model) {
     attribute(type, "canSerializeFMUstate", can_be_serialized(model));
     return type;
   };
-  if (has.model_exchange) attribute(interface("ModelExchange"), "completedIntegratorStepNotNeeded", true);
-  if (has.co_simulation) attribute(interface("CoSimulation"), "canHandleVariableCommunicationStepSize", true);
+  if (has.model_exchange) {
+    Tree& type = interface("ModelExchange");
+    attribute(type, "completedIntegratorStepNotNeeded", true);
+    attribute(type, "providesDirectionalDerivative", true);
+  }
+  if (has.co_simulation) {
+    Tree& type = interface("CoSimulation");
+    attribute(type, "canHandleVariableCommunicationStepSize", true);
+    attribute(type, "maxOutputDerivativeOrder", 1);
+  }
   write_units(top, variables);
   write_log_categories(top);
   write_experiment(top, model.scenario.run);
@@ -66,7 +79,7 @@ std::string fmi2_description(const FmuModel& model) {
   for (const VariableInfo& variable : variables) indices[variable.name] = indices.size() + 1;
   Tree& list = child(top, "ModelVariables");
   for (const VariableInfo& variable : variables) write_fmi2_variable(list, variable, indices);
-  write_fmi2_structure(child(top, "ModelStructure"), variables);
+  write_fmi2_structure(child(top, "ModelStructure"), variables, indices);
   return to_text(root);
 }
 

@@ -26,15 +26,20 @@ void write_fmi3_variable(Tree& list, const VariableInfo& variable, const std::ma
   if (variable.is_rate()) attribute(one, "derivative", references.at(variable.derivative_of));
 }
 
-void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& variables) {
-  const auto list = [&](const char* group, auto&& belongs) {
-    for (const VariableInfo& variable : variables)
-      if (belongs(variable)) attribute(child(structure, group), "valueReference", variable.reference);
+void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& variables,
+                          const std::map<std::string, unsigned>& references) {
+  const auto list = [&](const char* group, bool running, auto&& belongs) {
+    for (const VariableInfo& variable : variables) {
+      if (!belongs(variable)) continue;
+      Tree& unknown = child(structure, group);
+      attribute(unknown, "valueReference", variable.reference);
+      if (running) state_dependencies(unknown, variable, references);
+    }
   };
-  list("Output", [](const VariableInfo& v) { return v.is_output(); });
-  list("ContinuousStateDerivative", [](const VariableInfo& v) { return v.is_rate(); });
-  list("InitialUnknown", [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
-  list("EventIndicator",
+  list("Output", true, [](const VariableInfo& v) { return v.is_output(); });
+  list("ContinuousStateDerivative", true, [](const VariableInfo& v) { return v.is_rate(); });
+  list("InitialUnknown", false, [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
+  list("EventIndicator", false,
        [](const VariableInfo& v) { return v.reference >= first_indicator && v.reference < first_parameter; });
 }
 
@@ -55,12 +60,16 @@ std::string fmi3_description(const FmuModel& model) {
     attribute(type, "canSerializeFMUState", can_be_serialized(model));
     return type;
   };
-  if (has.model_exchange) interface("ModelExchange");
+  if (has.model_exchange) {
+    Tree& type = interface("ModelExchange");
+    for (const char* can : {"providesDirectionalDerivatives", "providesAdjointDerivatives"}) attribute(type, can, true);
+  }
   if (has.co_simulation) {
     Tree& type = interface("CoSimulation");
     for (const char* can : {"canHandleVariableCommunicationStepSize", "providesIntermediateUpdate",
                             "mightReturnEarlyFromDoStep", "canReturnEarlyAfterIntermediateUpdate", "hasEventMode"})
       attribute(type, can, true);
+    attribute(type, "maxOutputDerivativeOrder", 1);
   }
   write_units(top, variables);
   write_log_categories(top);
@@ -69,7 +78,7 @@ std::string fmi3_description(const FmuModel& model) {
   for (const VariableInfo& variable : variables) references[variable.name] = variable.reference;
   Tree& list = child(top, "ModelVariables");
   for (const VariableInfo& variable : variables) write_fmi3_variable(list, variable, references);
-  write_fmi3_structure(child(top, "ModelStructure"), variables);
+  write_fmi3_structure(child(top, "ModelStructure"), variables, references);
   return to_text(root);
 }
 

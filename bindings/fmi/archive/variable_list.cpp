@@ -24,10 +24,12 @@ class VariableLister {
     shaft("gear", gear_angle, gear_speed, gear_angle_rate, gear_speed_rate);
     torque();
     real("normal_force", ref(normal_force), "output", "N", "normal force between the teeth");
-    real("measured_angle", ref(measured_angle), "output", "rad", "gear angle as the sensor measures it");
+    real("measured_angle", ref(measured_angle), "output", "rad", "gear angle as the sensor measures it").depends_on = {
+        {"gear_angle"}};
     if (scenario_.control && !scenario_.control->reference.terms.empty()) {
-      real("reference_angle", ref(reference_angle), "output", "rad", "gear angle that the controller follows");
-      real("reference_speed", ref(reference_speed), "output", "rad/s", "its rate");
+      real("reference_angle", ref(reference_angle), "output", "rad", "gear angle that the controller follows")
+          .depends_on.emplace();
+      real("reference_speed", ref(reference_speed), "output", "rad/s", "its rate").depends_on.emplace();
     }
     whole("motion", motion, "-1 backward, 0 stuck, 1 forward; of elastic teeth the worm", -1.0, 1.0);
     whole("flank", flank, "flank that carries: -1 right, 0 none, 1 left", -1.0, 1.0);
@@ -54,10 +56,13 @@ class VariableLister {
   }
   void shaft(const std::string& name, ScalarVariable angle, ScalarVariable speed, ScalarVariable angle_rate,
              ScalarVariable speed_rate) {
-    real(name + "_angle", ref(angle), "output", "rad", name + " angle");
-    real(name + "_speed", ref(speed), "output", "rad/s", name + " speed; exactly 0 while stuck");
-    real("der(" + name + "_angle)", ref(angle_rate), "local", "rad/s", "rate of the " + name + " angle").derivative_of =
-        name + "_angle";
+    real(name + "_angle", ref(angle), "output", "rad", name + " angle").depends_on = {{name + "_angle"}};
+    real(name + "_speed", ref(speed), "output", "rad/s", name + " speed; exactly 0 while stuck").depends_on = {
+        {name + "_speed"}};
+    VariableInfo& rate =
+        real("der(" + name + "_angle)", ref(angle_rate), "local", "rad/s", "rate of the " + name + " angle");
+    rate.derivative_of = name + "_angle";
+    rate.depends_on = {{name + "_speed"}};
     real("der(" + name + "_speed)", ref(speed_rate), "local", "rad/s^2", "acceleration of the " + name).derivative_of =
         name + "_speed";
   }

@@ -18,6 +18,8 @@ struct VariableInfo {
   std::string unit{};  ///< of SI; empty for a pure number
   std::optional<double> start{}, min{}, max{};
   std::string derivative_of{};  ///< name of the state
+  /// Names of the variables that alone it may depend on; absent where that may be all.
+  std::optional<std::vector<std::string>> depends_on{};
 
   bool is_output() const { return causality == "output"; }
   bool is_rate() const { return !derivative_of.empty(); }

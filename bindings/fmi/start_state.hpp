@@ -1,0 +1,16 @@
+#pragma once
+#include "core/elastic/compliant_start.hpp"
+#include "core/initial_state.hpp"
+
+namespace wormdrive {
+
+/// The state in which a drive starts that has entered t [s]: elastic teeth carry the load already.
+template <class Drive>
+typename Drive::State start_state(const Drive& drive, const InitialState<double>& initial, double t) {
+  if constexpr (requires { carrying(drive, t, 0.0, 0.0); })
+    return carrying(drive, t, initial.theta_g, initial.omega_g);
+  else
+    return {initial.theta_g, initial.omega_g};
+}
+
+}  // namespace wormdrive
