@@ -66,7 +66,7 @@ ${long}
 
 This package has the libraries, their headers and the package for CMake.")
 set(CPACK_DEBIAN_LIBWORMDRIVE-DEV_PACKAGE_SECTION libdevel)
-set(dev libboost-dev libceres-dev libeigen3-dev libfmt-dev libhdf5-dev libnlopt-dev librandom123-dev libsundials-dev
+set(dev libboost-dev libceres-dev libeigen3-dev libfmt-dev libhdf5-dev libmatio-dev libnlopt-dev librandom123-dev libsundials-dev
         libtomlplusplus-dev nlohmann-json3-dev)
 if(MPI_CXX_FOUND)
   list(APPEND dev libopenmpi-dev)
