@@ -16,6 +16,7 @@
 #include "diagnosis/points/break_in_points.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
+#include "output/resource.hpp"
 
 namespace wormdrive {
 namespace {
@@ -32,9 +33,9 @@ DataKind kind_of(const std::string& file, const Scenario& scenario) {
   const std::string torque = called("motor_torque");
   reject(table.header(),
          fmt::format("the columns {} make neither a recording ({}, {}, {}) nor records at constant speed ({}, {}, {}) "
-                     "nor a break-in table ({}, {}); [data] in the scenario tells other names",
+                     "nor a break-in table ({}, {}); [data] in the scenario tells other names, see {}",
                      fmt::join(table.names(), ", "), called("time"), torque, called("gear_angle"), called("record"),
-                     called("worm_speed"), torque, called("load_torque"), torque));
+                     called("worm_speed"), torque, called("load_torque"), torque, documentation_page("recordings.md")));
 }
 
 std::string left_out(const std::string& file, const SpeedTorqueRecord& record, const ImplausibleSample& sample,
