@@ -100,7 +100,7 @@ TEST_CASE("unknown commands and unexpected arguments end with exit code 2") {
                       {"no command", "", "wormdrive: error: a command is required; see wormdrive --help or docs/howto/first_simulation.md", {}, true},
                       {"no scenario", "", "wormdrive run: error: scenario is required; see wormdrive run --help or docs/howto/first_simulation.md", {"run"}, true},
                       {"no data", "", "wormdrive diagnose: error: data is required; see wormdrive diagnose --help or docs/howto/first_diagnosis.md", {"diagnose", "s.toml"}, true},
-                      {"no result", "", "wormdrive plot: error: result is required; see wormdrive plot --help", {"plot"}, true},
+                      {"no result", "", "wormdrive plot: error: files is required; see wormdrive plot --help", {"plot"}, true},
                       {"unknown option", "", "wormdrive run: error: The following argument was not expected: --fast; see wormdrive run --help or docs/howto/first_simulation.md",
                        {"run", "s.toml", "--fast"}, true},
                       {"a study", "[sweep]\ntrials = 3\n",
