@@ -25,7 +25,7 @@ _wormdrive() {
     mapfile -t COMPREPLY < <(compgen -W "${words//,/ }" -- "$current")
     return
   fi
-  mapfile -t COMPREPLY < <(compgen -f -X '!*.@(toml|h5|part|csv|fmu)' -- "$current"; compgen -d -- "$current")
+  mapfile -t COMPREPLY < <(compgen -f -X '!*.@(toml|h5|hdf5|part|csv|mat|fmu)' -- "$current"; compgen -d -- "$current")
 }
 
 # extglob for the pattern above, where the user has it off

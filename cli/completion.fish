@@ -24,7 +24,7 @@ function __wormdrive_complete
     if test -n "$choices"
         string split , $choices
     else
-        __fish_complete_suffix .toml .h5 .part .csv .fmu
+        __fish_complete_suffix .toml .h5 .hdf5 .part .csv .mat .fmu
     end
 end
 

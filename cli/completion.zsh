@@ -24,7 +24,7 @@ _wormdrive() {
   if [[ -n $choices ]]; then
     compadd -- ${(s:,:)choices}
   else
-    _files -g '*.(toml|h5|part|csv|fmu)'
+    _files -g '*.(toml|h5|hdf5|part|csv|mat|fmu)'
   fi
 }
 

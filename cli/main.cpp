@@ -12,6 +12,7 @@
 #include "cli/shell_words.hpp"
 #include "description/keys.hpp"
 #include "output/program.hpp"
+#include "output/resource.hpp"
 
 namespace {
 
@@ -24,9 +25,16 @@ std::string command_line(int argc, char** argv) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
+/// The page that shows a command in ten lines; of any other the one that begins with the first run.
+std::string first_page(std::string_view command) {
+  if (command == "sweep") return documentation_page("howto/first_sweep.md");
+  if (command == "diagnose") return documentation_page("howto/first_diagnosis.md");
+  return documentation_page("howto/first_simulation.md");
+}
+
 /// Why the first word is no command; CLI11 takes a misspelled one for a superfluous argument.
 std::optional<std::string> no_command(const std::vector<std::string>& names, int argc, char** argv) {
-  if (argc < 2) return "wormdrive: error: a command is required; see wormdrive --help";
+  if (argc < 2) return "wormdrive: error: a command is required; see wormdrive --help or " + first_page("");
   const std::string first = argv[1];
   if (first.starts_with('-') || std::find(names.begin(), names.end(), first) != names.end()) return std::nullopt;
   if (const auto meant = probably_meant(first, names))
@@ -38,8 +46,13 @@ std::optional<std::string> no_command(const std::vector<std::string>& names, int
 int told(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   std::string command = "wormdrive";
-  for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
-  std::cerr << fmt::format("{}: error: {}; see {} --help\n", command, error.what(), command);
+  std::string page;
+  for (const CLI::App* parsed : app.get_subcommands()) {
+    command += " " + parsed->get_name();
+    for (const std::string_view shown : {"run", "sweep", "diagnose"})
+      if (parsed->get_name() == shown) page = " or " + first_page(shown);
+  }
+  std::cerr << fmt::format("{}: error: {}; see {} --help{}\n", command, error.what(), command, page);
   return bad_input;
 }
 
@@ -54,7 +67,8 @@ int main(int argc, char** argv) {
   app.set_help_flag("-h,--help", "print this help");
   app.set_version_flag("--version", build_description(), "print the version");
   app.require_subcommand(1);
-  app.footer("wormdrive COMMAND --help explains a command. To start: wormdrive new my_drive.toml");
+  app.footer("wormdrive COMMAND --help explains a command. To start: wormdrive new my_drive.toml, or read\n" +
+             first_page(""));
   CommandSet commands(app, command_line(argc, argv));
   add_drive_commands(commands);
   add_result_commands(commands);

@@ -10,41 +10,39 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "description/rejection.hpp"
-#include "description/toml/csv.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/points/break_in_points.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
-#include "output/hdf5/hdf5.hpp"
+#include "output/resource.hpp"
 
 namespace wormdrive {
 namespace {
 
 DataKind kind_of(const std::string& file, const Scenario& scenario) {
-  if (is_hdf5(file)) return DataKind::recording;
-  const std::vector<std::string> names = read_csv(file).names;
+  if (is_run_file(file)) return DataKind::recording;
+  const DataTable table = read_data_table(file);
   const auto called = [&](std::string_view name) { return recorded_name(name, scenario); };
-  const auto has = [&](std::string_view name) {
-    return std::find(names.begin(), names.end(), called(name)) != names.end();
-  };
+  const auto has = [&](std::string_view name) { return has_recorded(table, name, scenario); };
+  if (is_exported_run(table)) return DataKind::recording;
   if (has("record") && has("worm_speed")) return DataKind::speed_torque_records;
   if (has("time")) return DataKind::recording;
   if (has("load_torque") && has("motor_torque")) return DataKind::break_in_table;
   const std::string torque = called("motor_torque");
-  reject({file, 1},
+  reject(table.header(),
          fmt::format("the columns {} make neither a recording ({}, {}, {}) nor records at constant speed ({}, {}, {}) "
-                     "nor a break-in table ({}, {}); [data] in the scenario tells other names",
-                     fmt::join(names, ", "), called("time"), torque, called("gear_angle"), called("record"),
-                     called("worm_speed"), torque, called("load_torque"), torque));
+                     "nor a break-in table ({}, {}); [data] in the scenario tells other names, see {}",
+                     fmt::join(table.names(), ", "), called("time"), torque, called("gear_angle"), called("record"),
+                     called("worm_speed"), torque, called("load_torque"), torque, documentation_page("recordings.md")));
 }
 
 std::string left_out(const std::string& file, const SpeedTorqueRecord& record, const ImplausibleSample& sample,
                      const Scenario& scenario) {
-  return fmt::format(
-      "{}:{}: record {}: {} = {:g} is {:.0f} robust standard deviations from its record's median; left out", file,
-      sample.line, record.name, recorded_name("motor_torque", scenario), sample.torque, sample.deviations);
+  return fmt::format("{}: record {}: {} = {:g} is {:.0f} robust standard deviations from its record's median; left out",
+                     to_string({file, sample.line}), record.name, recorded_name("motor_torque", scenario),
+                     sample.torque, sample.deviations);
 }
 
 Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& files,

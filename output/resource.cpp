@@ -8,8 +8,9 @@
 
 namespace wormdrive {
 
+namespace fs = std::filesystem;
+
 std::string resource(const std::string& path) {
-  namespace fs = std::filesystem;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) throw OutputFault(fmt::format("cannot find {}: reading /proc/self/exe: {}", path, error.message()));
@@ -18,6 +19,14 @@ std::string resource(const std::string& path) {
     if (fs::path found = fs::canonical(root / path, error); !error) return found.string();
   throw OutputFault(fmt::format("cannot find {} in {} or in {}; install wormdrive again", path, folder.string(),
                                 folder.parent_path().string()));
+}
+
+std::string documentation_page(const std::string& path) {
+  try {
+    return resource("share/doc/wormdrive/docs/" + path);
+  } catch (const OutputFault&) {
+    return "docs/" + path;
+  }
 }
 
 }  // namespace wormdrive

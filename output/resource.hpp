@@ -8,4 +8,8 @@ namespace wormdrive {
 /// moved. Throws OutputFault if there is no such file.
 std::string resource(const std::string& path);
 
+/// Where a page of the documentation stands, "howto/sweep.md": its full path if it is installed with the program, or
+/// else as the sources have it.
+std::string documentation_page(const std::string& path);
+
 }  // namespace wormdrive

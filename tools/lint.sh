@@ -1,8 +1,17 @@
 #!/usr/bin/env bash
 # Style and static analysis, with the tools that are present (Debian: clang-format, clang-tidy; the rules are
-# written for version 14). Takes half an hour on two cores, and no arguments.
+# written for version 14). Takes half an hour on two cores. Usage: tools/lint.sh [--help]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+if (($# > 0)); then
+  if [[ $# == 1 && ($1 == --help || $1 == -h) ]]; then
+    sed -n '2,3s/^# //p' tools/lint.sh
+    exit 0
+  fi
+  echo "lint: '$1' is no argument of it; --help tells what it does" >&2
+  exit 2
+fi
 
 status=0
 mapfile -d '' sources < <(find . \( -path ./build -o -path ./out -o -path ./.git \) -prune \

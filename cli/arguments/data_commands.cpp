@@ -9,9 +9,10 @@ void add_data_commands(CommandSet& commands) {
       commands.add("diagnose", "find the effects that a scenario lacks to predict measured data", diagnose_command);
   add_scenario_options(command, options.scenario);
   command
-      .add_option("data", options.data,
-                  "recordings over time (.csv, .h5), records at constant speed or a break-in table (.csv), recognised "
-                  "by their columns; several files of one kind are diagnosed together")
+      .add_option(
+          "data", options.data,
+          "recordings over time, records at constant speed or a break-in table (.csv, .mat, .h5), recognised by "
+          "their columns; several files of one kind are diagnosed together")
       ->required();
   add_repeated(command, "--load", options.loads, "FILE:KEY=VALUE",
                "load of a recording if it is not that of the scenario: --load heavy.csv:mass_kg=0.9; may be repeated");

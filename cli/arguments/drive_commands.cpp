@@ -74,8 +74,8 @@ void add_steady(CommandSet& commands) {
   add_scenario_options(command, options.scenario);
   command.add_option("-o,--output", options.output, "result file; default: none is written");
   command.add_option("--data", options.data,
-                     "records to compare with the model: a CSV file with the columns record, worm_speed_rad_per_s, "
-                     "motor_torque_Nm");
+                     "records to compare with the model: a file (.csv, .mat, .h5) with the columns record, "
+                     "worm_speed_rad_per_s, motor_torque_Nm");
   command
       .add_option("--max-speed", options.max_speed,
                   "largest worm speed [rad/s]; default: that of the data, or 100 rad/s without data")

@@ -138,10 +138,10 @@ void print_curve(const Curve& curve, Axis axis) {
 void print_comparison(const Comparison& comparison, const std::string& data, const std::string& torque) {
   for (const SpeedTorqueRecord& record : comparison.records)
     for (const ImplausibleSample& s : record.left_out)
-      print_item("left out",
-                 fmt::format("{}:{}: record {}: {} = {:g} is {:.0f} robust standard deviations "
-                             "from its record's median (limit {:.0f})",
-                             data, s.line, record.name, torque, s.torque, s.deviations, implausible_deviations));
+      print_item("left out", fmt::format("{}: record {}: {} = {:g} is {:.0f} robust standard deviations "
+                                         "from its record's median (limit {:.0f})",
+                                         to_string({data, s.line}), record.name, torque, s.torque, s.deviations,
+                                         implausible_deviations));
   print_item("compared",
              fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m", 1e3 * comparison.rms_error,
                          comparison.records.size(), 1e3 * comparison.rms_torque));

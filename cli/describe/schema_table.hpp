@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/field.hpp"
 #include "description/keys.hpp"
 
 namespace wormdrive {

@@ -18,15 +18,16 @@
 namespace wormdrive {
 namespace {
 
-/// A new folder that nobody else may look into; in memory where the system offers that.
+/// A new folder that nobody else may look into, in memory where the system offers that: a disk takes longer than a run.
 std::filesystem::path private_folder() {
-  const char* in_memory = std::getenv("XDG_RUNTIME_DIR");
-  const std::filesystem::path place =
-      in_memory && std::filesystem::is_directory(in_memory) ? in_memory : std::filesystem::temp_directory_path();
-  std::string name = (place / "wormdrive-view-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw OutputFault(fmt::format("{}: cannot be made: {}", name, std::generic_category().message(errno)));
-  return name;
+  const char* const of_user = std::getenv("XDG_RUNTIME_DIR");
+  const std::filesystem::path on_disk = std::filesystem::temp_directory_path();
+  for (const std::filesystem::path& place : {std::filesystem::path(of_user ? of_user : ""), {"/dev/shm"}, on_disk}) {
+    std::string name = (place / "wormdrive-view-XXXXXX").string();
+    if (!place.empty() && mkdtemp(name.data())) return name;
+  }
+  throw OutputFault(
+      fmt::format("{}: no folder can be made there: {}", on_disk.string(), std::generic_category().message(errno)));
 }
 
 std::string assignment(const std::string& key, double value) { return fmt::format("{}={}", key, value); }

@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "description/keys.hpp"
+#include "diagnosis/files/stored_columns.hpp"
+#include "diagnosis/files/unit_in_words.hpp"
 #include "output/hdf5/read_ahead.hpp"
 #include "output/hdf5/stored_table.hpp"
 
@@ -21,31 +23,66 @@ std::vector<Spelling> column_spellings(std::string_view name, const Scenario& sc
 }
 
 /// Why a column is not there: a name of a file that resembles the one sought, or a way to say what it is called.
-std::string missing(const std::string& sought, const std::string& usual, const Csv& csv) {
-  std::string text = fmt::format("no column '{}'; the header line names {}", sought, fmt::join(csv.names, ", "));
+std::string missing(const std::string& sought, const std::string& usual, const DataTable& table) {
+  std::string text =
+      table.csv ? fmt::format("no column '{}'; the header line names {}", sought, fmt::join(table.csv->names, ", "))
+                : fmt::format("no column '{}'; the file has {}", sought, table.described());
   std::vector<std::string> similar;
-  for (const std::string& name : csv.names)
+  for (const std::string& name : table.names())
     if (probably_meant(sought, {name}) || probably_meant(name, {sought})) similar.push_back(name);
   const std::string meant = similar.empty() ? "..." : similar.front();
   if (sought != usual) return text;
   return text + fmt::format("; [data] {} = \"{}\" in the scenario would say which it is", usual, meant);
 }
 
-RecordedTable from_csv(const std::string& path, const Scenario& scenario) {
-  const Csv csv = read_csv(path);
+/// What a quantity is called in a table, and the unit of that name; nothing if it is not there.
+struct FoundColumn {
+  std::string name;
+  std::optional<Unit> unit;  ///< nothing where only what the file states beside the column tells it
+};
+std::optional<FoundColumn> find_recorded(const DataTable& table, std::string_view name, const Scenario& scenario) {
+  const std::vector<Spelling> known = column_spellings(name, scenario);
+  const std::string sought = recorded_name(name, scenario);
+  if (sought != known.front().key) {
+    if (!table.has(sought)) return std::nullopt;
+    return FoundColumn{sought, table.unit(sought).empty() ? std::optional(known.front().unit) : std::nullopt};
+  }
+  for (const Spelling& spelling : known)
+    if (table.has(spelling.key)) return FoundColumn{spelling.key, spelling.unit};
+  const std::string& stem = known.front().stem;
+  if (!table.csv && table.has(stem) && !table.unit(stem).empty()) return FoundColumn{stem, std::nullopt};
+  return std::nullopt;
+}
+
+/// The size in SI of the unit that a file states beside a column; throws InputFault if it is none of that quantity, or
+/// another one than the name says.
+double stated_size(const Location& where, const std::string& column, const std::string& words, std::string_view si,
+                   const std::optional<Unit>& of_name) {
+  const std::optional<double> size = unit_in_words(words, si);
+  if (!size) reject(where, fmt::format("{} is in '{}', which is no unit of a quantity in {}", column, words, si));
+  if (of_name && std::abs(*size / of_name->si - 1.0) > 1e-12)
+    reject(where, fmt::format("{} is in '{}', unlike its name", column, words));
+  return *size;
+}
+
+RecordedTable from_columns(const DataTable& table, const Scenario& scenario) {
   const auto column = [&](std::string_view name, bool required) {
-    return recorded_values(csv, name, scenario, required);
+    return recorded_values(table, name, scenario, required);
   };
-  return {path,
-          true,
-          column("time", true),
-          column("motor_torque", true),
-          column("gear_angle", true),
-          column("worm_angle", false),
-          column("gear_speed", false),
-          scenario.axis,
-          {},
-          {}};
+  RecordedTable recorded{table.path,
+                         table.csv.has_value(),
+                         column("time", true),
+                         column("motor_torque", true),
+                         column("gear_angle", true),
+                         column("worm_angle", false),
+                         column("gear_speed", false),
+                         scenario.axis,
+                         {},
+                         {}};
+  for (const RecordedValues* other : {&recorded.torque, &recorded.angle, &recorded.worm_angle, &recorded.speed})
+    if (!other->values.empty())
+      require_equal_lengths(table, recorded.time.name, recorded.time.values.size(), other->name, other->values.size());
+  return recorded;
 }
 
 /// The rows of a run without a controller that lie on the even grid of its report interval; of the two rows of an event
@@ -73,54 +110,93 @@ void keep_even_rows(RecordedTable& table) {
   }
 }
 
-/// What is recorded of a run, by whoever wrote it: the columns that are needed, all of them equally long.
-RecordedTable from_run(const std::string& path, Axis axis) {
-  read_ahead(path);
-  const Hdf5Handle file = open_hdf5(path);
-  if (!has_member(file, "trajectory"))
-    reject({path}, "there is no run in this file: a recording has a group /trajectory");
-  const bool controlled = has_member(file, "controller");
-  const StoredTable run(file, controlled ? "controller" : "trajectory");
-  run.check({"time", "", ""}, Range::rising);
-  const auto column = [&](const char* name) {
-    run.check({name, "", ""}, Range::any);
-    return RecordedValues{fmt::format("/{}", run.column(name).path()), 1.0, run.column(name).values()};
-  };
+/// What is recorded of a run, whose columns column(name, unit in SI) reads.
+template <class Column>
+RecordedTable run_table(const std::string& path, Axis axis, bool controlled, bool with_worm, const Column& column) {
   RecordedTable table;
   table.path = path;
   table.has_lines = false;
   table.axis = axis;
-  table.time = column("time");
-  table.torque = column(controlled ? "torque" : "motor_torque");
-  table.angle = column(controlled ? "measured_angle" : "gear_angle");
+  table.time = column("time", "s");
+  table.torque = column(controlled ? "torque" : "motor_torque", units_on(axis, "N m"));
+  table.angle = column(controlled ? "measured_angle" : "gear_angle", units_on(axis, "rad"));
   if (controlled) return table;
-  if (run.has("worm_angle")) table.worm_angle = column("worm_angle");
+  if (with_worm) table.worm_angle = column("worm_angle", "rad");
   keep_even_rows(table);
   return table;
 }
 
+/// A run as HDF5, by whoever wrote it: the columns that are needed, all of them equally long.
+RecordedTable from_run(const std::string& path, Axis axis) {
+  const Hdf5Handle file = open_hdf5(path);
+  const bool controlled = has_member(file, "controller");
+  const StoredTable run(file, controlled ? "controller" : "trajectory");
+  run.check({"time", "", ""}, Range::rising);
+  return run_table(path, axis, controlled, run.has("worm_angle"), [&](const std::string& name, std::string_view si) {
+    run.check({name, "", ""}, Range::any);
+    RecordedValues column{fmt::format("/{}", run.column(name).path()), 1.0, run.column(name).values()};
+    const std::string unit = stated_unit(open_object(file, run.column(name).path()));
+    if (!unit.empty()) column.unit = stated_size({path}, column.name, unit, si, std::nullopt);
+    for (double& value : column.values) value *= column.unit;
+    return column;
+  });
+}
+
+RecordedTable from_exported_run(const DataTable& table, Axis axis) {
+  const auto there = [&](std::string_view name) {
+    return std::any_of(table.columns.begin(), table.columns.end(),
+                       [&](const StoredNumbers& column) { return column.name == name; });
+  };
+  const bool controlled = there("controller.time");
+  const std::string in = controlled ? "controller." : "trajectory.";
+  const auto column = [&](const std::string& name, std::string_view si) {
+    RecordedValues values{in + name, 1.0, table.numbers(in + name)};
+    if (const std::string unit = table.unit(values.name); !unit.empty())
+      values.unit = stated_size({table.path}, values.name, unit, si, std::nullopt);
+    for (double& value : values.values) value *= values.unit;
+    const std::size_t rows = table.numbers(in + "time").size();
+    require_equal_lengths(table, in + "time", rows, values.name, values.values.size());
+    return values;
+  };
+  return run_table(table.path, axis, controlled, there(in + "worm_angle"), column);
+}
+
 }  // namespace
+
+bool is_run_file(const std::string& path) {
+  if (!is_hdf5(path)) return false;
+  try {
+    read_ahead(path);
+    return has_member(open_hdf5(path), "trajectory");
+  } catch (const OutputFault& fault) {
+    reject({path}, fault.what());
+  }
+}
+
+bool is_exported_run(const DataTable& table) {
+  return std::any_of(table.columns.begin(), table.columns.end(),
+                     [](const StoredNumbers& column) { return column.name == "trajectory.time"; });
+}
 
 std::string recorded_name(std::string_view name, const Scenario& scenario) {
   return column_name(scenario.columns, column_spellings(name, scenario).front().key);
 }
 
-RecordedValues recorded_values(const Csv& csv, std::string_view name, const Scenario& scenario, bool required) {
-  const std::vector<Spelling> known = column_spellings(name, scenario);
-  const std::string usual = known.front().key;
-  const std::string sought = recorded_name(name, scenario);
-  const auto has = [&](const std::string& column) {
-    return std::find(csv.names.begin(), csv.names.end(), column) != csv.names.end();
-  };
-  RecordedValues column{sought, known.front().unit.si, {}};
-  if (sought == usual)
-    for (const Spelling& spelling : known)
-      if (!has(column.name) && has(spelling.key)) column = {spelling.key, spelling.unit.si, {}};
-  if (!has(column.name)) {
-    if (required || sought != usual) reject({csv.path, 1}, missing(sought, usual, csv));
-    return column;
+bool has_recorded(const DataTable& table, std::string_view name, const Scenario& scenario) {
+  return find_recorded(table, name, scenario).has_value();
+}
+
+RecordedValues recorded_values(const DataTable& table, std::string_view name, const Scenario& scenario, bool required) {
+  const Spelling usual = column_spellings(name, scenario).front();
+  const std::optional<FoundColumn> found = find_recorded(table, name, scenario);
+  if (!found) {
+    const std::string sought = recorded_name(name, scenario);
+    if (required || sought != usual.key) reject(table.header(), missing(sought, usual.key, table));
+    return {sought, usual.unit.si, {}};
   }
-  column.values = csv.numbers(column.name);
+  RecordedValues column{found->name, found->unit ? found->unit->si : 1.0, table.numbers(found->name)};
+  if (const std::string words = table.unit(found->name); !words.empty())
+    column.unit = stated_size(table.header(), found->name, words, usual.unit.symbol, found->unit);
   for (double& value : column.values) value *= column.unit;
   return column;
 }
@@ -136,12 +212,13 @@ Location RecordedTable::where(std::size_t sample) const {
 }
 
 RecordedTable read_recorded_table(const std::string& path, const Scenario& scenario) {
-  if (!is_hdf5(path)) return from_csv(path, scenario);
-  try {
-    return from_run(path, scenario.axis);
-  } catch (const OutputFault& fault) {
-    reject({path}, fault.what());
-  }
+  if (is_run_file(path)) try {
+      return from_run(path, scenario.axis);
+    } catch (const OutputFault& fault) {
+      reject({path}, fault.what());
+    }
+  const DataTable table = read_data_table(path);
+  return is_exported_run(table) ? from_exported_run(table, scenario.axis) : from_columns(table, scenario);
 }
 
 }  // namespace wormdrive

@@ -26,7 +26,7 @@ double quantisation_deviation(std::vector<double> values) {
 }
 
 SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& speeds,
-                            const std::vector<double>& torques, const std::vector<std::size_t>& lines) {
+                            const std::vector<double>& torques, const std::vector<std::uint32_t>& lines) {
   const double centre = median(torques);
   std::vector<double> distances;
   for (const double torque : torques) distances.push_back(std::abs(torque - centre));
@@ -50,10 +50,13 @@ SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& 
 }  // namespace
 
 std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario) {
-  const Csv csv = read_csv(path);
-  const std::vector<std::string>& names = csv.texts(recorded_name("record", scenario));
-  const std::vector<double> speeds = recorded_values(csv, "worm_speed", scenario, true).values,
-                            torques = recorded_values(csv, "motor_torque", scenario, true).values;
+  const DataTable table = read_data_table(path);
+  const std::vector<std::string> names = table.texts(recorded_name("record", scenario));
+  const RecordedValues speed = recorded_values(table, "worm_speed", scenario, true),
+                       torque = recorded_values(table, "motor_torque", scenario, true);
+  for (const RecordedValues* column : {&speed, &torque})
+    require_equal_lengths(table, recorded_name("record", scenario), names.size(), column->name, column->values.size());
+  const std::vector<double>&speeds = speed.values, &torques = torque.values;
   if (names.empty()) reject({path}, "there are no samples below the header line");
   std::vector<std::string> order;
   for (const std::string& name : names)
@@ -61,12 +64,12 @@ std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path
   std::vector<SpeedTorqueRecord> records;
   for (const std::string& name : order) {
     std::vector<double> record_speeds, record_torques;
-    std::vector<std::size_t> lines;
+    std::vector<std::uint32_t> lines;
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (names[k] != name) continue;
       record_speeds.push_back(speeds[k]);
       record_torques.push_back(torques[k]);
-      lines.push_back(k + 2);
+      lines.push_back(table.row(k).line);
     }
     records.push_back(summarise(name, record_speeds, record_torques, lines));
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,8 @@ namespace wormdrive {
 /// A sample that no measurement can have given, with its distance from the record's median in robust standard
 /// deviations.
 struct ImplausibleSample {
-  std::size_t line;  ///< in the CSV file
-  double torque;     ///< [N m]
+  std::uint32_t line;  ///< in a text file, 0 in any other
+  double torque;       ///< [N m]
   double deviations;
 };
 
@@ -26,8 +27,8 @@ struct SpeedTorqueRecord {
 /// Robust standard deviations (1.4826 MAD) beyond which a sample is left out.
 inline constexpr double implausible_deviations = 20.0;
 
-/// Reads a CSV with the columns record, worm_speed_rad_per_s and motor_torque_Nm, or what the scenario calls them;
-/// records in the order of the file. Throws InputFault for a file that cannot be read so.
+/// Reads a CSV, MAT or HDF5 file with the columns record, worm_speed_rad_per_s and motor_torque_Nm, or what the
+/// scenario calls them; records in the order of the file. Throws InputFault for a file that cannot be read so.
 std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario = {});
 
 }  // namespace wormdrive

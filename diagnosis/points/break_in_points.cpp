@@ -73,9 +73,11 @@ Estimate slope(const std::string& name, const std::vector<double>& load, const s
 }  // namespace
 
 std::vector<BreakIn> read_break_in_table(const std::string& path, const Scenario& scenario) {
-  const Csv csv = read_csv(path);
-  const std::vector<double> load = recorded_values(csv, "load_torque", scenario, true).values,
-                            motor = recorded_values(csv, "motor_torque", scenario, true).values;
+  const DataTable file = read_data_table(path);
+  const RecordedValues loads = recorded_values(file, "load_torque", scenario, true),
+                       motors = recorded_values(file, "motor_torque", scenario, true);
+  require_equal_lengths(file, loads.name, loads.values.size(), motors.name, motors.values.size());
+  const std::vector<double>&load = loads.values, &motor = motors.values;
   if (load.size() < fewest)
     reject({path}, fmt::format("{} break-in torques; at least {} are needed, in both directions", load.size(), fewest));
   std::vector<BreakIn> table;

@@ -1,19 +1,11 @@
 #include "output/hdf5/read_ahead.hpp"
 
-#include <cerrno>
-#include <csignal>
-#include <unistd.h>
-
-#include <sys/resource.h>
-#include <sys/wait.h>
-
 #include "output/check_result.hpp"
 #include "output/hdf5/stored_table.hpp"
+#include "output/in_a_copy.hpp"
 
 namespace wormdrive {
 namespace {
-
-constexpr rlim_t seconds = 60;  ///< of processor time: a run of 10^8 rows takes ten
 
 bool writes_results() {
   std::vector<hid_t> files(16);
@@ -78,21 +70,8 @@ void read_all(const std::string& path, bool while_written) {
 
 void read_ahead(const std::string& path, bool while_written) {
   if (!is_hdf5(path) || writes_results()) return;
-  const pid_t child = fork();
-  if (child < 0) return;
-  if (child == 0) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
-    const rlimit time{seconds, seconds}, none{0, 0};
-    setrlimit(RLIMIT_CPU, &time);
-    setrlimit(RLIMIT_CORE, &none);
-    close(STDERR_FILENO);  // the C library's last words on a broken heap
-    attempt([&] { read_all(path, while_written); });
-    _exit(0);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw ReadFault(path, "it is damaged: reading its structure and texts does not come to an end");
+  const bool ends = ends_well_in_a_copy([&] { read_all(path, while_written); });
+  if (!ends) throw ReadFault(path, "it is damaged: reading its structure and texts does not come to an end");
 }
 
 }  // namespace wormdrive

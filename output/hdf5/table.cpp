@@ -27,12 +27,14 @@ Hdf5Handle create_column(hid_t group, const ColumnDescription& column, hid_t spa
   const hid_t type = column.is_flag() ? H5T_STD_I8LE : H5T_IEEE_F64LE;
   Hdf5Handle dataset(H5Dcreate2(group, column.name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
                      H5Dclose, action);
-  write_attribute(dataset, "long_name", column.long_name);
+  write_attribute(dataset, "long_name", column.long_name);  // as CF has it, and as SDF
+  write_attribute(dataset, "COMMENT", column.long_name);
   if (column.is_flag()) {
     write_attribute(dataset, "flag_values", column.flag_values);
     write_attribute(dataset, "flag_meanings", column.flag_meanings);
   } else {
     write_attribute(dataset, "units", column.units);
+    write_attribute(dataset, "UNIT", column.units);
   }
   if (scale < 0)
     check_hdf5(H5DSset_scale(dataset, column.name.c_str()), action);

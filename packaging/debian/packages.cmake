@@ -20,9 +20,7 @@ if(WORMDRIVE_BINDINGS_PYTHON)
   # in Debian's place, which only a package may use; `cmake --install` puts the module where WORMDRIVE_PYTHON_DIR says
   set(DIST_PACKAGES lib/python3/dist-packages/wormdrive)
   install(TARGETS wormdrive_python LIBRARY DESTINATION ${DIST_PACKAGES} COMPONENT debian_python EXCLUDE_FROM_ALL)
-  set(PYTHON ${CMAKE_SOURCE_DIR}/bindings/python/wormdrive)
-  install(FILES ${PYTHON}/__init__.py ${PYTHON}/_core.pyi ${PYTHON}/py.typed DESTINATION ${DIST_PACKAGES}
-          COMPONENT debian_python EXCLUDE_FROM_ALL)
+  install(FILES ${WORMDRIVE_PYTHON_FILES} DESTINATION ${DIST_PACKAGES} COMPONENT debian_python EXCLUDE_FROM_ALL)
 endif()
 
 set(CPACK_COMPONENTS_ALL "")
@@ -66,7 +64,7 @@ ${long}
 
 This package has the libraries, their headers and the package for CMake.")
 set(CPACK_DEBIAN_LIBWORMDRIVE-DEV_PACKAGE_SECTION libdevel)
-set(dev libboost-dev libceres-dev libeigen3-dev libfmt-dev libhdf5-dev libnlopt-dev librandom123-dev libsundials-dev
+set(dev libboost-dev libceres-dev libeigen3-dev libfmt-dev libhdf5-dev libmatio-dev libnlopt-dev librandom123-dev libsundials-dev
         libtomlplusplus-dev nlohmann-json3-dev)
 if(MPI_CXX_FOUND)
   list(APPEND dev libopenmpi-dev)

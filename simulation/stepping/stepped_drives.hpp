@@ -14,7 +14,7 @@ namespace wormdrive {
 
 /// Drives that are stepped together, each under a torque of its own. Those that differ in numbers alone, solved by
 /// power series, moved by nothing but motor, bearings and an arm under gravity, share registers; each gets the bits
-/// that it would get alone. A step in which no event happens allocates nothing.
+/// that it would get alone. A step without an event or a delay allocates nothing.
 class SteppedDrives {
  public:
   /// One drive of each scenario, at least one. Throws InputFault.

@@ -12,6 +12,7 @@
 
 #include "description/one_line.hpp"
 #include "description/toml/document.hpp"
+#include "output/resource.hpp"
 #include "simulation/load_scenario.hpp"
 #include "sweep/study/read_design.hpp"
 #include "sweep/study/read_parameters.hpp"
@@ -186,7 +187,8 @@ Study read(const std::string& text, const std::string& name, const std::optional
   if (root.contains("mesh") && !root.contains("sweep"))
     reject({name},
            "this is a scenario, for wormdrive run; a sweep needs a study, which names the scenario: "
-           "scenario = \"FILE.toml\", [sweep], [[parameter]]");
+           "scenario = \"FILE.toml\", [sweep], [[parameter]]; see " +
+               documentation_page("howto/first_sweep.md"));
   Diagnostics faults;
   const std::string scenario = root["scenario"].value_or(std::string());
   DataColumns data(root, folder);

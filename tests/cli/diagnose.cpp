@@ -144,7 +144,7 @@ TEST_CASE("data of no kind, of two kinds and too few data are rejected, and noth
           {"no kind", "",
            "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_torque_Nm, gear_angle_rad) nor "
            "records at constant speed (record, worm_speed_rad_per_s, motor_torque_Nm) nor a break-in table "
-           "(load_torque_Nm, motor_torque_Nm); [data] in the scenario tells other names",
+           "(load_torque_Nm, motor_torque_Nm); [data] in the scenario tells other names, see docs/recordings.md",
            words("none.csv"), true},
           {"two kinds",
            "",

@@ -177,7 +177,7 @@ TEST_CASE("faults of a recording on a linear axis are reported in its units") {
                    "",
                    "none.csv:1: error: the columns a, b make neither a recording (time_s, motor_force_N, position_m) "
                    "nor records at constant speed (record, worm_speed_m_per_s, motor_force_N) nor a break-in table "
-                   "(load_force_N, motor_force_N); [data] in the scenario tells other names",
+                   "(load_force_N, motor_force_N); [data] in the scenario tells other names, see docs/recordings.md",
                    {"diagnose", "s.toml", "none.csv", "-o", "out"},
                    true}});
 }

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Opens `wormdrive view` in headless Chromium and moves its sliders: live_page.py PROGRAM SCENARIO [CHROMIUM]
 
-What a slider draws is what `wormdrive run --set` writes; a value that cannot be is told; zoom stays; the page follows
-the dark scheme; hostile requests are refused; Ctrl-C leaves nothing behind. Without Chromium only the server is asked.
-Prints how long a slider takes until its run is drawn. One line per fault.
+What a slider draws is what `wormdrive run --set` writes; a value that cannot be is told; zoom stays; keys move sliders
+and press buttons; the page follows the dark scheme; hostile requests are refused; Ctrl-C leaves nothing behind. Without
+Chromium only the server is asked. Prints how long the page takes to open and a slider until its run is drawn. One line per
+fault.
 """
 
 import http.client
@@ -16,10 +17,13 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import urllib.parse
 from pathlib import Path
 
 import h5py
+
+from browser_keys import BrowserKeys
 
 KEY = "mesh.friction"
 QUESTIONS = """<script>
@@ -28,7 +32,15 @@ QUESTIONS = """<script>
   window.addEventListener("error", (e) => faults.push("error: " + e.message), true);
   const drawn = () => new Promise((done) => document.addEventListener("wormdrive:drawn", done, { once: true }));
   const found = { faults, times: [] };
+  const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  const press = async (key) => {
+    const end = drawn();
+    await fetch("press", { method: "POST", body: key });
+    return end;
+  };
   try {
+    await painted();
+    found.opened = performance.now();
     const slider = view.sliders.find((s) => s.key === "mesh.friction"), [, range, number] = slider.row.children;
     const group = report.groups[0], first = report.data.groups[0].panels[0].series[0].values;
     say(group.charts.length >= 4, "no panels");
@@ -62,6 +74,17 @@ QUESTIONS = """<script>
     document.querySelector("#view button").click();
     await end;
     say(document.querySelector("#view .fault").textContent === "" && view.changed.size === 0, "nothing leads back to what is stated");
+    range.focus();
+    const at = Number(range.value);
+    await press("ArrowRight");
+    say(Number(range.value) > at && view.changed.get("mesh.friction") === Number(range.value), "the arrow key moves no slider");
+    say(document.activeElement === range, "a key takes the focus from its slider");
+    press("Tab");
+    await new Promise((done) => { const wait = () => document.activeElement === number ? done() : setTimeout(wait, 5); setTimeout(done, 5000); wait(); });
+    say(document.activeElement === number, "Tab does not lead from a slider to its number");
+    document.querySelector("#view button").focus();
+    await press(" ");
+    say(view.changed.size === 0 && Number(range.value) === at, "the blank does not press the button");
     const dark = matchMedia("(prefers-color-scheme: dark)").matches;
     found.dark = dark;
     say((getComputedStyle(document.getElementById("view")).backgroundColor === "rgb(255, 255, 255)") !== dark, "the scheme is not followed");
@@ -138,8 +161,10 @@ def hostile_requests(viewed):
     return answers
 
 
-def between(viewed, answers):
-    """A server that passes on what the browser asks, and puts the questions into the page."""
+def between(viewed, answers, profile):
+    """A server that passes on what the browser asks, puts the questions into the page and presses the keys it asks for."""
+    keys = []
+
     class Passing(http.server.BaseHTTPRequestHandler):
         protocol_version = "HTTP/1.1"
 
@@ -159,12 +184,20 @@ def between(viewed, answers):
 
         def do_POST(self):
             body = self.rfile.read(int(self.headers["Content-Length"]))
+            if self.path.endswith("/press"):
+                if not keys:
+                    keys.append(BrowserKeys(profile))
+                keys[0].press(body.decode())
+                return self.nothing()
             if not self.path.endswith("/answer"):
                 return self.pass_on("POST", body)
             answers.append(json.loads(body))
+            self.nothing()
+            come.set()
+
+        def nothing(self):
             self.send_response(204)
             self.end_headers()
-            come.set()
 
         def log_message(self, *words):
             pass
@@ -177,10 +210,11 @@ def between(viewed, answers):
 
 def faults_of_page(viewed, chromium, program, scenario, folder, *options):
     answers = []
-    server, come = between(viewed, answers)
+    profile = f"{folder}/browser{len(options)}"
+    server, come = between(viewed, answers, profile)
     address = f"http://127.0.0.1:{server.server_address[1]}{viewed.address.path}"
     browser = subprocess.Popen([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0",
-                                f"--user-data-dir={folder}/browser{len(options)}", *options, address], stderr=subprocess.DEVNULL)
+                                f"--user-data-dir={profile}", *options, address], stderr=subprocess.DEVNULL)
     come.wait(120)
     browser.terminate()
     browser.wait()
@@ -198,14 +232,17 @@ def faults_of_page(viewed, chromium, program, scenario, folder, *options):
         if len(angles) != len(found["angles"]) or any(abs(a - b) > 1e-7 * abs(a) + 1e-30 for a, b in zip(angles, found["angles"])):
             faults.append("the page shows another run than wormdrive run writes")
         times = sorted(found["times"])
+        print(f"the page opens in {found['opened']:.0f} ms; ", end="")
         print(f"a slider is followed in {times[len(times) // 2]:.0f} ms (median of {len(times)}, at most {times[-1]:.0f} ms)")
     return faults
 
 
 def main(program, scenario, chromium=None):
     faults = []
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(dir="/dev/shm" if os.path.isdir("/dev/shm") else None) as folder:
+        begin = time.monotonic()
         viewed = Viewed(program, scenario, folder=folder)
+        print(f"the program serves after {1e3 * (time.monotonic() - begin):.0f} ms")
         if viewed.ask("GET", viewed.address.path)[0] != 200:
             faults.append("the page cannot be had")
         if oct(next(Path(folder).glob("wormdrive-view-*")).stat().st_mode)[-3:] != "700":
