@@ -177,6 +177,40 @@ std::vector<ControllerRejection> controller_rejections(const Scenario& scenario)
   return list;
 }
 
+std::vector<ControllerRejection> sampling_rejections(const Scenario& scenario) {
+  constexpr double most_samples = 1e9;  // of a run; whoever asks for more has slipped in the unit
+  if (!scenario.control) return {};
+  const SamplingSettings& sampling = scenario.control->sampling;
+  const double duration = scenario.run.duration, period = sampling.period;
+  if (duration <= 0.0 || period <= 0.0) return {};
+  std::vector<ControllerRejection> list;
+  if (period > duration)
+    list.push_back({"sample_time_s", fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s",
+                                                 period, duration)});
+  else if (duration > most_samples * period)
+    list.push_back({"sample_time_s",
+                    fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are allowed",
+                                period, duration / period, most_samples)});
+  if (sampling.offset >= duration)
+    list.push_back(
+        {"sample_offset_s", fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s",
+                                        sampling.offset, duration)});
+  return list;
+}
+
+std::optional<ControllerRejection> window_rejection(const Scenario& scenario) {
+  if (!scenario.control) return std::nullopt;
+  const MetricsWindow& window = scenario.control->window;
+  const double duration = scenario.run.duration;
+  if (window.from >= window.to)
+    return ControllerRejection{
+        "from_s", fmt::format("metrics.from_s = {} s must be less than to_s = {} s", window.from, window.to)};
+  if (duration > 0.0 && window.from >= duration)
+    return ControllerRejection{
+        "from_s", fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration)};
+  return std::nullopt;
+}
+
 std::string taylor_without_states(std::string_view id) {
   return fmt::format(
       "run.solver = \"taylor\" carries no states of effects, but effect.{} has one; set run.solver = \"cvode\"", id);
@@ -190,6 +224,8 @@ std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {
 std::optional<std::string> why_it_cannot_run(const Scenario& scenario) {
   if (auto why = why_the_drive_cannot_run(scenario)) return why;
   if (const auto controller = controller_rejections(scenario); !controller.empty()) return controller.front().what;
+  if (const auto sampling = sampling_rejections(scenario); !sampling.empty()) return sampling.front().what;
+  if (const auto window = window_rejection(scenario)) return window->what;
   return std::nullopt;
 }
 

@@ -21,11 +21,15 @@ std::optional<std::string> why_it_cannot_move(const Scenario& scenario);
 /// Why the solver "taylor" does not run a scenario where an effect with this id has a state.
 std::string taylor_without_states(std::string_view id);
 
-/// A key of [controller] whose values give no controller.
+/// A key of a controller's table whose values give no controlled run.
 struct ControllerRejection {
   std::string key, what;
 };
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario);
+/// The same for the times of its samples; none before a duration is stated.
+std::vector<ControllerRejection> sampling_rejections(const Scenario& scenario);
+/// Why metrics have no samples.
+std::optional<ControllerRejection> window_rejection(const Scenario& scenario);
 
 /// The first reason that lies in the drive: an effect or a friction that cannot be.
 std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario);

@@ -13,8 +13,6 @@
 namespace wormdrive {
 namespace {
 
-constexpr double most_samples = 1e9;  ///< of a run; whoever asks for more has slipped in the unit
-
 template <class Parameters>
 void read_law(TableReader& table, Parameters& parameters, const std::string&) {
   table.read_fields(parameters);
@@ -65,7 +63,8 @@ class ControlReader {
   }
   void read_controller(TableReader& table, ControlScenario& control) {
     table.read_fields(control.sampling);
-    check_sampling(table, control.sampling);
+    require_whole(table, "delay_samples", control.sampling.delay);
+    for (const ControllerRejection& refusal : sampling_rejections(scenario_)) table.fault(refusal.key, refusal.what);
     table.section("nominal", [&](TableReader& nominal) { nominal.read_fields(control.nominal); });
     table.section("variation", [&](TableReader& variation) {
       variation.read_fields(control.variations);
@@ -107,32 +106,9 @@ class ControlReader {
                               *method));
   }
 
-  void check_sampling(TableReader& table, const SamplingSettings& sampling) {
-    const double duration = scenario_.run.duration, period = sampling.period;
-    require_whole(table, "delay_samples", sampling.delay);
-    if (duration <= 0.0 || period <= 0.0) return;
-    if (period > duration)
-      table.fault("sample_time_s",
-                  fmt::format("controller.sample_time_s = {} s must be at most the duration, {} s", period, duration));
-    else if (duration > most_samples * period)
-      table.fault("sample_time_s",
-                  fmt::format("controller.sample_time_s = {} s would give {:.3g} samples; at most {:g} are allowed",
-                              period, duration / period, most_samples));
-    if (sampling.offset >= duration)
-      table.fault("sample_offset_s",
-                  fmt::format("controller.sample_offset_s = {} s must be less than the duration, {} s", sampling.offset,
-                              duration));
-  }
-
   void read_window(TableReader& metrics, MetricsWindow& window) {
     metrics.read_fields(window);
-    const double duration = scenario_.run.duration;
-    if (window.from >= window.to)
-      metrics.fault("from_s",
-                    fmt::format("metrics.from_s = {} s must be less than to_s = {} s", window.from, window.to));
-    else if (duration > 0.0 && window.from >= duration)
-      metrics.fault("from_s",
-                    fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration));
+    if (const auto refusal = window_rejection(scenario_)) metrics.fault(refusal->key, refusal->what);
   }
 
   TableReader& root_;

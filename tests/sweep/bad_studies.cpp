@@ -46,6 +46,32 @@ high = 2e-3
   CHECK(outcome.out.find("must be at least the sample time, 0.001 s") != std::string::npos);
 }
 
+TEST_CASE("trials whose samples or metrics do not fit into the run are refused, as their scenarios are", "[sweep]") {
+  struct Key {
+    std::string name, low, high, message;
+  };
+  for (const Key& key :
+       std::vector<Key>{{"controller.sample_time_s", "1e-12", "1e-11", "at most 1e+09 are allowed"},
+                        {"controller.sample_time_s", "0.2", "0.3", "must be at most the duration, 0.1 s"},
+                        {"controller.sample_offset_s", "0.1", "0.3", "must be less than the duration, 0.1 s"},
+                        {"metrics.from_s", "0.1", "0.3", "must be less than the duration, 0.1 s"}}) {
+    const StudyFolder folder("scenario = \"" + shipped("fig10_sliding_014rad_bare.toml") + R"("
+set = ["run.solver=taylor", "run.duration_s=0.1", "metrics.from_s=0"]
+[sweep]
+design = "monte_carlo"
+trials = 3
+[[parameter]]
+path = ")" + key.name + R"("
+distribution = "uniform"
+low = )" + key.low +
+                             "\nhigh = " + key.high + "\n");
+    const Outcome outcome = folder.sweep({"-o", "out.h5", "--referee", "0"});
+    INFO(key.name << outcome.out << outcome.err);
+    for (const double status : folder.column("out.h5", "status")) CHECK(status == 2.0);
+    CHECK(outcome.out.find(key.message) != std::string::npos);
+  }
+}
+
 TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
   const std::vector<BadStudy> cases{
       {"path = \"mesh.friction\"", "path = \"mesh.frction\"",
