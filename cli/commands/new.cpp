@@ -182,9 +182,9 @@ std::vector<std::string> new_kinds() {
 
 int new_command(const NewOptions& options) {
   const auto kind = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == options.kind; });
-  std::string text =
-      fmt::format("# Run it: wormdrive {} {}. Every key: {}.\ntitle = \"{}\"\n", kind->command,
-                  std::filesystem::path(options.file).filename().string(), documentation_page(std::string(kind->page)), kind->title);
+  std::string text = fmt::format("# Run it: wormdrive {} {}. Every key: {}.\ntitle = \"{}\"\n", kind->command,
+                                 std::filesystem::path(options.file).filename().string(),
+                                 documentation_page(std::string(kind->page)), kind->title);
   if (kind->command == "run") text += '\n';
   for (const std::string_view part : kind->parts) text += part;
   errno = 0;

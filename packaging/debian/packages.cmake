@@ -88,8 +88,12 @@ This package has the module for Python: runs as NumPy arrays.")
 endif()
 include(CPack)
 
+# Without dpkg-shlibdeps CPack makes packages that depend on nothing, and says so in passing only.
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+set(NO_SHLIBDEPS "packages need dpkg-shlibdeps (Debian: dpkg-dev); install it and configure again")
 # Outside the tests: needs root, and Debian's mmdebstrap and lintian.
-add_custom_target(packages COMMAND ${CMAKE_COMMAND} -E rm -rf ${CPACK_PACKAGE_DIRECTORY}
+add_custom_target(packages COMMAND sh -c "test -x '${DPKG_SHLIBDEPS}' || { echo '${NO_SHLIBDEPS}' >&2; exit 1; }"
+                  COMMAND ${CMAKE_COMMAND} -E rm -rf ${CPACK_PACKAGE_DIRECTORY}
                   COMMAND ${CMAKE_CPACK_COMMAND} -G DEB WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
                   VERBATIM DEPENDS wormdrive wormdrive_fmu manual ${LIBRARIES})
 if(WORMDRIVE_BINDINGS_PYTHON)
