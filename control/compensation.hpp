@@ -16,6 +16,11 @@ template <class V>
   return select(fast, 0.0, -C * load);
 }
 
+inline double break_in_compensation(const NominalModel& nominal, double load, double speed, double desired_speed,
+                                    double epsilon) {
+  return break_in_compensation<double>(nominal.C1, nominal.C2, load, speed, desired_speed, epsilon);
+}
+
 /// Where the direction that selects a controller's branch is forward: that of the measured speed, at zero speed of the
 /// reference.
 template <class V>
