@@ -14,6 +14,7 @@
 #include "events/taylor/equation.hpp"
 #include "events/taylor/input.hpp"
 #include "events/taylor/leap.hpp"
+#include "events/taylor/nominal_effects.hpp"
 #include "events/taylor/series_step.hpp"
 #include "events/taylor/stribeck.hpp"
 
@@ -50,45 +51,14 @@ class NominalFlow<WormDrive<double, Load>> {
         late_(system.effects().delay()),
         surface_(system.surface()) {
     if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
-    Bearings bearings;
-    BearingAsymmetry<double> uneven{};
-    double asymmetry = 0.0;  // of the friction between the teeth
-    system.effects().for_each([&]<class E>(const std::optional<E>& effect) {
-      if (!effect) return;
-      if constexpr (is_affine_motor<E>)
-        response_ = response_.with(*effect);
-      else if constexpr (std::is_same_v<E, WormCoulomb<double>>)
-        bearings.worm_coulomb = effect->torque;
-      else if constexpr (std::is_same_v<E, GearCoulomb<double>>)
-        bearings.gear_coulomb = effect->torque;
-      else if constexpr (std::is_same_v<E, WormViscous<double>>)
-        bearings.worm_viscous += effect->coefficient * system.mesh().i;
-      else if constexpr (std::is_same_v<E, GearViscous<double>>)
-        bearings.gear_viscous = effect->coefficient;
-      else if constexpr (std::is_same_v<E, BearingAsymmetry<double>>)
-        uneven = *effect;
-      else if constexpr (std::is_same_v<E, Stribeck<double>>)
-        curve_ = {*effect, system.mesh()};
-      else if constexpr (std::is_same_v<E, FrictionAsymmetry<double>>)
-        asymmetry = effect->change;
-      else if constexpr (!swings && std::is_same_v<E, LoadMagnitude<double>>)
-        load_gain_ = 1.0 + effect->share;
-      else if constexpr (!contained<E>)
-        covers_ = false;
-    });
-    const GearMesh<double>& mesh = system.mesh();
-    bearings.worm_viscous += response_.brake * mesh.i;
-    for (int motion : {-1, 1}) {
-      const double mu = (curve_.falls() ? curve_.least_friction() : mesh.mu) + motion * asymmetry;
-      Bearings here = bearings;
-      here.worm_coulomb += motion * uneven.torque;
-      here.worm_viscous += motion * uneven.coefficient * mesh.i;
-      for (int flank : {-1, 0, 1}) {
-        const int at = index(motion, flank);
-        equations_[at] = {mesh, mu, system.Jg(), response_, here, amplitude(), surface_, motion, flank};
-        equations_[at].fall = curve_.branch(mesh, mu, system.Jg(), motion * flank);
-      }
-    }
+    const NominalEffects<swings> effects(system);
+    covers_ = effects.are_covered;
+    response_ = effects.response;
+    curve_ = effects.curve;
+    load_gain_ = effects.load_gain;
+    for (int motion : {-1, 1})
+      for (int flank : {-1, 0, 1})
+        equations_[index(motion, flank)] = effects.equation(system, amplitude(), surface_, motion, flank);
   }
 
   /// False with an effect that this flow does not know.
@@ -218,13 +188,6 @@ class NominalFlow<WormDrive<double, Load>> {
     if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
   }
 
-  /// Effects that inertias and inputs, as the system tells them, contain, and those that do not touch a motion.
-  template <class E>
-  static constexpr bool contained = std::is_same_v<E, TorqueSaturation<double>> ||
-                                    std::is_same_v<E, ActuatorDelay<double>> ||
-                                    std::is_same_v<E, WormInertia<double>> || std::is_same_v<E, GearInertia<double>> ||
-                                    (!swings && std::is_same_v<E, LoadAngle<double>>) ||
-                                    std::is_same_v<E, StaticFriction<double>> || E::place == Place::sensor;
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   const NominalEquation& equation(Mode mode) const { return equations_[index(sign(mode.motion), sign(mode.flank))]; }
   /// What is held beside the command.
