@@ -63,7 +63,8 @@ class LaneRunOf final : public LaneRun {
         solver_(drive_, scenario.run.solver_settings()),
         run_(drive_, solver_, scenario, nobody_),
         nominal_(make_nominal(scenario)),
-        watch_(scenario.control->window, scenario.control->law, lemma1(nominal_, make_variations(scenario))),
+        lemma_(lemma1(nominal_, make_variations(scenario))),
+        watch_(scenario.control->window, scenario.control->law, lemma_),
         progress_{run_.timetable(*scenario.control), run_.start(), EventLog()} {}
   LaneRunOf(const LaneRunOf&) = delete;  // solver and run point into it
   LaneRunOf& operator=(const LaneRunOf&) = delete;
@@ -108,9 +109,9 @@ class LaneRunOf final : public LaneRun {
                             .omega = 0.0,
                             .filler = 0.0};
     if (const auto* const sliding = std::get_if<SlidingParameters>(&control.law))
-      trial.sliding = make_controller(*sliding, nominal_, make_variations(scenario_)).law();
+      trial.sliding = {*sliding, nominal_, SlidingBounds(*sliding, lemma_)};
     if (const auto* const pid = std::get_if<PidParameters>(&control.law))
-      trial.pid = PidController(*pid, nominal_).law();
+      trial.pid = {lqr_gains(*pid, mean_inertia(nominal_)), *pid, nominal_};
     leave(trial);
     trial.speed.start(drive_.measured_angle(progress_.now));
     lane.write(trial);
@@ -180,6 +181,7 @@ class LaneRunOf final : public LaneRun {
   Solver solver_;
   DriveRun<Drive, Solver> run_;
   NominalModel nominal_;
+  Lemma1 lemma_;
   ControlWatch watch_;
   Progress<Drive> progress_;
   long next_ = 0;  ///< sample up to which it has come alone
