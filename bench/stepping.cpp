@@ -4,24 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <new>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "description/toml/parse_scenario.hpp"
 #include "simulation/stepping/stepped_drives.hpp"
-
-namespace {
-long allocations = 0;
-}
-void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/simulation/programs/stepped_gear.hpp"
 
 using namespace wormdrive;
 
@@ -32,11 +21,6 @@ double cpu_time() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-constexpr const char* gear =
-    "[mesh]\nratio = 60\nlead_angle_deg = 4\npressure_angle_deg = 20\nworm_pitch_radius_m = 0.011\n"
-    "gear_pitch_radius_m = 0.045\nfriction = 0.25\nworm_inertia_kgm2 = 2.53e-5\ngear_inertia_kgm2 = 7.39e-4\n"
-    "[load]\nkind = \"gravity_arm\"\ntorque_Nm = 0.0196\n[run]\nduration_s = 1\n";
 
 /// Torques that hold for twenty steps, as of an agent that acts at 50 Hz on a drive that is stepped at 1 kHz.
 class Agent {

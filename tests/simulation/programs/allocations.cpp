@@ -2,33 +2,17 @@
 // keeps the torques on their way in a queue, which allocates now and then.) A program of its own: it counts what the
 // whole process allocates. Prints one line per fault; exit status 1 if there is any.
 #include <cstdlib>
-#include <new>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "description/toml/parse_scenario.hpp"
 #include "simulation/stepping/stepped_drives.hpp"
-
-namespace {
-long allocations = 0;
-}
-void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/simulation/programs/stepped_gear.hpp"
 
 using namespace wormdrive;
 
 namespace {
-
-constexpr const char* gear =
-    "[mesh]\nratio = 60\nlead_angle_deg = 4\npressure_angle_deg = 20\nworm_pitch_radius_m = 0.011\n"
-    "gear_pitch_radius_m = 0.045\nfriction = 0.25\nworm_inertia_kgm2 = 2.53e-5\ngear_inertia_kgm2 = 7.39e-4\n"
-    "[load]\nkind = \"gravity_arm\"\ntorque_Nm = 0.0196\n[run]\nduration_s = 1\n";
 
 long events_of(const SteppedDrives& drives) {
   long all = 0;
