@@ -34,10 +34,17 @@ struct Shown {
   }
 };
 
+/// The gear angle [rad] that an encoder on the gear's shaft or on the worm's shows.
+template <class Drive, class M>
+auto encoder_angle(const Drive& drive, const M& at, bool on_worm) {
+  return drive.effects().measured_angle(on_worm ? at.theta_w / drive.mesh().i : at.theta_g);
+}
+
 /// At a time [s], with states and a motor that is told a torque [N m]; the mode is that of an instant.
 template <class S, class Load>
 auto show(const WormDrive<double, Load>& drive, const Indicators<WormDrive<double, Load>>& indicators,
-          const typename WormDrive<double, Load>::Instant& now, const S& t, const std::array<S, 2>& x, const S& told) {
+          const typename WormDrive<double, Load>::Instant& now, const S& t, const std::array<S, 2>& x, const S& told,
+          bool on_worm) {
   const Mode mode = now.mode;
   CommandedMoment<S> at{drive.moment(t, x[0], x[1]), told};
   const bool stuck = mode.motion == Motion::stuck;
@@ -48,13 +55,13 @@ auto show(const WormDrive<double, Load>& drive, const Indicators<WormDrive<doubl
       {stuck ? S(0.0) : x[1], acceleration},
       drive.inputs(at, mode.motion).worm,
       drive.normal_force(drive.side_torques(at, mode.motion), at, acceleration, mode),
-      drive.effects().measured_angle(x[0]),
+      encoder_angle(drive, at, on_worm),
       indicators.all(drive.guards(at, mode), now)};
 }
 template <class S, class Load>
 auto show(const CompliantDrive<double, Load>& drive, const Indicators<CompliantDrive<double, Load>>& indicators,
           const typename CompliantDrive<double, Load>::Instant& now, const S& t, const std::array<S, 4>& x,
-          const S& told) {
+          const S& told, bool on_worm) {
   const CompliantMode mode = now.mode;
   const CommandedMoment<S> at{drive.moment(t, x[0], x[1], x[2], x[3]), told};
   const auto a = drive.accelerations(at, mode);
@@ -63,7 +70,7 @@ auto show(const CompliantDrive<double, Load>& drive, const Indicators<CompliantD
                                                 {rate(mode.worm, x[1]), a.worm, rate(mode.gear, x[3]), a.gear},
                                                 drive.rigid().inputs(at, mode.gear).worm,
                                                 drive.normal_force(at, mode),
-                                                drive.effects().measured_angle(x[2]),
+                                                encoder_angle(drive, at, on_worm),
                                                 indicators.all(drive.guards(at, mode), now)};
 }
 
@@ -89,7 +96,7 @@ int derivative_by(unsigned reference) {
 }
 
 /// With the derivatives by the states in their order and by a torque [N m] that the motor is told. Beyond its limit
-/// nothing follows from that.
+/// nothing follows from that. The encoder sits on the gear, for a controller outside.
 template <class Drive>
 auto linearize(const Drive& drive, const Indicators<Drive>& indicators, const typename Drive::Instant& now,
                double told) {
@@ -99,12 +106,13 @@ auto linearize(const Drive& drive, const Indicators<Drive>& indicators, const ty
   for (int k = 0; k < states; ++k) x[k] = Jet(now.x[k], k);
   Jet given(motor_of(drive)(now.t));
   if (std::abs(told) <= drive.torque_limit()) given.v[states] = 1.0;
-  return show(drive, indicators, now, Jet(now.t), x, given);
+  return show(drive, indicators, now, Jet(now.t), x, given, false);
 }
 
 /// With the derivatives by time, along the motion.
 template <class Drive>
-auto along_motion(const Drive& drive, const Indicators<Drive>& indicators, const typename Drive::Instant& now) {
+auto along_motion(const Drive& drive, const Indicators<Drive>& indicators, const typename Drive::Instant& now,
+                  bool on_worm) {
   using Jet = ceres::Jet<double, 1>;
   const auto rate = drive.derivative(now.t, now.x, now.mode);
   std::array<Jet, Drive::state_size> x;
@@ -113,7 +121,7 @@ auto along_motion(const Drive& drive, const Indicators<Drive>& indicators, const
     x[k].v[0] = rate[k];
   }
   const Jet t(now.t, 0);
-  return show(drive, indicators, now, t, x, motor_of(drive)(t));
+  return show(drive, indicators, now, t, x, motor_of(drive)(t), on_worm);
 }
 
 }  // namespace wormdrive

@@ -124,13 +124,9 @@ class StepRun {
   }
   std::array<double, indicator_count> indicators() const { return indicators_.all(drive_, progress_.now); }
   /// What is shown, with the derivatives by time. Of an event that is not taken it is that just behind it.
-  auto along_motion() const { return wormdrive::along_motion<Drive>(drive_, indicators_, progress_.now); }
+  auto along_motion() const { return wormdrive::along_motion<Drive>(drive_, indicators_, progress_.now, on_worm_); }
   Observation observe() const { return left_ ? left_->at : drive_.observe(progress_.now); }
-  double measured_angle() const {
-    const Instant& now = progress_.now;
-    if (!on_worm_) return drive_.measured_angle(now);
-    return drive_.effects().measured_angle(drive_.moment(now).theta_w / drive_.mesh().i);
-  }
+  double measured_angle() const { return encoder_angle(drive_, drive_.moment(progress_.now), on_worm_); }
   const EventTally& events() const { return left_ ? left_->events : events_; }
 
   // ---- as numbers ------------------------------------------------------------------------------------------------

@@ -67,6 +67,12 @@ TEST_CASE("outputs have the rates with which they change") {
   followed.insert(followed.end(), {"reference_angle", "reference_speed"});
   rates_are_differences(
       Exported(shipped("fig10_sliding_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop), followed);
+  rates_are_differences(  // an encoder on the worm
+      Exported(shipped("fig10_sliding_014rad_bare.toml"),
+               {"run.duration_s=1", "metrics.from_s=0", "sensor.shaft=worm",
+                "effect.transmission_error.amplitude_deg=0.5", "effect.transmission_error.phase_deg=30"},
+               loop),
+      {"gear_angle", "gear_speed", "measured_angle"});
 }
 
 TEST_CASE("FMI 3.0: outputs have the rates of FMI 2.0") {
