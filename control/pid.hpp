@@ -114,9 +114,6 @@ class PidController {
     decided_ = signals.torque;
     return signals;
   }
-  /// As it was before its first sample.
-  const PidLawOf<double>& law() const { return law_; }
-  const NominalModel& nominal() const { return nominal_; }
   /// Calls visit(number) for every number that samples change.
   template <class Visit>
   void visit_memory(Visit&& visit) {

@@ -147,9 +147,6 @@ class SlidingController {
   /// Time constant of the anti-windup [s], that of the error within the layer.
   double tracking_time() const { return 1.0 / lambda_c_; }
   void prevent_windup(const IntegralGrowth& growth) { growth_ = growth; }
-  /// As it was before its first sample.
-  const SlidingLawOf<double>& law() const { return law_; }
-  const NominalModel& nominal() const { return nominal_; }
   template <class Visit>
   void visit_memory(Visit&& visit) {
     law_.visit_memory(visit);
