@@ -97,4 +97,12 @@ class Lemma1Monitor {
   Lemma1Quiet<double> quiet_;
 };
 
+/// How often a run that ended at a time [s] broke a promise. One about what comes after the layer was reached, or after
+/// the run settled, is not kept by a run that never came to that: not a number.
+inline double judged_violations(const Lemma1Monitor& lemma, const Violation& promise, double end) {
+  const bool was_judged = promise.name == "definition" ||
+                          (promise.name == "layer" ? !std::isnan(lemma.reached()) : lemma.quiet().settled < end);
+  return was_judged ? static_cast<double>(promise.count) : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace wormdrive

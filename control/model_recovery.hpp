@@ -14,9 +14,10 @@ namespace wormdrive {
 /// proximate time-optimal control [M. L. Workman, R. L. Kosut, G. F. Franklin, Proc. CDC 1987, 1549-1553].
 class ModelRecovery {
  public:
-  /// tracking_time [s]: near 0 the model has a double pole at half its inverse.
+  /// tracking_time [s]: near 0 the model has a double pole at half its inverse. Between samples it is one of them at
+  /// least, as what is faster would go beyond 0 at every one.
   ModelRecovery(const NominalModel& nominal, double tracking_time)
-      : nominal_(nominal), inertia_(mean_inertia(nominal)), rate_(1.0 / tracking_time), slope_(0.25 * rate_) {}
+      : nominal_(nominal), inertia_(mean_inertia(nominal)), rate_(1.0 / tracking_time) {}
 
   /// What law(seen) decides for the drive that it is shown, with the torque that brings the model back.
   template <class Law>
@@ -29,7 +30,8 @@ class ModelRecovery {
     seen.speed -= speed_;
     ControlSignals decided = law(seen);
     asked_ = decided.torque;
-    decided.torque += inertia_ * rate_ * (wanted_speed(m) - speed_);
+    const double rate = std::min(rate_, 1.0 / m.period);  // no limit at the first sample, where the model is at rest
+    decided.torque += inertia_ * rate * (wanted_speed(m, 0.25 * rate) - speed_);
     return decided;
   }
   /// Calls visit(number) for every number that samples change.
@@ -46,20 +48,20 @@ class ModelRecovery {
   static constexpr double share = 0.8;
 
   /// The speed at which the model still comes to rest at 0: linear near 0, then as braking allows.
-  double wanted_speed(const Measurement& m) const {
+  double wanted_speed(const Measurement& m, double slope) const {
     const double hold = std::max(std::abs(nominal_.C1), std::abs(nominal_.C2)) * std::abs(nominal_.load(m.angle));
     const double braking = share * std::max(m.limit - hold, 0.0) / inertia_, distance = std::abs(angle_);
-    const double near = braking / (slope_ * slope_);
-    if (distance < near) return -slope_ * angle_;
+    const double near = braking / (slope * slope);
+    if (distance < near) return -slope * angle_;
     return -std::copysign(std::sqrt(braking * (2.0 * distance - near)), angle_);
   }
 
   NominalModel nominal_;
-  double inertia_;       ///< [kg m^2]
-  double rate_, slope_;  ///< [1/s]
-  double angle_ = 0.0;   ///< of the model: by how much the drive is ahead of one without a limit [rad]
-  double speed_ = 0.0;   ///< likewise [rad/s]
-  double asked_ = 0.0;   ///< by the law at the sample before [N m]
+  double inertia_;      ///< [kg m^2]
+  double rate_;         ///< [1/s]
+  double angle_ = 0.0;  ///< of the model: by how much the drive is ahead of one without a limit [rad]
+  double speed_ = 0.0;  ///< likewise [rad/s]
+  double asked_ = 0.0;  ///< by the law at the sample before [N m]
 };
 
 }  // namespace wormdrive

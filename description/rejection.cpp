@@ -177,6 +177,29 @@ std::vector<ControllerRejection> controller_rejections(const Scenario& scenario)
   return list;
 }
 
+std::optional<ControllerRejection> variation_rejection(const Scenario& scenario) {
+  if (!scenario.control) return std::nullopt;
+  const Variations& variations = scenario.control->variations;
+  if (!variations.friction || (variations.C1 <= 0.0 && variations.C2 <= 0.0)) return std::nullopt;
+  return ControllerRejection{
+      "friction",
+      "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"};
+}
+
+std::vector<ControllerRejection> sensor_rejections(const Scenario& scenario) {
+  if (!scenario.control || !scenario.control->sensor.exact_speed) return {};
+  const SensorSettings& sensor = scenario.control->sensor;
+  std::vector<ControllerRejection> list;
+  // An exact speed is none that was made of counts, noise or a filtered difference.
+  for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
+                                   std::pair{"speed_filter_Hz", sensor.filter_cutoff}})
+    if (value > 0.0)
+      list.push_back({key, fmt::format("sensor.{} = {:g} has no effect with speed = \"exact\"; remove it, or use speed "
+                                       "= \"difference\"",
+                                       key, value)});
+  return list;
+}
+
 std::vector<ControllerRejection> sampling_rejections(const Scenario& scenario) {
   constexpr double most_samples = 1e9;  // of a run; whoever asks for more has slipped in the unit
   if (!scenario.control) return {};
@@ -224,6 +247,8 @@ std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {
 std::optional<std::string> why_it_cannot_run(const Scenario& scenario) {
   if (auto why = why_the_drive_cannot_run(scenario)) return why;
   if (const auto controller = controller_rejections(scenario); !controller.empty()) return controller.front().what;
+  if (const auto variation = variation_rejection(scenario)) return variation->what;
+  if (const auto sensor = sensor_rejections(scenario); !sensor.empty()) return sensor.front().what;
   if (const auto sampling = sampling_rejections(scenario); !sampling.empty()) return sampling.front().what;
   if (const auto window = window_rejection(scenario)) return window->what;
   return std::nullopt;

@@ -26,6 +26,9 @@ struct ControllerRejection {
   std::string key, what;
 };
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario);
+/// The same for the keys of [controller.variation] and of [sensor].
+std::optional<ControllerRejection> variation_rejection(const Scenario& scenario);
+std::vector<ControllerRejection> sensor_rejections(const Scenario& scenario);
 /// The same for the times of its samples; none before a duration is stated.
 std::vector<ControllerRejection> sampling_rejections(const Scenario& scenario);
 /// Why metrics have no samples.

@@ -92,11 +92,12 @@ class CvodeSolver {
     }
     if (ahead_.t <= next) {
       now = ahead_;
-      return fired_;
+    } else {
+      now.t = next;
+      now.x = state_at(std::clamp(next - origin_, clock_ - step_, clock_));
     }
-    now.t = next;
-    now.x = state_at(std::clamp(next - origin_, clock_ - step_, clock_));
-    return no_guard;
+    if constexpr (Foresees<System>) now = system_.within_mode(now);
+    return ahead_.t <= next ? fired_ : no_guard;
   }
 
   /// What the solver did since it was made.
@@ -219,7 +220,6 @@ class CvodeSolver {
     guards_ = there;
     if (fired_ == no_guard) return;
     ahead_ = at(first);
-    if constexpr (Foresees<System>) ahead_ = system_.within_mode(ahead_);
   }
   /// Where the motion was when the clock showed a time of the latest step.
   Instant at(double clock) {

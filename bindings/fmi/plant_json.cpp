@@ -1,5 +1,6 @@
 #include "bindings/fmi/plant_json.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <boost/uuid/name_generator.hpp>
@@ -54,6 +55,8 @@ std::string plant_to_json(const FmuModel& model) {
   plant["initial"] = Json::object();
   transfer(write, plant["initial"], scenario.initial);
   plant["run"] = {{"duration_s", scenario.run.duration}, {"relative_tolerance", scenario.run.relative_tolerance}};
+  if (scenario.run.absolute_tolerance) plant["run"]["absolute_tolerance"] = *scenario.run.absolute_tolerance;
+  if (std::isfinite(scenario.run.max_step)) plant["run"]["max_step_s"] = scenario.run.max_step;
   if (model.kind == FmuKind::loop) {
     plant["motor"] = terms_to_json(scenario.motor.terms, scenario.axis);
     if (scenario.control) plant["control"] = control_to_json(*scenario.control, scenario.axis);
@@ -80,8 +83,12 @@ FmuModel plant_from_json(const std::string& text) {
     transfer(read, *found, *effect);
   });
   transfer(read, plant.at("initial"), scenario.initial);
-  plant.at("run").at("duration_s").get_to(scenario.run.duration);
-  plant.at("run").at("relative_tolerance").get_to(scenario.run.relative_tolerance);
+  const Json& run = plant.at("run");
+  run.at("duration_s").get_to(scenario.run.duration);
+  run.at("relative_tolerance").get_to(scenario.run.relative_tolerance);
+  if (const auto stated = run.find("absolute_tolerance"); stated != run.end())
+    scenario.run.absolute_tolerance = stated->get<double>();
+  if (const auto stated = run.find("max_step_s"); stated != run.end()) stated->get_to(scenario.run.max_step);
   if (model.kind == FmuKind::loop) scenario.motor.terms = terms_from_json<SignalTerm>(plant.at("motor"), scenario.axis);
   if (const auto control = plant.find("control"); control != plant.end())
     scenario.control = control_from_json(*control, scenario.axis);

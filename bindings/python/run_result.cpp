@@ -55,9 +55,10 @@ std::map<std::string, double> RunResult::metrics() const {
     if (summary_.control->has(field.member)) all[std::string(field.name)] = summary_.control->metrics.*field.member;
   });
   if (!summary_.control->lemma) return all;
-  all["layer_reached"] = summary_.control->lemma->reached();
-  for (const Violation& v : summary_.control->lemma->violations())
-    all[std::string(v.name) + "_violations"] = static_cast<double>(v.count);
+  const Lemma1Monitor& lemma = *summary_.control->lemma;
+  all["layer_reached"] = lemma.reached();
+  for (const Violation& v : lemma.violations())
+    all[std::string(v.name) + "_violations"] = judged_violations(lemma, v, scenario_->run.duration);
   return all;
 }
 

@@ -40,7 +40,7 @@ class ControlReader {
       sensor.read_fields(control.sensor);
       require_whole(sensor, "counts", control.sensor.counts);
       require_whole(sensor, "seed", control.sensor.seed);
-      reject_degraded_exact_speed(sensor, control.sensor);
+      for (const ControllerRejection& refusal : sensor_rejections(scenario_)) sensor.fault(refusal.key, refusal.what);
     });
     if (root_.has("disturbance"))
       root_.section("disturbance", [&](TableReader& disturbance) {
@@ -51,16 +51,6 @@ class ControlReader {
   }
 
  private:
-  /// An exact speed is none that was made of counts, noise or a filtered difference.
-  static void reject_degraded_exact_speed(TableReader& table, const SensorSettings& sensor) {
-    if (!sensor.exact_speed) return;
-    for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
-                                     std::pair{"speed_filter_Hz", sensor.filter_cutoff}})
-      if (value > 0.0)
-        table.fault(key, fmt::format("sensor.{} = {:g} has no effect with speed = \"exact\"; remove it, or use speed = "
-                                     "\"difference\"",
-                                     key, value));
-  }
   void read_controller(TableReader& table, ControlScenario& control) {
     table.read_fields(control.sampling);
     require_whole(table, "delay_samples", control.sampling.delay);
@@ -68,10 +58,7 @@ class ControlReader {
     table.section("nominal", [&](TableReader& nominal) { nominal.read_fields(control.nominal); });
     table.section("variation", [&](TableReader& variation) {
       variation.read_fields(control.variations);
-      if (control.variations.friction && (control.variations.C1 > 0.0 || control.variations.C2 > 0.0))
-        variation.fault(
-            "friction",
-            "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others");
+      if (const auto refusal = variation_rejection(scenario_)) variation.fault(refusal->key, refusal->what);
     });
     const auto kind = table.choice("kind", kinds_of<ControllerParameters>(), Presence::required);
     if (!kind) table.ignore_unknown();  // which keys it may have hangs on its kind

@@ -27,8 +27,7 @@ void read_term(TableReader& table, TableReference& reference, const std::string&
 }  // namespace
 
 void require_whole(TableReader& table, const std::string& key, double value) {
-  if (value != std::floor(value))
-    table.fault(key, fmt::format("{} = {} must be a whole number", table.path_of(key), value));
+  if (value != std::floor(value)) table.fault(key, fmt::format("{} = {} {}", table.path_of(key), value, must_be_whole));
 }
 
 Reference read_reference(TableReader& root, const std::string& folder) {

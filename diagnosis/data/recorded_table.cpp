@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "description/keys.hpp"
+#include "description/toml/parse_scenario.hpp"
 #include "diagnosis/files/stored_columns.hpp"
 #include "diagnosis/files/unit_in_words.hpp"
 #include "output/hdf5/read_ahead.hpp"
@@ -110,6 +111,27 @@ void keep_even_rows(RecordedTable& table) {
   }
 }
 
+/// The motor's commands from each sample on: the decided ones, a sample later if the controller took as long. That is
+/// seen in what reached the motor, which a limit may have changed.
+void hold_back_as_applied(std::vector<double>& decided, const std::vector<double>& applied) {
+  std::size_t at_once = 0, a_sample_later = 0;
+  for (std::size_t k = 1; k < applied.size(); ++k) {
+    at_once += applied[k] == decided[k] ? 1 : 0;
+    a_sample_later += applied[k] == decided[k - 1] ? 1 : 0;
+  }
+  if (a_sample_later <= at_once) return;
+  std::rotate(decided.begin(), decided.end() - 1, decided.end());
+  decided.front() = applied.front();
+}
+
+/// Refuses the samples of a controller whose encoder did not sit on the gear.
+void reject_encoder_on_worm(const std::string& path, const std::string& scenario) {
+  if (scenario.empty()) return;  // another program wrote the run
+  const auto control = parse_scenario(scenario, path, {}, Purpose::show).control;
+  if (control && control->sensor.on_worm)
+    reject({path}, "shows the worm's angle only (sensor.shaft = \"worm\"); a diagnosis needs that of the gear");
+}
+
 /// What is recorded of a run, whose columns column(name, unit in SI) reads.
 template <class Column>
 RecordedTable run_table(const std::string& path, Axis axis, bool controlled, bool with_worm, const Column& column) {
@@ -117,10 +139,14 @@ RecordedTable run_table(const std::string& path, Axis axis, bool controlled, boo
   table.path = path;
   table.has_lines = false;
   table.axis = axis;
+  const std::string torque = units_on(axis, "N m");
   table.time = column("time", "s");
-  table.torque = column(controlled ? "torque" : "motor_torque", units_on(axis, "N m"));
+  table.torque = column(controlled ? "torque" : "motor_torque", torque);
   table.angle = column(controlled ? "measured_angle" : "gear_angle", units_on(axis, "rad"));
-  if (controlled) return table;
+  if (controlled) {
+    hold_back_as_applied(table.torque.values, column("applied_torque", torque).values);
+    return table;
+  }
   if (with_worm) table.worm_angle = column("worm_angle", "rad");
   keep_even_rows(table);
   return table;
@@ -130,6 +156,7 @@ RecordedTable run_table(const std::string& path, Axis axis, bool controlled, boo
 RecordedTable from_run(const std::string& path, Axis axis) {
   const Hdf5Handle file = open_hdf5(path);
   const bool controlled = has_member(file, "controller");
+  if (controlled && H5Aexists(file, "scenario") > 0) reject_encoder_on_worm(path, read_text_attribute(file, "scenario"));
   const StoredTable run(file, controlled ? "controller" : "trajectory");
   run.check({"time", "", ""}, Range::rising);
   return run_table(path, axis, controlled, run.has("worm_angle"), [&](const std::string& name, std::string_view si) {
@@ -148,6 +175,7 @@ RecordedTable from_exported_run(const DataTable& table, Axis axis) {
                        [&](const StoredNumbers& column) { return column.name == name; });
   };
   const bool controlled = there("controller.time");
+  if (controlled) reject_encoder_on_worm(table.path, table.scenario);
   const std::string in = controlled ? "controller." : "trajectory.";
   const auto column = [&](const std::string& name, std::string_view si) {
     RecordedValues values{in + name, 1.0, table.numbers(in + name)};

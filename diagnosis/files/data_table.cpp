@@ -131,11 +131,13 @@ DataTable read_data_table(const std::string& path) {
     std::error_code none;
     const char* const promise = promised(path);
     if (promise && std::filesystem::is_regular_file(path, none)) reject({path}, fmt::format("is no {}", promise));
-    return {path, read_csv(path), {}};
+    return {path, read_csv(path), {}, {}};
   }
   if (!ends_well_in_a_copy([&] { stored(path, kind); }))
     reject({path}, "is damaged: reading it does not come to an end");
-  DataTable table{path, std::nullopt, with_stated_units(stored(path, kind))};
+  StoredContents contents = stored(path, kind);
+  DataTable table{path, std::nullopt, {}, std::move(contents.texts["scenario"])};
+  table.columns = with_stated_units(std::move(contents));
   for (StoredNumbers& column : table.columns)
     for (std::string* const text : {&column.name, &column.unit, &column.comment}) *text = one_line(std::move(*text));
   return table;

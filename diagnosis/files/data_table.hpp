@@ -21,6 +21,7 @@ struct DataTable {
   std::string path;
   std::optional<Csv> csv;              ///< of a text file
   std::vector<StoredNumbers> columns;  ///< of any other
+  std::string scenario{};              ///< in a run that `wormdrive export --mat` wrote: what was run
 
   /// The column of a name: of one in a group the whole name or its last part, if no other has it. Throws InputFault if
   /// several have it.

@@ -129,11 +129,11 @@ std::vector<double> numbers_of(const matvar_t& variable) {
   return {};
 }
 
-/// The beginning of a text: units are short.
+/// A text, of a length that a unit, a comment or a scenario may have.
 std::string text_of(const matvar_t& variable) {
   std::string text;
   if (!variable.data) return text;
-  constexpr std::size_t longest = 1000;
+  constexpr std::size_t longest = 1 << 20;
   const bool wide = variable.data_type == MAT_T_UINT16 || variable.data_type == MAT_T_UTF16;
   const auto* const bytes = static_cast<const unsigned char*>(variable.data);
   for (std::size_t k = 0; k + (wide ? 2 : 1) <= std::min(variable.nbytes, longest); k += wide ? 2 : 1) {

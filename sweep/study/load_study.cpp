@@ -12,6 +12,7 @@
 
 #include "description/one_line.hpp"
 #include "description/toml/document.hpp"
+#include "description/toml/read_reference.hpp"
 #include "output/resource.hpp"
 #include "simulation/load_scenario.hpp"
 #include "sweep/study/read_design.hpp"
@@ -98,7 +99,7 @@ class StudyReader {
     faults_.raise();
   }
 
-  /// Some numbers have to be whole: they are refused when they are moved by a hair, and nothing else is.
+  /// Some numbers have to be whole: they are refused when they are moved by a hair.
   void reject_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
     if (only_whole_numbers(stated.parameter.distribution)) return;
     std::vector<Setting> settings = settings_;
@@ -107,8 +108,9 @@ class StudyReader {
       source(settings);
     } catch (const InputFault& fault) {
       for (const Fault& f : fault.faults)
-        faults_.add(f.where, f.what + (in_table_ ? "; the column of the table must hold whole values"
-                                                 : "; use \"discrete\" with whole values"));
+        if (f.what.ends_with(must_be_whole))  // else a rule for several numbers at once, which trials are asked for
+          faults_.add(f.where, f.what + (in_table_ ? "; the column of the table must hold whole values"
+                                                   : "; use \"discrete\" with whole values"));
     }
   }
 

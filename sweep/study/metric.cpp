@@ -19,14 +19,6 @@ void add_tracking(std::vector<Metric>& list, bool follows) {
   });
 }
 
-/// How often a run that ended at a time [s] broke a promise. One about what comes after the layer was reached, or after
-/// the run settled, is not kept by a run that never came to that: not a number.
-double violations(const Lemma1Monitor& lemma, const Violation& promise, double end) {
-  const bool was_judged = promise.name == "definition" ||
-                          (promise.name == "layer" ? !std::isnan(lemma.reached()) : lemma.quiet().settled < end);
-  return was_judged ? static_cast<double>(promise.count) : std::numeric_limits<double>::quiet_NaN();
-}
-
 void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
   list.push_back({"layer_reached", unit::second, "first sample within the boundary layer",
                   [](const Outcome& o) { return o.run.control->lemma->reached(); },
@@ -37,7 +29,7 @@ void add_lemma1(std::vector<Metric>& list, const Scenario& scenario) {
                     fmt::format("samples that broke {}", promises[k].promise),
                     [k, duration = scenario.run.duration](const Outcome& o) {
                       const Lemma1Monitor& lemma = *o.run.control->lemma;
-                      return violations(lemma, lemma.violations()[k], duration);
+                      return judged_violations(lemma, lemma.violations()[k], duration);
                     }});
   const std::vector<Condition> conditions = lemma1_conditions(scenario);
   for (std::size_t k = 0; k < conditions.size(); ++k) {

@@ -158,6 +158,22 @@ TEST_CASE("model recovery: behind a limit the law sees, sample for sample, the d
   REQUIRE(std::abs(angles.back() - goal) <= 1e-9);
 }
 
+TEST_CASE("model recovery faster than the samples is as fast as they are") {
+  const auto torques = [](double tracking_time) {
+    ModelRecovery recovery(nominal, tracking_time);
+    std::vector<double> list;
+    for (int k = 0; k < 50; ++k) {
+      const auto law = [k](const Measurement&) { return ControlSignals{.torque = k < 20 ? 0.3 : 0.0}; };
+      list.push_back(
+          recovery(law, {T * k, 0.1, 0.2, k == 0 ? 0.0 : T, {0.1, 0.0, 0.0}, k > 0 && k < 20 ? 0.1 : 0.0, 0.1}).torque);
+    }
+    return list;
+  };
+  const auto as_samples = torques(T);
+  REQUIRE(torques(0.01 * T) == as_samples);
+  REQUIRE(torques(2.0 * T) != as_samples);
+}
+
 TEST_CASE("after a step at a limit of 0.1 N m loops wind up, and end at rest with every method against it") {
   for (const std::string law : {"pid", "sliding"}) {
     const Response free = response(step_of(law, "", infinity));

@@ -4,9 +4,12 @@
 #include <iostream>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "catch.hpp"
 #include "description/diagnostics.hpp"
 #include "diagnosis/sheet.hpp"
+#include "output/hdf5/stored_column.hpp"
 #include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
@@ -101,6 +104,45 @@ report_interval_s = 0.002
   CHECK(std::abs(open.motor_torque[125] - 0.08 * std::cos(0.5 * std::numbers::pi)) < 1e-12);
   folder.write("none.h5", "");
   CHECK_THROWS_AS(read_recording(folder / "none.h5", nominal_arm()), InputFault);
+}
+
+TEST_CASE("the commands of a controlled run are recorded from when the motor had them") {
+  const Folder folder;
+  const std::string shipped = std::string(WORMDRIVE_SCENARIOS) + "/fig10_pid_014rad_bare.toml";
+  for (const char* const limit : {"1e3", "0.08"})  // whether the motor follows or is at its limit
+    for (const char* const format : {"h5", "mat"}) {
+      CAPTURE(limit, format);
+      for (const int delay : {0, 1}) {
+        REQUIRE(
+            folder
+                .run({"run", shipped, "--set", "run.duration_s=3.1", "--set", "controller.anti_windup=back_calculation",
+                      "--set", "metrics.from_s=0", "--set", fmt::format("controller.delay_samples={}", delay), "--set",
+                      fmt::format("effect.torque_saturation.limit_Nm={}", limit), "-o", "c.h5", "--force"})
+                .exit == 0);
+        if (std::string(format) == "mat") REQUIRE(folder.run({"export", "c.h5", "--mat", "--force"}).exit == 0);
+        const Recording r = read_recording(folder / (std::string("c.") + format), nominal_arm());
+        const std::vector<double> decided = read_column(open_hdf5(folder / "c.h5"), "controller/torque");
+        REQUIRE(r.motor_torque.size() == decided.size());
+        bool same = delay == 0 || r.motor_torque.front() == 0.0;
+        for (std::size_t k = delay; k < decided.size(); ++k) same = same && r.motor_torque[k] == decided[k - delay];
+        CHECK(same);
+      }
+    }
+}
+
+TEST_CASE("a controlled run whose encoder sits on the worm is no recording of the gear") {
+  const Folder folder;
+  const std::string shipped = std::string(WORMDRIVE_SCENARIOS) + "/fig10_pid_014rad_bare.toml";
+  REQUIRE(folder
+              .run({"run", shipped, "--set", "run.duration_s=0.5", "--set", "metrics.from_s=0", "--set",
+                    "sensor.shaft=worm", "-o", "c.h5"})
+              .exit == 0);
+  REQUIRE(folder.run({"export", "c.h5", "--mat"}).exit == 0);
+  for (const char* const file : {"c.h5", "c.mat"})
+    CHECK(folder.run({"diagnose", shipped, file, "-o", "d"}).err ==
+          fmt::format("{}: error: shows the worm's angle only (sensor.shaft = \"worm\"); a diagnosis needs that of the "
+                      "gear\n",
+                      file));
 }
 
 TEST_CASE("the recording that is shipped is one") {

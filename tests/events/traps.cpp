@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "catch.hpp"
 #include "support.hpp"
@@ -148,6 +149,33 @@ TEST_CASE("an event on a report, an ulp beside it or on a knot loses neither the
             std::none_of(r.rows.begin(), r.rows.end(), [&](const auto& row) { return row.now.t == report * 0.1; });
       REQUIRE(missing == 0);
     }
+}
+
+TEST_CASE("a report at a reversal, or a few ulps beside it, shows no speed against its motion") {
+  // The speed of a single inertia is v (1 - t/t1) (1 - t/t2): a polynomial, which CVODE follows in steps so long that
+  // rounding of a state between two of them is as large as the speed near t1.
+  std::mt19937_64 random(4);
+  const auto decades = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution(low, high)(random));
+  };
+  for (int k = 0; k < 60; ++k) {
+    const double J = decades(-6, 0), v = decades(-2, 4), t1 = decades(-3, 3), t2 = t1 * (1.0 + decades(-4, 0));
+    const Signal motor{{Constant{-J * v * (1.0 / t1 + 1.0 / t2)}, Ramp{2.0 * J * v / (t1 * t2)}}};
+    for (const By by : every_solver)
+      for (int ulps = -6; ulps <= 6; ++ulps) {
+        double due = t1;
+        for (int n = 0; n < std::abs(ulps); ++n) due = std::nextafter(due, ulps * never);
+        const auto r =
+            run(WormDrive(GearMesh<double>::without_teeth(J), make_load(constant(0.0)), Effects<double>{}, motor),
+                Timetable(0.0, 1.5 * due, due), {0.0, {0.0, v}, {}}, tight(by, 1e-12));
+        for (std::size_t row = 0; row + 1 < r.rows.size(); ++row) {
+          const auto& now = r.rows[row].now;
+          if (r.rows[row + 1].now.t == now.t) continue;  // the left limit of an event
+          CAPTURE(k, t1, t2, ulps, now.t, now.x[1], static_cast<int>(by.solver), static_cast<int>(by.method));
+          CHECK(sign(now.mode.motion) * now.x[1] >= 0.0);
+        }
+      }
+  }
 }
 
 TEST_CASE("a drive at rest gets past a report that lies an ulp behind a knot") {

@@ -1,5 +1,7 @@
 // An FMU that solves inside, in an importer that knows the standard only: the same run as `wormdrive run`, however long
 // its steps are.
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "fmi/exported.hpp"
@@ -208,6 +210,15 @@ TEST_CASE("the angle that a loop measures is that of the shaft on which its enco
       CHECK(std::abs(theirs.model.real("measured_angle") - 1.01 * (on_worm ? gear + advance : gear)) < 1e-12);
     }
   }
+}
+
+TEST_CASE("an FMU carries the tolerance and the longest step of its scenario") {
+  const Exported exported(shipped("fig09_switching.toml"), {"run.absolute_tolerance=3e-17", "run.max_step_s=0.0125"},
+                          loop);
+  std::ifstream plant(exported.folder / "resources/plant.json");
+  const std::string text((std::istreambuf_iterator<char>(plant)), {});
+  CHECK(text.find("\"absolute_tolerance\": 3e-17") != std::string::npos);
+  CHECK(text.find("\"max_step_s\": 0.0125") != std::string::npos);
 }
 
 TEST_CASE("a plant whose torque is set at communication points is a run under a table of these torques") {

@@ -56,6 +56,34 @@ path = ")" + limit.key + fmt::format("\"\ndistribution = \"uniform\"\nlow = {}\n
   }
 }
 
+TEST_CASE("trials whose numbers exclude each other are refused, as their scenarios are", "[sweep]") {
+  struct Pair {
+    std::string set, key, column, message;
+  };
+  for (const Pair& pair :
+       {Pair{"sensor.speed=exact", "sensor.noise_rad", "sensor.noise",
+             " has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
+        Pair{"controller.variation={friction=0.1}", "controller.variation.C1", "controller.variation.C1",
+             "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"}}) {
+    const StudyFolder folder("scenario = \"" + shipped("fig10_sliding_014rad_bare.toml") + R"("
+set = ["run.solver=taylor", "run.duration_s=0.1", "metrics.from_s=0", "sensor.speed_filter_Hz=0", ")" +
+                             pair.set +
+                             R"("]
+[sweep]
+design = "monte_carlo"
+trials = 20
+[[parameter]]
+path = ")" + pair.key + "\"\ndistribution = \"discrete\"\nvalues = [0, 0, 0.01]\n");
+    const Outcome outcome = folder.sweep({"-o", "out.h5", "--referee", "0"});
+    INFO(pair.key << outcome.out << outcome.err);
+    REQUIRE(outcome.exit == 0);
+    const std::vector<double> status = folder.column("out.h5", "status"), value = folder.column("out.h5", pair.column);
+    for (std::size_t k = 0; k < status.size(); ++k) CHECK(status[k] == (value[k] > 0.0 ? 2.0 : 1.0));
+    CHECK(std::count(status.begin(), status.end(), 2.0) > 2);
+    CHECK(outcome.out.find(pair.message) != std::string::npos);
+  }
+}
+
 TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
   const std::vector<BadStudy> cases{
       {"path = \"mesh.friction\"", "path = \"mesh.frction\"",

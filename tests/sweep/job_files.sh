@@ -3,7 +3,7 @@
 # are submitted again; a minute before their time is over Slurm's jobs end with all that they have; GNU parallel and,
 # where mpirun is, the MPI job make the rows of one process. What none of them has here is said to be skipped.
 set -euo pipefail
-program=$1
+program=$(realpath "$1")
 shift
 for file; do bash -n "$file"; done
 jobs=$(dirname "$1")
