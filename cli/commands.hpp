@@ -46,6 +46,16 @@ struct SteadyOptions {
 };
 int steady_command(const SteadyOptions& options);
 
+struct EfficiencyOptions {
+  ScenarioOptions scenario;
+  std::string output;
+  double max_speed = 100.0;        ///< worm speed [rad/s]
+  std::optional<double> max_load;  ///< [N m]
+  int points = 20;
+  Replace replace = Replace::same_kind;
+};
+int efficiency_command(const EfficiencyOptions& options);
+
 struct DiagnoseOptions {
   ScenarioOptions scenario;
   std::vector<std::string> data;   ///< CSV, or results of run

@@ -40,6 +40,14 @@ void check_steady(hid_t file) {
   for (const char* const name : {"rms_error", "rms_torque"}) read_number_attribute(file, name);
 }
 
+/// Where no torque keeps a speed there are no numbers.
+void check_efficiency(hid_t file) {
+  const StoredTable map(file, "efficiency");
+  check_table(map, numbers({"worm_speed", "load_torque"}), Range::finite, Range::finite);
+  check_table(map, numbers({"motor_torque", "motor_power", "load_power", "loss", "efficiency"}), Range::any,
+              Range::any);
+}
+
 /// Its rows are those of a study, which whoever knows the study looks at.
 void check_sweep(hid_t file) {
   const StoredTable trials(file, "trials");
@@ -92,17 +100,16 @@ void check_result(hid_t file) {
     const char* name;
     void (*check)(hid_t);
   };
-  constexpr Kind kinds[] = {{"run", check_run},
-                            {"statics", check_statics},
-                            {"steady", check_steady},
-                            {"sweep", check_sweep},
-                            {"diagnosis", check_diagnosis}};
+  constexpr Kind kinds[] = {{"run", check_run},       {"statics", check_statics},
+                            {"steady", check_steady}, {"efficiency", check_efficiency},
+                            {"sweep", check_sweep},   {"diagnosis", check_diagnosis}};
   const std::string kind = read_text_attribute(file, "kind");
   const auto* const known =
       std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return kind == k.name; });
   if (known == std::end(kinds))
-    throw ReadFault(file_of(file),
-                    fmt::format("its kind '{}' is none of run, statics, steady, sweep and diagnosis", kind));
+    throw ReadFault(
+        file_of(file),
+        fmt::format("its kind '{}' is none of run, statics, steady, efficiency, sweep and diagnosis", kind));
   for (const char* const name : {"title", "scenario"}) read_text_attribute(file, name);
   known->check(file);
 }

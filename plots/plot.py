@@ -8,6 +8,7 @@ import sys
 import h5py
 
 import diagnosis
+import efficiency
 import over
 import run
 import statics
@@ -15,8 +16,8 @@ import steady
 import sweep
 from result import NotAResult, attribute, text
 
-PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "sweep": sweep.draw,
-            "diagnosis": diagnosis.draw}
+PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "efficiency": efficiency.draw,
+            "sweep": sweep.draw, "diagnosis": diagnosis.draw}
 NOT_A_RESULT, NOT_WRITTEN = 2, 4  # exit codes
 SOFTWARE = "wormdrive plot"  # as the pictures say
 MARK = b"Software\0" + SOFTWARE.encode()  # where a PNG file says so
@@ -143,8 +144,8 @@ def main():
     """Reads the command line and draws."""
     parser = argparse.ArgumentParser(prog="plot", description="Draws wormdrive result files as a PNG picture.")
     parser.add_argument("files", metavar="FILE.h5", nargs="+",
-                        help="result of wormdrive run, statics, steady, sweep or diagnose; a statics file and runs; a sweep "
-                             "and runs of its trials; or, with --over, several runs")
+                        help="result of wormdrive run, statics, steady, efficiency, sweep or diagnose; a statics file and "
+                             "runs; a sweep and runs of its trials; or, with --over, several runs")
     parser.add_argument("-o", "--output", metavar="OUT.png", required=True, help="picture to write")
     parser.add_argument("--over", choices=["motor_torque"], help="draw the gear angle of runs over the motor torque")
     parser.add_argument("--part", choices=[*diagnosis.PARTS, "all"],

@@ -86,6 +86,24 @@ void add_steady(CommandSet& commands) {
   add_force(command, options.replace);
 }
 
+void add_efficiency(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("efficiency", "compute the efficiency over worm speed and load torque", efficiency_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("-o,--output", options.output, "result file; default: none is written");
+  command.add_option("--max-speed", options.max_speed, "largest worm speed [rad/s]")
+      ->check(finite_number(false))
+      ->capture_default_str();
+  command
+      .add_option("--max-load", options.max_load,
+                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
+      ->check(finite_number(false));
+  command.add_option("--points", options.points, "number of speeds in each direction, and of loads of each sign")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  add_force(command, options.replace);
+}
+
 void add_fmu(CommandSet& commands) {
   auto [command, options] = commands.add(
       "fmu", "export the drive of a scenario as an FMU, a model for Simulink, Modelica and others", fmu_command);
@@ -113,6 +131,7 @@ void add_drive_commands(CommandSet& commands) {
   add_view(commands);
   add_statics(commands);
   add_steady(commands);
+  add_efficiency(commands);
   add_fmu(commands);
 }
 

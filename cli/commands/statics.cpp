@@ -36,23 +36,6 @@ StaticsMap make_map(const GearMesh<double>& forward, const GearMesh<double>& bac
   return map;
 }
 
-/// A range that shows the scenario's own load with room around it.
-double sensible_load(const Scenario& scenario) {
-  double amplitude = 0.0;
-  const auto take = [&](const auto& load) {
-    if constexpr (requires { load.torque_amplitude(); }) amplitude += std::abs(load.torque_amplitude());
-  };
-  std::visit(
-      [&](const auto& load) {
-        if constexpr (requires { load.terms; })
-          for (const auto& term : load.terms) std::visit(take, term);
-        else
-          take(load);
-      },
-      scenario.load);
-  return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
-}
-
 void write(const std::string& output, const Scenario& scenario, const StaticsMap& map, const StaticsOptions& options) {
   const GearMesh<double> mesh = make_mesh(scenario);
   PartFile file(output, "statics", options.replace);
@@ -102,7 +85,7 @@ int statics_command(const StaticsOptions& options) {
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) reject({options.scenario.file}, "statics needs teeth, but mesh.kind is \"none\"");
   const StaticsMap map = make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
-                                  options.max_load.value_or(sensible_load(scenario)), options.points);
+                                  options.max_load.value_or(largest_shown_load(scenario)), options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
   if (!options.output.empty()) write(options.output, scenario, map, options);
   if (options.scenario.json) {

@@ -16,6 +16,7 @@ struct KindOfPage {
 constexpr KindOfPage pages[] = {{"run", report_of_run},
                                 {"statics", report_of_statics},
                                 {"steady", report_of_steady},
+                                {"efficiency", report_of_efficiency},
                                 {"sweep", report_of_sweep},
                                 {"diagnosis", report_of_diagnosis}};
 

@@ -192,7 +192,7 @@ TEST_CASE("files that are not results, or damaged ones, get no report") {
   check_rejected(folder,
                  {{"a result of another kind",
                    "",
-                   "other.h5: error: its kind 'something' is none of run, statics, steady, sweep and diagnosis",
+                   "other.h5: error: its kind 'something' is none of run, statics, steady, efficiency, sweep and diagnosis",
                    {"report", "other.h5"},
                    true},
                   {"a scenario",

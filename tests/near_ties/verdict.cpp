@@ -41,13 +41,24 @@ double speed_by_roundings(const judge::Drive& drive) {
   return judge::Shadow::rounding * std::max(worm, gear / drive.Jg) * drive.end;
 }
 
+/// By how much friction that decreases with speed lets a speed of the worm grow in a run, to first order: a start that
+/// only rounding decides comes this far.
+double growth_by_friction(const judge::Drive& d) {
+  if (!d.stribeck || !d.teeth) return 1.0;
+  const double normal_force = largest(d.load, d.end) / (d.lg * std::cos(d.lambda) * std::cos(d.phi_n));
+  const double slope = d.stribeck->drop / d.stribeck->speed;  // of friction over the sliding speed, at most
+  const double rate = normal_force * slope * d.lw * d.lw / std::cos(d.lambda) - d.worm_viscous.value_or(0.0);
+  return std::exp(std::clamp(rate / d.Jw * d.end, 0.0, 100.0));
+}
+
 /// The largest difference between two motions of elastic teeth at their reports, of the angles as a share of the way
 /// and of the speeds as one of the highest; worm and gear both counted at the gear.
 double apart(const ProgramRun& a, const ProgramRun& b, const Case& tie) {
   if (a.reports.size() != b.reports.size()) return 1.0;
   // of angles and of speeds; every step may err by an absolute tolerance, and a thousand of these pass as a thousandth
   const double least = 1e4 * tolerance / std::max(1.0, tie.drive.end);
-  const double rounded = 1e3 * speed_by_roundings(tie.drive);  // as much passes as a thousandth
+  const double rounded =
+      1e3 * speed_by_roundings(tie.drive) * growth_by_friction(tie.drive);  // as much passes likewise
   std::array<double, 2> size{std::max(least, rounded * tie.drive.end), std::max(least, rounded)}, difference{};
   for (std::size_t row = 0; row < a.reports.size(); ++row)
     for (std::size_t column = 0; column < a.reports[row].size(); ++column) {
