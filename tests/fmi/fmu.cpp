@@ -1,5 +1,6 @@
 // An FMU in an importer that knows the standard only: the same run as `wormdrive run`, and an orderly life.
 #include <cstdlib>
+#include <filesystem>
 #include <locale>
 
 #include <malloc.h>
@@ -200,6 +201,20 @@ TEST_CASE("1000 cycles of instantiate, run, reset, run and free leave nothing be
     if (k == 100) after_warm_up = mallinfo2().uordblks;
   }
   CHECK(mallinfo2().uordblks < after_warm_up + 20000);  // 22 bytes a cycle
+}
+
+TEST_CASE("an FMU that is loaded and unloaded leaves nothing behind") {
+  const Exported exported(shipped("fig09_switching.toml"));
+  const std::string library = exported.folder / "again.so";  // the other one stays loaded
+  std::filesystem::copy_file(exported.folder / "binaries/linux64/wormdrive_fmu.so", library);
+  std::size_t after_warm_up = 0;
+  for (int k = 0; k < 50; ++k) {
+    void* const loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    REQUIRE(loaded);
+    REQUIRE(dlclose(loaded) == 0);
+    if (k == 10) after_warm_up = mallinfo2().uordblks;
+  }
+  CHECK(mallinfo2().uordblks < after_warm_up + 20000);
 }
 
 TEST_CASE("the library of an FMU has every function of the standard and needs the C library alone") {
