@@ -94,7 +94,7 @@ TEST_CASE("an HDF5 attribute that is not a single text is not a scenario") {
 TEST_CASE("unknown commands and unexpected arguments end with exit code 2") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  check_rejected(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are new, list, check, schema, run, view, statics, steady, fmu, plot, report, diff, export, sweep, summary, worst, rare, replay, merge, diagnose",
+  check_rejected(folder, {{"unknown command", "", "wormdrive: error: unknown command 'simulate'; the commands are new, list, check, schema, run, view, statics, steady, efficiency, fmu, plot, report, diff, export, sweep, summary, worst, rare, replay, merge, diagnose",
                        {"simulate", "s.toml"}, true},
                       {"misspelled command", "", "wormdrive: error: unknown command 'rum'; did you mean 'run'?", {"rum", "s.toml"}, true},
                       {"no command", "", "wormdrive: error: a command is required; see wormdrive --help or docs/howto/first_simulation.md", {}, true},

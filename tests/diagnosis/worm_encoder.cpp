@@ -98,6 +98,7 @@ TEST_CASE("torque that is left takes no name back from what both encoders show t
   std::vector<Candidate> all(2);
   all[0].effect = "backlash";
   all[1].effect = "worm_viscous";
+  for (Candidate& candidate : all) candidate.coordinates.resize(1);
   Selection selection;
   selection.causes = {{0, {}}, {1, {}}};
   Diagnosis one;
