@@ -14,8 +14,8 @@ namespace wormdrive {
 /// proximate time-optimal control [M. L. Workman, R. L. Kosut, G. F. Franklin, Proc. CDC 1987, 1549-1553].
 class ModelRecovery {
  public:
-  /// tracking_time [s]: near 0 the model has a double pole at half its inverse. Between samples it is one of them at
-  /// least, as what is faster would go beyond 0 at every one.
+  /// tracking_time [s]: near 0 the model has a double pole at half its inverse. Less than a sample counts as one: a
+  /// faster model would overshoot 0 at every sample.
   ModelRecovery(const NominalModel& nominal, double tracking_time)
       : nominal_(nominal), inertia_(mean_inertia(nominal)), rate_(1.0 / tracking_time) {}
 

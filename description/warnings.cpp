@@ -40,7 +40,7 @@ bool bearings_drive(const Effects<double>& effects) {
 
 }  // namespace
 
-std::vector<std::string> warnings(const Scenario& scenario) {
+std::vector<std::string> warnings(const Scenario& scenario, MotorTorque torque) {
   std::vector<std::string> list;
   const GearMesh<double> mesh = make_mesh(scenario);
   if (mesh.has_teeth && std::abs(mesh.closing_ratio() / mesh.i - 1.0) > closing_tolerance)
@@ -49,7 +49,7 @@ std::vector<std::string> warnings(const Scenario& scenario) {
                     "{:.4f} would close it{}",
                     mesh.closing_ratio(), mesh.i, mesh.closing_lead_angle() / unit::degree,
                     has_elastic_teeth(scenario.effects) ? "; the flanks follow the ratio" : ""));
-  if (scenario.motor.terms.empty() && !scenario.control)
+  if (torque == MotorTorque::stated && scenario.motor.terms.empty() && !scenario.control)
     list.push_back(
         fmt::format("no [motor.torque]: the motor {} is 0 throughout", in_words_of(scenario.axis, "torque")));
   if (bearings_drive(scenario.effects))

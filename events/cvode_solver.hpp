@@ -90,14 +90,15 @@ class CvodeSolver {
       if (steps == max_steps) throw SolverFault(cvode_reason(CV_TOO_MUCH_WORK));
       step(now, next);
     }
-    if (ahead_.t <= next) {
+    const bool is_end = ahead_.t <= next;  // of the latest step, or of what an event left of it
+    if (is_end) {
       now = ahead_;
     } else {
       now.t = next;
       now.x = state_at(std::clamp(next - origin_, clock_ - step_, clock_));
     }
     if constexpr (Foresees<System>) now = system_.within_mode(now);
-    return ahead_.t <= next ? fired_ : no_guard;
+    return is_end ? fired_ : no_guard;
   }
 
   /// What the solver did since it was made.

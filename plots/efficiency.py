@@ -19,12 +19,11 @@ def grid(speed, load, share):
 
 def draw_quadrant(axes, speeds, loads, share):
     """Draws the map where speeds and loads keep their signs, beyond which it jumps; returns what a colour bar needs."""
-    flat = {"levels": [0.5, 1.5]}
     percent = np.ma.masked_invalid(100.0 * share)
     filled = axes.contourf(speeds, loads, percent, levels=LEVELS, cmap="Blues", extend="max")
     for where, colour in ((share == 0.0, style.STUCK), (np.isnan(share), style.PALE_ORANGE)):
         if where.any():
-            axes.contourf(speeds, loads, np.ma.masked_where(~where, np.ones_like(share)), colors=[colour], **flat)
+            axes.contourf(speeds, loads, np.ma.masked_where(~where, np.ones_like(share)), [0.5, 1.5], colors=[colour])
     there = percent.compressed()
     crossed = LEVELS[(LEVELS > np.min(there, initial=100.0)) & (LEVELS < np.max(there, initial=0.0))]
     if crossed.size:

@@ -20,7 +20,7 @@ double efficiency(const Power& power) {
 }
 
 template <class Drive>
-OperatingPoint operating_point(Drive drive, double theta_g, double worm_speed, double load_torque) {
+OperatingPoint operating_point(Drive& drive, double theta_g, double worm_speed, double load_torque) {
   drive.enter(0.0);
   const double command = steady_torque(drive, worm_speed, theta_g, 0.0);
   OperatingPoint point{worm_speed, load_torque, none, none, none, none, none};
@@ -41,16 +41,17 @@ std::vector<OperatingPoint> efficiency_map(Scenario scenario, const std::vector<
                                            const std::vector<double>& load_torques) {
   scenario.motor = {};
   scenario.effects.for_each([]<class Effect>(std::optional<Effect>& effect) {
-    constexpr bool late = requires { effect->delay(); }
-    || requires { effect->lag(); };  // nothing where all is constant
-    if constexpr (Effect::place == Place::load || late) effect.reset();
+    if constexpr (Effect::place == Place::load) effect.reset();
+    // what is late makes no difference where all is constant
+    if constexpr (requires { effect->delay(); }) effect.reset();
+    if constexpr (requires { effect->lag(); }) effect.reset();
   });
   std::vector<OperatingPoint> map;
   for (const double speed : worm_speeds)
     for (const double load : load_torques) {
       scenario.load = Signal{{Constant{load}}};
       map.push_back(with_drive(
-          scenario, [&](const auto& drive) { return operating_point(drive, scenario.initial.theta_g, speed, load); }));
+          scenario, [&](auto& drive) { return operating_point(drive, scenario.initial.theta_g, speed, load); }));
     }
   return map;
 }

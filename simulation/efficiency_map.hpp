@@ -14,7 +14,7 @@ struct OperatingPoint {
   double motor_power;   ///< into the drive, from the supply on if there is a winding [W]
   double load_power;    ///< into the drive [W]
   double loss;          ///< [W]
-  double efficiency;    ///< what comes out over what goes in; 0 where the load is driven out of power, or gets none
+  double efficiency;    ///< what comes out over what goes in; 0 where a load that drives returns nothing
 };
 
 /// The operating points of a scenario's drive at its initial angle and time 0, speed by speed, under loads in place of

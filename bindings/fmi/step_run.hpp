@@ -31,12 +31,9 @@ inline constexpr double tightest_inside = 1e-14;  ///< as in a scenario: below i
 template <class Drive>
 struct SolverInside {
   using type = TaylorSolver<Drive>;
-  static SolverSettings settings(const RunSettings& run, double relative_tolerance) {
-    const double share = std::clamp(relative_tolerance, tightest_inside, loosest_inside), part = 0.01 * share;
-    return {.solver = SolverKind::taylor,
-            .relative_tolerance = share,
-            .absolute_tolerance = std::min(run.absolute_tolerance.value_or(part), part),
-            .max_step = run.max_step};
+  static SolverSettings settings(double relative_tolerance) {
+    const double share = std::clamp(relative_tolerance, tightest_inside, loosest_inside);
+    return {.solver = SolverKind::taylor, .relative_tolerance = share, .absolute_tolerance = 0.01 * share};
   }
 };
 #ifdef WORMDRIVE_FMU_CVODE
@@ -44,15 +41,18 @@ struct SolverInside {
 template <class T, class Load>
 struct SolverInside<Commanded<CompliantDrive<T, Load>>> {
   using type = CvodeSolver<Commanded<CompliantDrive<T, Load>>>;
-  static SolverSettings settings(const RunSettings& run, double) {
-    constexpr double least = 1e-15;
-    return {.method = Method::adams,
-            .relative_tolerance = 1e-13,
-            .absolute_tolerance = std::min(run.absolute_tolerance.value_or(least), least),
-            .max_step = run.max_step};
+  static SolverSettings settings(double) {
+    return {.method = Method::adams, .relative_tolerance = 1e-13, .absolute_tolerance = 1e-15};
   }
 };
 #endif
+
+/// The same with what a scenario asks beyond them.
+inline SolverSettings as_stated(SolverSettings inside, const RunSettings& run) {
+  if (run.absolute_tolerance) inside.absolute_tolerance = std::min(*run.absolute_tolerance, inside.absolute_tolerance);
+  inside.max_step = run.max_step;
+  return inside;
+}
 
 /// Whether there is a solver inside for a drive.
 template <class Drive>
@@ -71,7 +71,7 @@ class StepRun {
   /// Starts at t [s] with a motor torque [N m], which counts for a plant only.
   StepRun(Drive drive, const FmuModel& model, double t, double torque, double relative_tolerance)
       : drive_(std::move(drive)),
-        settings_(SolverInside<Commanded<Drive>>::settings(model.scenario.run, relative_tolerance)),
+        settings_(as_stated(SolverInside<Commanded<Drive>>::settings(relative_tolerance), model.scenario.run)),
         held_from_outside_(model.kind == FmuKind::plant),
         on_worm_(model.scenario.control && model.scenario.control->sensor.on_worm),
         torque_(torque),

@@ -110,7 +110,7 @@ PYBIND11_MODULE(_core, m) {
       .def("steady", &steady)
       .def("parameters", [](const Scenario& s) { return as_dict(parameters(s)); })
       .def("derived", [](const Scenario& s) { return as_dict(derived(s)); })
-      .def("warnings", &warnings)
+      .def("warnings", [](const Scenario& scenario) { return warnings(scenario); })
       .def("set_aside", &set_aside)
       .def(py::pickle([](const Scenario& s) { return py::make_tuple(to_toml(s)); },
                       [](const py::tuple& state) {

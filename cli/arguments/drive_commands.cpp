@@ -4,6 +4,18 @@
 namespace wormdrive {
 namespace {
 
+/// Of a command that prints what it finds.
+void add_optional_output(CLI::App& command, std::string& output) {
+  command.add_option("-o,--output", output, "result file; default: none is written");
+}
+
+void add_max_load(CLI::App& command, std::optional<double>& max_load) {
+  command
+      .add_option("--max-load", max_load,
+                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
+      ->check(finite_number(false));
+}
+
 void add_new(CommandSet& commands) {
   auto [command, options] = commands.add("new", "write a commented scenario or study to start from", new_command);
   command.add_option("file", options.file, "scenario or study to write (.toml)")->required();
@@ -58,11 +70,8 @@ void add_view(CommandSet& commands) {
 void add_statics(CommandSet& commands) {
   auto [command, options] = commands.add("statics", "compute the locking regime and break-in torques", statics_command);
   add_scenario_options(command, options.scenario);
-  command.add_option("-o,--output", options.output, "result file; default: none is written");
-  command
-      .add_option("--max-load", options.max_load,
-                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
-      ->check(finite_number(false));
+  add_optional_output(command, options.output);
+  add_max_load(command, options.max_load);
   command.add_option("--points", options.points, "number of load torques from -max to +max")
       ->check(CLI::Range(3, 100000))
       ->capture_default_str();
@@ -72,7 +81,7 @@ void add_statics(CommandSet& commands) {
 void add_steady(CommandSet& commands) {
   auto [command, options] = commands.add("steady", "compute the motor torque at constant speed", steady_command);
   add_scenario_options(command, options.scenario);
-  command.add_option("-o,--output", options.output, "result file; default: none is written");
+  add_optional_output(command, options.output);
   command.add_option("--data", options.data,
                      "records to compare with the model: a file (.csv, .mat, .h5) with the columns record, "
                      "worm_speed_rad_per_s, motor_torque_Nm");
@@ -90,14 +99,11 @@ void add_efficiency(CommandSet& commands) {
   auto [command, options] =
       commands.add("efficiency", "compute the efficiency over worm speed and load torque", efficiency_command);
   add_scenario_options(command, options.scenario);
-  command.add_option("-o,--output", options.output, "result file; default: none is written");
+  add_optional_output(command, options.output);
   command.add_option("--max-speed", options.max_speed, "largest worm speed [rad/s]")
       ->check(finite_number(false))
       ->capture_default_str();
-  command
-      .add_option("--max-load", options.max_load,
-                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
-      ->check(finite_number(false));
+  add_max_load(command, options.max_load);
   command.add_option("--points", options.points, "number of speeds in each direction, and of loads of each sign")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();

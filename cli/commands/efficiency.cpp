@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -6,10 +5,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
+#include "cli/report/thinning.hpp"
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "output/hdf5/table.hpp"
+#include "output/run_columns.hpp"
 #include "simulation/efficiency_map.hpp"
 #include "simulation/load_scenario.hpp"
 
@@ -41,63 +42,53 @@ const OperatingPoint* best(const Map& map, bool load_drives) {
   return found;
 }
 
+const std::vector<RunColumn<OperatingPoint>>& columns() {
+  using P = OperatingPoint;
+  static const std::vector<RunColumn<P>> list{
+      {{"worm_speed", "rad/s", "worm speed"}, [](const P& p) { return p.worm_speed; }},
+      {{"load_torque", "N m", "load torque tau_l"}, [](const P& p) { return p.load_torque; }},
+      {{"motor_torque", "N m", "motor torque that keeps the speed"}, [](const P& p) { return p.motor_torque; }},
+      {{"motor_power", "W", "power into the drive from the motor, or from the supply of its winding"},
+       [](const P& p) { return p.motor_power; }},
+      {{"load_power", "W", "power into the drive from the load"}, [](const P& p) { return p.load_power; }},
+      {{"loss", "W", "power that friction and winding take"}, [](const P& p) { return p.loss; }},
+      {{"efficiency", "1", "power out of the drive over power into it"}, [](const P& p) { return p.efficiency; }}};
+  return list;
+}
+
 void write(const std::string& output, const Scenario& scenario, const Map& map, const EfficiencyOptions& options) {
   PartFile file(output, "efficiency", options.replace);
   write_provenance(file.file(), {"efficiency", scenario.title, to_toml(scenario), options.scenario.command_line});
-  std::vector<std::vector<double>> columns(7);
-  for (const OperatingPoint& p : map.points) {
-    std::size_t column = 0;
-    for (const double value :
-         {p.worm_speed, p.load_torque, p.motor_torque, p.motor_power, p.load_power, p.loss, p.efficiency})
-      columns[column++].push_back(value);
-  }
-  GrowingTable(file.file(), "efficiency",
-               {{"worm_speed", "rad/s", "worm speed"},
-                {"load_torque", "N m", "load torque tau_l"},
-                {"motor_torque", "N m", "motor torque that keeps the speed"},
-                {"motor_power", "W", "power into the drive from the motor, or from the supply of its winding"},
-                {"load_power", "W", "power into the drive from the load"},
-                {"loss", "W", "power that friction and winding take"},
-                {"efficiency", "1", "power out of the drive over power into it"}})
-      .append(columns);
+  GrowingTable(file.file(), "efficiency", descriptions(columns(), scenario.axis)).append(values(columns(), map.points));
   file.finish();
 }
 
+/// Speed by speed, null where there is no number.
 nlohmann::json as_json(const Scenario& scenario, const Map& map) {
-  nlohmann::json efficiency = nlohmann::json::array(), torque = nlohmann::json::array();
-  const auto number = [](double value) { return std::isnan(value) ? nlohmann::json() : nlohmann::json(value); };
-  for (std::size_t s = 0; s < map.speeds.size(); ++s) {
-    nlohmann::json shares = nlohmann::json::array(), torques = nlohmann::json::array();
-    for (std::size_t l = 0; l < map.loads.size(); ++l) {
-      shares.push_back(number(map.at(s, l).efficiency));
-      torques.push_back(number(map.at(s, l).motor_torque));
-    }
-    efficiency.push_back(shares);
-    torque.push_back(torques);
-  }
+  const auto grid = [&](double OperatingPoint::*value) {
+    std::vector<std::vector<double>> rows(map.speeds.size());
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      for (std::size_t l = 0; l < map.loads.size(); ++l) rows[s].push_back(map.at(s, l).*value);
+    return rows;
+  };
   return {{"title", scenario.title},
           {"worm_speed_rad_per_s", map.speeds},
           {"load_torque_Nm", map.loads},
-          {"motor_torque_Nm", torque},
-          {"efficiency", efficiency}};
+          {"motor_torque_Nm", grid(&OperatingPoint::motor_torque)},
+          {"efficiency", grid(&OperatingPoint::efficiency)}};
 }
 
 /// Five loads of each sign over up to six speeds forward: what fits on a screen; the file has them all.
 void print_table(const Map& map) {
-  const std::size_t rows = map.loads.size(), first = map.speeds.size() / 2, columns = map.speeds.size() - first;
-  const auto spread = [](std::size_t count, std::size_t shown, std::size_t k) {
-    return shown < 2 ? count - 1 : k * (count - 1) / (shown - 1);
-  };
-  const std::size_t shown_rows = std::min<std::size_t>(rows, 10), shown_columns = std::min<std::size_t>(columns, 6);
+  const std::size_t forward = map.speeds.size() / 2;
+  const std::vector<std::size_t> speeds = even_rows(forward, 6);
   fmt::print("\n  efficiency [%] over the load torque [N m] and the worm speed [rad/s]\n\n  {:>12}", "");
-  for (std::size_t c = 0; c < shown_columns; ++c)
-    fmt::print(" {:>9.4g}", map.speeds[first + spread(columns, shown_columns, c)]);
+  for (const std::size_t s : speeds) fmt::print(" {:>9.4g}", map.speeds[forward + s]);
   fmt::print("\n");
-  for (std::size_t r = 0; r < shown_rows; ++r) {
-    const std::size_t load = spread(rows, shown_rows, r);
+  for (const std::size_t load : even_rows(map.loads.size(), 10)) {
     fmt::print("  {:>12.4g}", map.loads[load]);
-    for (std::size_t c = 0; c < shown_columns; ++c) {
-      const double share = map.at(first + spread(columns, shown_columns, c), load).efficiency;
+    for (const std::size_t s : speeds) {
+      const double share = map.at(forward + s, load).efficiency;
       fmt::print(" {:>9}", std::isnan(share) ? "-" : fmt::format("{:.1f}", 100.0 * share));
     }
     fmt::print("\n");
@@ -134,8 +125,7 @@ int efficiency_command(const EfficiencyOptions& options) {
   if (options.scenario.quiet) return 0;
   fmt::print("{}\n", scenario.title);
   print_item("regime", describe_mesh(scenario));
-  for (const std::string& warning : warnings(scenario))
-    if (!warning.starts_with("no [motor.torque]")) print_item("warning", warning);
+  for (const std::string& warning : warnings(scenario, MotorTorque::sought)) print_item("warning", warning);
   print_best(map);
   print_table(map);
   if (!options.output.empty())

@@ -172,8 +172,7 @@ int steady_command(const SteadyOptions& options) {
   if (options.scenario.quiet) return 0;
   fmt::print("{}\n", scenario.title);
   if (const std::string mesh = describe_mesh(scenario); !mesh.empty()) print_item("regime", mesh);
-  for (const std::string& warning : warnings(scenario))
-    if (!warning.starts_with("no [motor.torque]")) print_item("warning", warning);
+  for (const std::string& warning : warnings(scenario, MotorTorque::sought)) print_item("warning", warning);
   if (scenario.axis == Axis::rotary)
     print_item("load", fmt::format("{:g} N m, at the initial angle and time 0", rest_at_start(scenario).load));
   if (comparison)

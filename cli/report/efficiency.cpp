@@ -31,9 +31,10 @@ ReportPage report_of_efficiency(const ResultFile& file) {
                              "1",
                              "efficiency at this worm speed",
                              {share.begin() + begin, share.begin() + end}});
-    std::size_t at = s * loads;
-    for (std::size_t k = at; k < s * loads + loads; ++k)
-      if (!(share[at] >= share[k])) at = std::isnan(share[k]) ? at : k;
+    const auto highest = std::max_element(share.begin() + begin, share.begin() + end, [](double a, double b) {
+      return std::isnan(a) ? !std::isnan(b) : a < b;  // what is no number comes before all
+    });
+    const auto at = static_cast<std::size_t>(highest - share.begin());
     best.rows.push_back({speed[at], 100.0 * share[at], load[at], torque[at]});
   }
   ReportPage page;

@@ -10,8 +10,9 @@ namespace wormdrive {
 /// Reads [reference] or [[reference]], whose terms add up; CSV files are looked for in `folder`.
 Reference read_reference(TableReader& root, const std::string& folder);
 
-/// Notes a fault at a number that is no whole one; it ends with these words.
+/// How a fault ends at a number that is no whole one.
 inline constexpr std::string_view must_be_whole = "must be a whole number";
+/// Notes that fault.
 void require_whole(TableReader& table, const std::string& key, double value);
 
 }  // namespace wormdrive

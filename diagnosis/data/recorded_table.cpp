@@ -111,40 +111,37 @@ void keep_even_rows(RecordedTable& table) {
   }
 }
 
-/// The motor's commands from each sample on: the decided ones, a sample later if the controller took as long. That is
-/// seen in what reached the motor, which a limit may have changed.
-void hold_back_as_applied(std::vector<double>& decided, const std::vector<double>& applied) {
-  std::size_t at_once = 0, a_sample_later = 0;
-  for (std::size_t k = 1; k < applied.size(); ++k) {
-    at_once += applied[k] == decided[k] ? 1 : 0;
-    a_sample_later += applied[k] == decided[k - 1] ? 1 : 0;
-  }
-  if (a_sample_later <= at_once) return;
-  std::rotate(decided.begin(), decided.end() - 1, decided.end());
-  decided.front() = applied.front();
-}
-
-/// Refuses the samples of a controller whose encoder did not sit on the gear.
-void reject_encoder_on_worm(const std::string& path, const std::string& scenario) {
-  if (scenario.empty()) return;  // another program wrote the run
+/// By how many samples the commands of a stored run reached the motor after they were decided. Rejects a controller
+/// whose encoder did not sit on the gear.
+std::size_t samples_of_delay(const std::string& path, const std::string& scenario) {
+  if (scenario.empty()) return 0;  // another program wrote the run
   const auto control = parse_scenario(scenario, path, {}, Purpose::show).control;
-  if (control && control->sensor.on_worm)
+  if (!control) return 0;
+  if (control->sensor.on_worm)
     reject({path}, "shows the worm's angle only (sensor.shaft = \"worm\"); a diagnosis needs that of the gear");
+  return static_cast<std::size_t>(control->sampling.delay);
 }
 
-/// What is recorded of a run, whose columns column(name, unit in SI) reads.
+/// The commands that the motor has from each sample on; before the first there is none.
+void hold_back(std::vector<double>& decided, std::size_t samples) {
+  const std::size_t rows = decided.size();
+  decided.insert(decided.begin(), samples, 0.0);
+  decided.resize(rows);
+}
+
+/// What is recorded of a run, whose columns column(name, unit in SI) reads; delay: of a controller, in samples.
 template <class Column>
-RecordedTable run_table(const std::string& path, Axis axis, bool controlled, bool with_worm, const Column& column) {
+RecordedTable run_table(const std::string& path, Axis axis, std::optional<std::size_t> delay, bool with_worm,
+                        const Column& column) {
   RecordedTable table;
   table.path = path;
   table.has_lines = false;
   table.axis = axis;
-  const std::string torque = units_on(axis, "N m");
   table.time = column("time", "s");
-  table.torque = column(controlled ? "torque" : "motor_torque", torque);
-  table.angle = column(controlled ? "measured_angle" : "gear_angle", units_on(axis, "rad"));
-  if (controlled) {
-    hold_back_as_applied(table.torque.values, column("applied_torque", torque).values);
+  table.torque = column(delay ? "torque" : "motor_torque", units_on(axis, "N m"));
+  table.angle = column(delay ? "measured_angle" : "gear_angle", units_on(axis, "rad"));
+  if (delay) {
+    hold_back(table.torque.values, *delay);
     return table;
   }
   if (with_worm) table.worm_angle = column("worm_angle", "rad");
@@ -155,11 +152,12 @@ RecordedTable run_table(const std::string& path, Axis axis, bool controlled, boo
 /// A run as HDF5, by whoever wrote it: the columns that are needed, all of them equally long.
 RecordedTable from_run(const std::string& path, Axis axis) {
   const Hdf5Handle file = open_hdf5(path);
-  const bool controlled = has_member(file, "controller");
-  if (controlled && H5Aexists(file, "scenario") > 0) reject_encoder_on_worm(path, read_text_attribute(file, "scenario"));
-  const StoredTable run(file, controlled ? "controller" : "trajectory");
+  std::optional<std::size_t> delay;
+  if (has_member(file, "controller"))
+    delay = samples_of_delay(path, H5Aexists(file, "scenario") > 0 ? read_text_attribute(file, "scenario") : "");
+  const StoredTable run(file, delay ? "controller" : "trajectory");
   run.check({"time", "", ""}, Range::rising);
-  return run_table(path, axis, controlled, run.has("worm_angle"), [&](const std::string& name, std::string_view si) {
+  return run_table(path, axis, delay, run.has("worm_angle"), [&](const std::string& name, std::string_view si) {
     run.check({name, "", ""}, Range::any);
     RecordedValues column{fmt::format("/{}", run.column(name).path()), 1.0, run.column(name).values()};
     const std::string unit = stated_unit(open_object(file, run.column(name).path()));
@@ -174,9 +172,9 @@ RecordedTable from_exported_run(const DataTable& table, Axis axis) {
     return std::any_of(table.columns.begin(), table.columns.end(),
                        [&](const StoredNumbers& column) { return column.name == name; });
   };
-  const bool controlled = there("controller.time");
-  if (controlled) reject_encoder_on_worm(table.path, table.scenario);
-  const std::string in = controlled ? "controller." : "trajectory.";
+  std::optional<std::size_t> delay;
+  if (there("controller.time")) delay = samples_of_delay(table.path, table.scenario);
+  const std::string in = delay ? "controller." : "trajectory.";
   const auto column = [&](const std::string& name, std::string_view si) {
     RecordedValues values{in + name, 1.0, table.numbers(in + name)};
     if (const std::string unit = table.unit(values.name); !unit.empty())
@@ -186,7 +184,7 @@ RecordedTable from_exported_run(const DataTable& table, Axis axis) {
     require_equal_lengths(table, in + "time", rows, values.name, values.values.size());
     return values;
   };
-  return run_table(table.path, axis, controlled, there(in + "worm_angle"), column);
+  return run_table(table.path, axis, delay, there(in + "worm_angle"), column);
 }
 
 }  // namespace
