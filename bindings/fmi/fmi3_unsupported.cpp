@@ -81,39 +81,26 @@ fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference[], size_t coun
                          size_t) {
   return none(c, __func__, count);
 }
-fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference[], size_t count, fmi3Clock[]) {
-  return none(c, __func__, count);
-}
-fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference[], size_t count, const fmi3Clock[]) {
-  return none(c, __func__, count);
-}
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance c, const fmi3ValueReference[], size_t count, fmi3Float64[],
-                                  fmi3IntervalQualifier[]) {
-  return none(c, __func__, count);
-}
-fmi3Status fmi3GetIntervalFraction(fmi3Instance c, const fmi3ValueReference[], size_t count, fmi3UInt64[], fmi3UInt64[],
+fmi3Status fmi3GetIntervalFraction(fmi3Instance c, const fmi3ValueReference[], size_t, fmi3UInt64[], fmi3UInt64[],
                                    fmi3IntervalQualifier[]) {
-  return none(c, __func__, count);
+  return refused(c, __func__);
 }
-fmi3Status fmi3GetShiftDecimal(fmi3Instance c, const fmi3ValueReference[], size_t count, fmi3Float64[]) {
-  return none(c, __func__, count);
+fmi3Status fmi3GetShiftFraction(fmi3Instance c, const fmi3ValueReference[], size_t, fmi3UInt64[], fmi3UInt64[]) {
+  return refused(c, __func__);
 }
-fmi3Status fmi3GetShiftFraction(fmi3Instance c, const fmi3ValueReference[], size_t count, fmi3UInt64[], fmi3UInt64[]) {
-  return none(c, __func__, count);
+fmi3Status fmi3SetIntervalDecimal(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3Float64[]) {
+  return refused(c, __func__);
 }
-fmi3Status fmi3SetIntervalDecimal(fmi3Instance c, const fmi3ValueReference[], size_t count, const fmi3Float64[]) {
-  return none(c, __func__, count);
-}
-fmi3Status fmi3SetIntervalFraction(fmi3Instance c, const fmi3ValueReference[], size_t count, const fmi3UInt64[],
+fmi3Status fmi3SetIntervalFraction(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3UInt64[],
                                    const fmi3UInt64[]) {
-  return none(c, __func__, count);
+  return refused(c, __func__);
 }
-fmi3Status fmi3SetShiftDecimal(fmi3Instance c, const fmi3ValueReference[], size_t count, const fmi3Float64[]) {
-  return none(c, __func__, count);
+fmi3Status fmi3SetShiftDecimal(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3Float64[]) {
+  return refused(c, __func__);
 }
-fmi3Status fmi3SetShiftFraction(fmi3Instance c, const fmi3ValueReference[], size_t count, const fmi3UInt64[],
+fmi3Status fmi3SetShiftFraction(fmi3Instance c, const fmi3ValueReference[], size_t, const fmi3UInt64[],
                                 const fmi3UInt64[]) {
-  return none(c, __func__, count);
+  return refused(c, __func__);
 }
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance c) { return refused(c, __func__); }
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance c) { return refused(c, __func__); }

@@ -153,6 +153,8 @@ double FmuInstance::real(unsigned reference) {
     if (variable == ScalarVariable::motor_torque) return run.observe().tau_m;
     if (variable == ScalarVariable::normal_force) return run.observe().normal_force;
     if (variable == ScalarVariable::measured_angle) return run.measured_angle();
+    if constexpr (!MovedFromOutside<Run>)
+      if (variable == ScalarVariable::controller_torque && model_.scenario.control) return run.commanded();
     if (variable == ScalarVariable::event_time) return run.events().latest;
     unknown(reference);
   });
@@ -244,6 +246,17 @@ std::vector<double> FmuInstance::jacobian(std::span<const unsigned> unknowns, st
 
 // ---- co-simulation --------------------------------------------------------------------------------------------------
 
+template <class Run, class Use>
+void FmuInstance::go_on(Run& run, Use&& use) {
+  try {
+    use();
+  } catch (const SimulationFailure& halt) {
+    state_.halted = halt.what();
+  }
+  state_.time = run.time();
+  if (state_.halted) throw StepHalted(*state_.halted);
+}
+
 void FmuInstance::step(double from, double size, const AtEvent& at_event) {
   if (!std::isfinite(size) || size <= 0.0)
     throw std::invalid_argument(fmt::format("the communication step {} s must be greater than 0", size));
@@ -265,15 +278,32 @@ void FmuInstance::step(double from, double size, const AtEvent& at_event) {
         state_.time = t;
         return at_event(t);
       };
-      try {
-        run.step(until, end);
-      } catch (const SimulationFailure& halt) {
-        state_.halted = halt.what();
-      }
-      state_.time = run.time();
+      go_on(run, [&] { run.step(until, end); });
     }
   });
+}
+
+const SamplingSettings& FmuInstance::sample_clock(unsigned reference) const {
+  const auto& control = model_.scenario.control;
+  if (!control || static_cast<ScalarVariable>(reference) != ScalarVariable::sample_clock)
+    throw std::invalid_argument(fmt::format("there is no clock with the value reference {}", reference));
+  return control->sampling;
+}
+
+void FmuInstance::take_sample(unsigned reference) {
+  const double period = sample_clock(reference).period, now = state_.time;
   if (state_.halted) throw StepHalted(*state_.halted);
+  with_run([&]<class Run>(Run& run) {
+    if constexpr (!MovedFromOutside<Run>) {
+      const std::optional<double> latest = run.latest_sample();
+      if (latest && same_point(*latest, now, period)) return;  // rounding put it into the step before
+      if (!same_point(run.next_sample(), now, period))
+        throw std::invalid_argument(
+            fmt::format("the clock ticks at {} s, the controller samples next at {} s", now, run.next_sample()));
+      go_on(run, [&] { run.take_sample(); });
+    }
+  });
+  state_.takes_sample = true;
 }
 
 // ---- events ---------------------------------------------------------------------------------------------------------
@@ -289,6 +319,7 @@ void FmuInstance::leave_event_mode(InterfaceType mode) {
 }
 
 double FmuInstance::pass_events() {
+  state_.takes_sample = false;
   return with_run([](auto& run) {
     run.pass_events();
     return run.next_event_time();

@@ -111,6 +111,12 @@ class FmuInstance {
   /// Goes on from a communication point by a step [s]. Throws StepHalted where the drive cannot go on.
   void step(double from, double size, const AtEvent& at_event);
   double time() const { return state_.time; }
+
+  /// Interval and offset of the clock that ticks with the controller's samples. Throws where there is no such clock.
+  const SamplingSettings& sample_clock(unsigned reference) const;
+  /// Takes the sample that is due now; the clock is then active until pass_events(). Throws StepHalted as step().
+  void take_sample(unsigned reference);
+  bool takes_sample() const { return state_.takes_sample; }
   /// Rate of a continuous output along the motion, in its unit per second.
   double output_rate(unsigned reference);
   /// Why the drive cannot go on, if it cannot.
@@ -124,6 +130,7 @@ class FmuInstance {
     Experiment experiment{};
     double time = 0.0, torque = 0.0;
     bool uses_event_mode = false;
+    bool takes_sample = false;  ///< the clock of the controller's samples is active
     std::optional<std::string> halted{};
     std::optional<FmuRuns<LoadParameters>::type> run{};
   };
@@ -149,6 +156,9 @@ class FmuInstance {
 
  private:
   void begin();
+  /// Lets a drive go on by use(); where it halts, it stands from then on.
+  template <class Run, class Use>
+  void go_on(Run& run, Use&& use);
   ReferencePoint reference_point(unsigned reference) const;
   void reject_unsettable(unsigned reference, double value);
 

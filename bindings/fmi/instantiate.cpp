@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "bindings/fmi/component.hpp"
-#include "bindings/fmi/plant_json.hpp"
+#include "bindings/fmi/json/plant_json.hpp"
 
 namespace wormdrive {
 namespace {

@@ -36,6 +36,7 @@ std::vector<double> FmuInstance::to_numbers(const Kept& kept) const {
                               s.experiment.tolerance.value_or(0.0),
                               s.time,
                               s.torque,
+                              double(s.takes_sample),
                               double(s.run.has_value())};
   for_each_plant_parameter(kept.set, [&](const auto&, const auto&, double value) { numbers.push_back(value); });
   if (s.run) std::visit([&](const auto& run) { run.write(numbers); }, *s.run);
@@ -60,6 +61,7 @@ FmuInstance::Kept FmuInstance::from_numbers(std::span<const double> numbers) con
   if (const double tolerance = next(); has_tolerance) s.experiment.tolerance = tolerance;
   const double time = next();
   s.torque = next();
+  s.takes_sample = next() != 0.0;
   const bool runs = next() != 0.0;
   for_each_plant_parameter(made.model_.scenario, [&](const auto&, const auto&, double& value) { value = next(); });
   s.time = s.experiment.start;

@@ -95,23 +95,25 @@ class StepRun {
   /// [s]. Throws SimulationFailure where the drive cannot go on; it then stands where it halted.
   template <class End>
   void step(double until, End&& end) {
-    left_.reset();
-    Solver solver(drive_, settings_);
-    prepare(solver, until);
-    Mover mover{*this};
-    std::optional<Left> left;
-    go_on(drive_, solver, mover, progress_, [&](const Commanded<Drive>& drive, const Instant& now) {
-      const bool later = !latest_ || latest_->t != now.t;
-      const bool event = !later && !(latest_->mode == now.mode);
-      if (later && holds_left_limits_) left = Left{drive.observe(now), events_};
-      latest_ = now;
-      if (!event) return;
-      events_.add(now.t);
-      until = std::max(now.t, std::min(until, end(now.t)));
-      if (until == now.t) left_ = left;
-      progress_.timetable.end_at(until);
-    });
+    go(until, [&](double t, bool event) { return event ? end(t) : never; });
   }
+  /// When the controller of a loop takes its next sample [s].
+  double next_sample() const { return progress_.timetable.sample_time(static_cast<long>(loop_->samples())); }
+  /// When it took its latest [s], if it has taken one.
+  std::optional<double> latest_sample() const {
+    const auto taken = static_cast<long>(loop_->samples());
+    if (taken == 0) return {};
+    return progress_.timetable.sample_time(taken - 1);
+  }
+  /// Goes on to the next sample and takes it. Throws as step() does.
+  void take_sample() {
+    const std::uint64_t taken = loop_->samples();
+    go(std::nextafter(next_sample(), never), [&](double t, bool) { return loop_->samples() > taken ? t : never; });
+    left_.reset();
+  }
+  /// What the motor was told last [N m]; 0 before that.
+  double commanded() const { return commanded_.value_or(0.0); }
+
   /// Takes the event at which the last step ended.
   void pass_events() { left_.reset(); }
   /// Events are found inside; nobody has to stop for them.
@@ -205,12 +207,33 @@ class StepRun {
   struct Mover {
     StepRun& run;
     double sample(Commanded<Drive>& drive, const Instant& now) const {
-      return run.loop_ ? run.loop_->sample(drive, now) : run.torque_;
+      if (!run.loop_) return run.torque_;
+      return *(run.commanded_ = run.loop_->sample(drive, now));
     }
     void latch(const Commanded<Drive>& drive, const Instant& now) const {
       if (run.loop_) run.loop_->latch(drive, now);
     }
   };
+
+  /// Goes on to a time [s]; end(t, event) says on the way when to end instead [s], event being a change of mode.
+  template <class End>
+  void go(double until, End&& end) {
+    left_.reset();
+    Solver solver(drive_, settings_);
+    prepare(solver, until);
+    Mover mover{*this};
+    std::optional<Left> left;
+    go_on(drive_, solver, mover, progress_, [&](const Commanded<Drive>& drive, const Instant& now) {
+      const bool later = !latest_ || latest_->t != now.t;
+      const bool event = !later && !(latest_->mode == now.mode);
+      if (later && holds_left_limits_) left = Left{drive.observe(now), events_};
+      latest_ = now;
+      if (event) events_.add(now.t);
+      until = std::max(now.t, std::min(until, end(now.t, event)));
+      if (event && until == now.t) left_ = left;
+      progress_.timetable.end_at(until);
+    });
+  }
 
   Timetable timetable(const Scenario& scenario, double t) const {
     const auto& control = scenario.control;
@@ -253,7 +276,7 @@ class StepRun {
   bool held_from_outside_;
   bool on_worm_;  ///< where the encoder sits, which shows the gear by the worm
   double torque_;
-  std::optional<double> commanded_;  ///< the torque from outside that the motor was told last [N m]
+  std::optional<double> commanded_;  ///< what the motor was told last [N m]
   std::optional<Loop> loop_;
   Progress<Commanded<Drive>> progress_;
   Indicators<Drive> indicators_;

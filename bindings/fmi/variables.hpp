@@ -9,7 +9,7 @@
 
 namespace wormdrive {
 
-/// Value references of an FMU's variables that are not parameters; those of real numbers, then of whole ones.
+/// Value references of an FMU's variables that are not parameters; those of real numbers, of whole ones, of the clock.
 enum class ScalarVariable : unsigned {
   gear_angle,
   gear_speed,
@@ -26,10 +26,12 @@ enum class ScalarVariable : unsigned {
   reference_angle,
   reference_speed,
   time,
+  controller_torque,
   motion = 20,
   flank,
   gear_motion,
   event_count,
+  sample_clock = 30,
 };
 inline constexpr unsigned first_indicator = 40;   ///< value reference of the first event indicator
 inline constexpr unsigned first_parameter = 100;  ///< and of the first parameter

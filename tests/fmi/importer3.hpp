@@ -44,6 +44,32 @@ class Instance3 {
     call<decltype(fmi3GetInt32)>("fmi3GetInt32", &reference, size_t{1}, &value, size_t{1});
     return value;
   }
+  /// The clock of the controller's samples.
+  struct Clock {
+    double interval = 0.0, shift = 0.0;
+    fmi3IntervalQualifier qualifier = fmi3IntervalNotYetKnown;
+  };
+  Clock clock() {
+    const fmi3ValueReference reference = fmu_.reference("controller.sample");
+    Clock c;
+    call<decltype(fmi3GetIntervalDecimal)>("fmi3GetIntervalDecimal", &reference, size_t{1}, &c.interval, &c.qualifier);
+    call<decltype(fmi3GetShiftDecimal)>("fmi3GetShiftDecimal", &reference, size_t{1}, &c.shift);
+    return c;
+  }
+  bool is_ticking() {
+    const fmi3ValueReference reference = fmu_.reference("controller.sample");
+    fmi3Clock active = false;
+    call<decltype(fmi3GetClock)>("fmi3GetClock", &reference, size_t{1}, &active);
+    return active;
+  }
+  void tick(bool active = true) {
+    const fmi3ValueReference reference = fmu_.reference("controller.sample");
+    call<decltype(fmi3SetClock)>("fmi3SetClock", &reference, size_t{1}, &active);
+  }
+  void set(const std::string& name, double value) {
+    const fmi3ValueReference reference = fmu_.reference(name);
+    call<decltype(fmi3SetFloat64)>("fmi3SetFloat64", &reference, size_t{1}, &value, size_t{1});
+  }
   bool update() {
     bool need = true, terminate = true, nominals = true, values = false, defined = true;
     double next = 0.0;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bindings/fmi/fmi2.h"
-#include "bindings/fmi/plant_json.hpp"
+#include "bindings/fmi/json/plant_json.hpp"
 #include "simulation/load_scenario.hpp"
 
 namespace wormdrive::fuzz {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "bindings/fmi/archive/model_description.hpp"
-#include "bindings/fmi/plant_json.hpp"
+#include "bindings/fmi/json/plant_json.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/resource.hpp"
 

@@ -23,7 +23,19 @@ void write_fmi3_variable(Tree& list, const VariableInfo& variable, const std::ma
   state_unit(one, variable);
   if (variable.min) attribute(one, "min", *variable.min);
   if (variable.max) attribute(one, "max", *variable.max);
+  if (variable.sampled) attribute(one, "clocks", static_cast<unsigned>(ScalarVariable::sample_clock));
   if (variable.is_rate()) attribute(one, "derivative", references.at(variable.derivative_of));
+}
+
+/// Its interval and shift follow from parameters: importers ask for them.
+void write_sample_clock(Tree& list) {
+  Tree& one = child(list, "Clock");
+  attribute(one, "name", "controller.sample");
+  attribute(one, "valueReference", static_cast<unsigned>(ScalarVariable::sample_clock));
+  attribute(one, "description", "the controller takes a sample");
+  attribute(one, "causality", "input");
+  attribute(one, "variability", "discrete");
+  attribute(one, "intervalVariability", "fixed");
 }
 
 void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& variables,
@@ -78,6 +90,7 @@ std::string fmi3_description(const FmuModel& model) {
   for (const VariableInfo& variable : variables) references[variable.name] = variable.reference;
   Tree& list = child(top, "ModelVariables");
   for (const VariableInfo& variable : variables) write_fmi3_variable(list, variable, references);
+  if (model.scenario.control) write_sample_clock(list);
   write_fmi3_structure(child(top, "ModelStructure"), variables, references);
   return to_text(root);
 }

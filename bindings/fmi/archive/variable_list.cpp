@@ -23,6 +23,12 @@ class VariableLister {
     if (elastic_) shaft("worm", worm_angle, worm_speed, worm_angle_rate, worm_speed_rate);
     shaft("gear", gear_angle, gear_speed, gear_angle_rate, gear_speed_rate);
     torque();
+    if (scenario_.control) {
+      VariableInfo& sampled = real("controller_torque", ref(controller_torque), "output", "N m",
+                                   "motor torque that the controller commands from its latest sample on");
+      sampled.variability = "discrete";
+      sampled.sampled = true;
+    }
     real("normal_force", ref(normal_force), "output", "N", "normal force between the teeth");
     real("measured_angle", ref(measured_angle), "output", "rad", "gear angle as the sensor measures it").depends_on = {
         {"gear_angle"}};

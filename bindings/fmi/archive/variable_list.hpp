@@ -20,6 +20,7 @@ struct VariableInfo {
   std::string derivative_of{};  ///< name of the state
   /// Names of the variables that alone it may depend on; absent where that may be all.
   std::optional<std::vector<std::string>> depends_on{};
+  bool sampled = false;  ///< changes with the controller's samples alone
 
   bool is_output() const { return causality == "output"; }
   bool is_rate() const { return !derivative_of.empty(); }

@@ -1,4 +1,4 @@
-#include "bindings/fmi/control_json.hpp"
+#include "bindings/fmi/json/control_json.hpp"
 
 namespace wormdrive {
 namespace {

@@ -1,4 +1,4 @@
-#include "bindings/fmi/plant_json.hpp"
+#include "bindings/fmi/json/plant_json.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 #include <boost/uuid/name_generator.hpp>
 #include <boost/uuid/uuid_io.hpp>
 
-#include "bindings/fmi/control_json.hpp"
+#include "bindings/fmi/json/control_json.hpp"
 #ifndef _WIN32
 #include "output/classic_locale.hpp"
 #endif

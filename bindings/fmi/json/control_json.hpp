@@ -1,5 +1,5 @@
 #pragma once
-#include "bindings/fmi/json_transfer.hpp"
+#include "bindings/fmi/json/json_transfer.hpp"
 #include "description/control_scenario.hpp"
 
 namespace wormdrive {
