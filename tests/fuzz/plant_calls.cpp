@@ -1,12 +1,12 @@
 #include "fuzz/plant_calls.hpp"
 
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
 
 #include "bindings/fmi/fmi2.h"
 #include "bindings/fmi/json/plant_json.hpp"
+#include "fuzz/byte_source.hpp"
 #include "simulation/load_scenario.hpp"
 
 namespace wormdrive::fuzz {
@@ -14,30 +14,10 @@ namespace {
 
 std::string folder_of_plant, guid;
 
-/// Numbers and choices, as far as the bytes go; then zeros.
-class Source {
- public:
-  Source(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
-  bool empty() const { return at_ == end_; }
-  std::uint8_t byte() { return empty() ? std::uint8_t{0} : *at_++; }
-  double number() {
-    const std::uint8_t kind = byte();
-    if (kind % 4 != 0) return (kind - 128) * 0.01;
-    std::uint64_t bits = 0;
-    for (int k = 0; k < 8; ++k) bits = bits << 8 | byte();
-    double value = 0.0;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-  }
-
- private:
-  const std::uint8_t *at_, *end_;
-};
-
 void be_silent(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String, ...) {}
 constexpr fmi2CallbackFunctions callbacks{be_silent, calloc, free, nullptr, nullptr};
 
-void call(fmi2Component plant, Source& source, fmi2FMUstate& kept) {
+void call(fmi2Component plant, ByteSource& source, fmi2FMUstate& kept) {
   fmi2Real values[8] = {};
   fmi2Integer whole[8] = {};
   fmi2ValueReference references[8] = {};
@@ -96,7 +76,7 @@ void take_plant_calls(const std::uint8_t* data, std::size_t size) {
                                               ("file://" + folder_of_plant).c_str(), &callbacks, 0, 0);
   if (!plant) std::abort();
   fmi2FMUstate kept = nullptr;
-  Source source(data, std::min<std::size_t>(size, 2000));
+  ByteSource source(data, std::min<std::size_t>(size, 2000));
   while (!source.empty()) call(plant, source, kept);
   if (kept) fmi2FreeFMUstate(plant, &kept);
   fmi2FreeInstance(plant);

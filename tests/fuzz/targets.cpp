@@ -11,6 +11,7 @@
 #include "diagnosis/data/read_recording.hpp"
 #include "events/simulation_failure.hpp"
 #include "fuzz/damaged_result.hpp"
+#include "fuzz/loop_calls.hpp"
 #include "fuzz/plant_calls.hpp"
 #include "sweep/study/load_study.hpp"
 
@@ -153,7 +154,8 @@ const std::vector<Target>& targets() {
        take_override, toml_words},
       {"run_file", run_file_seeds, take_damaged_run, {}, 10},
       {"sweep_file", sweep_file_seeds, take_damaged_sweep, {}, 10},
-      {"plant", plant_seeds, take_plant_calls, {}}};
+      {"plant", plant_seeds, take_plant_calls, {}},
+      {"loop", loop_seeds, take_loop_calls, {}}};
   return all;
 }
 
