@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "control/reference.hpp"
 #include "control/sensor.hpp"
 #include "control/speed_estimator.hpp"
+#include "core/numbers/queue.hpp"
 #include "core/numbers/series.hpp"
 
 namespace wormdrive {
@@ -53,7 +53,7 @@ class ClosedLoop {
   /// Takes the angle that a sample will see later.
   template <class System>
   void latch(const System& system, const typename System::Instant& now) {
-    latched_.push_back(seen(system, now));
+    latched_.push(seen(system, now));
   }
 
   /// The motor torque [N m] to command from now on; what disturbs the shaft from now on is put there.
@@ -62,7 +62,7 @@ class ClosedLoop {
     const ReferencePoint desired = reference_.at(now.t);
     const auto at = system.moment(now);
     const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
-    if (!latched_.empty()) latched_.pop_front();
+    if (!latched_.empty()) latched_.pop();
     const double limit = system.torque_limit();
     const double angle =
         on_worm_ ? encoder_(system.mesh().i * shown.angle, k_) / system.mesh().i : encoder_(shown.angle, k_);
@@ -97,7 +97,7 @@ class ClosedLoop {
     std::size_t at = 2;
     visit_memory([&](double& number) { number = numbers[at++]; });
     latched_.clear();
-    for (; at < numbers.size(); at += 2) latched_.push_back({numbers[at], numbers[at + 1]});
+    for (; at < numbers.size(); at += 2) latched_.push({numbers[at], numbers[at + 1]});
     return true;
   }
   /// How many samples were taken, and how many angles for samples to come.
@@ -136,7 +136,7 @@ class ClosedLoop {
   double period_;
   bool delayed_;
   Listener listener_;
-  std::deque<Seen> latched_;  ///< for the samples to come, where they see what was
+  Queue<Seen> latched_;  ///< for the samples to come, where they see what was
   std::uint64_t k_ = 0;
   double left_ = 0.0;  ///< of the torque decided at the sample before, by the limit [N m]
 };

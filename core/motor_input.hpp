@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "core/lagged_piece.hpp"
 #include "core/limited_piece.hpp"
 #include "core/numbers/jet.hpp"
+#include "core/numbers/queue.hpp"
 #include "core/signal.hpp"
 
 namespace wormdrive {
@@ -39,7 +39,7 @@ class MotorInput {
     arrival_ = T(t);
     while (!on_the_way_.empty() && on_the_way_.front().arrival <= t) {
       held_ = on_the_way_.front().torque;
-      on_the_way_.pop_front();
+      on_the_way_.pop();
       arrival_ = moving(t);
     }
     // A knot of the command arrives late_ after it; rounding must not make it a moment too early to be seen.
@@ -108,7 +108,7 @@ class MotorInput {
       return false;
     }
     if (late_ > 0.0) {
-      on_the_way_.push_back({t + late_, torque});
+      on_the_way_.push({t + late_, torque});
       return true;
     }
     held_ = torque;
@@ -155,7 +155,7 @@ class MotorInput {
   T arrival_{};
   LaggedPiece<T> lagged_{};
   bool started_ = false;
-  std::deque<Command> on_the_way_{};           ///< what a controller has commanded and has not arrived
+  Queue<Command> on_the_way_{};                ///< what a controller has commanded and has not arrived
   double signal_constant_ = 0.0, held_ = 0.0;  ///< of the signal, and on top of it [N m]
   double knot_ = 0.0;                          ///< the next knot of the signal [s], as commanded
   double limit_knot_ = never;                  ///< when the limit begins or ends to cut [s], as commanded

@@ -1,7 +1,6 @@
 #pragma once
 #include <cmath>
 #include <concepts>
-#include <string>
 #include <utility>
 
 #include "events/event_log.hpp"
@@ -105,7 +104,7 @@ template <class System, class Solver, class Controller, class Recorder>
       case Reason::guard: {
         const auto before = now.mode;
         now = jump(system, solver, now, cause.guard);
-        log.count(now.t, std::string(System::guard_name(before, cause.guard)), before, now.mode);
+        log.count(now.t, System::guard_name(before, cause.guard), before, now.mode);
         break;
       }
       case Reason::report: break;

@@ -169,7 +169,7 @@ class StepRun {
     events_.latest = next();
     for (double left = next(); left >= 1.0; --left) {
       const double t = next();
-      past.on_the_way.push_back({t, next()});
+      past.on_the_way.push({t, next()});
       if (past.on_the_way.size() > from.size()) return false;
     }
     if (!now) return false;

@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/describe/schema_table.hpp"
 #include "cli/describe/study_schema.hpp"
+#include "core/data_sheet.hpp"
 #include "description/keys.hpp"
 #include "description/scenario.hpp"
 #include "description/variant_kinds.hpp"
@@ -62,7 +63,12 @@ Json mesh(Axis axis) {
                         .requires_key("kind")
                         .fields<SingleInertia<double>>()
                         .json();
-  return one_of({worm, none});
+  const Json sheet = SchemaTable(axis, "worm and gear from a data sheet")
+                         .with("kind", {{"const", DataSheet::kind}})
+                         .requires_key("kind")
+                         .fields<DataSheet>()
+                         .json();
+  return one_of({worm, none, sheet});
 }
 
 Json load(Axis axis) {

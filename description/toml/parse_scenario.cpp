@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/elastic/elastic_teeth.hpp"
+#include "description/data_sheet.hpp"
 #include "description/one_line.hpp"
 #include "description/rejection.hpp"
 #include "description/toml/document.hpp"
@@ -49,13 +50,17 @@ class ScenarioReader {
   /// be judged.
   void read_mesh() {
     root_.section("mesh", [&](TableReader& mesh) {
-      const auto kind = mesh.choice("kind", {"worm", "none"}, Presence::optional);
+      const auto kind = mesh.choice("kind", {"worm", std::string(DataSheet::kind), "none"}, Presence::optional);
       if (!kind) faults_.raise();
       if (kind == "worm") {
         MeshParameters<double> parameters;
         mesh.read_fields(parameters);
         scenario_.mesh = parameters;
         friction_at_ = mesh.where("friction");
+        return;
+      }
+      if (kind == DataSheet::kind) {
+        read_data_sheet(mesh);
         return;
       }
       const auto axis = mesh.choice("axis", {"rotary", "linear"}, Presence::optional);
@@ -69,6 +74,14 @@ class ScenarioReader {
       mesh.read_fields(inertia);
       scenario_.mesh = inertia;
     });
+  }
+
+  void read_data_sheet(TableReader& mesh) {
+    DataSheet sheet;
+    mesh.read_fields(sheet);
+    friction_at_ = mesh.where("friction");
+    if (!faults_.empty() || !(sheet.i > 0.0 && sheet.a > 0.0)) return;  // told already, or by finish()
+    scenario_.mesh = mesh_of(sheet, [&](const std::string& key, const std::string& what) { mesh.fault(key, what); });
   }
 
   Signal read_motor() {

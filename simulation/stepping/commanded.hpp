@@ -1,9 +1,8 @@
 #pragma once
-#include <deque>
 #include <utility>
-#include <vector>
 
 #include "core/motor_input.hpp"
+#include "core/numbers/queue.hpp"
 
 namespace wormdrive {
 
@@ -13,12 +12,12 @@ struct InputMemory {
   struct Command {
     double t, torque;
   };
-  double entered = 0.0;             ///< when inputs were last frozen to their pieces [s] ...
-  double held_then = 0.0;           ///< ... and what the motor was told then [N m]
-  Command held{};                   ///< the latest command that has arrived, and when it was given
-  double frozen = 0.0;              ///< when the lag began its present piece [s] ...
-  double lagged = 0.0;              ///< ... and its torque then [N m]
-  std::vector<Command> on_the_way;  ///< given and not arrived: behind a delay
+  double entered = 0.0;       ///< when inputs were last frozen to their pieces [s] ...
+  double held_then = 0.0;     ///< ... and what the motor was told then [N m]
+  Command held{};             ///< the latest command that has arrived, and when it was given
+  double frozen = 0.0;        ///< when the lag began its present piece [s] ...
+  double lagged = 0.0;        ///< ... and its torque then [N m]
+  Queue<Command> on_the_way;  ///< given and not arrived: behind a delay
 };
 
 /// A drive whose motor is told its torque step by step, and which remembers what a copy has to be told. Its motor has
@@ -38,14 +37,14 @@ class Commanded : public Drive {
     memory_.entered = t;
     while (!memory_.on_the_way.empty() && memory_.on_the_way.front().t + late_ <= t) {
       memory_.held = memory_.on_the_way.front();
-      memory_.on_the_way.erase(memory_.on_the_way.begin());
+      memory_.on_the_way.pop();
     }
     memory_.held_then = memory_.held.torque;
     Drive::enter(t);
   }
   bool command(double t, double torque) {
     if (late_ > 0.0) {
-      memory_.on_the_way.push_back({t, torque});
+      memory_.on_the_way.push({t, torque});
     } else {
       freeze(t);
       memory_.held = {t, torque};

@@ -125,7 +125,7 @@ class DriveStepper final : public SteppedDrive {
     for (long& count : earlier_) count = static_cast<long>(next());
     while (!next.rest().empty()) {
       const double t = next();
-      past.on_the_way.push_back({t, next()});
+      past.on_the_way.push({t, next()});
     }
     drive_.recall(past, knot);
     progress_ = {Timetable(0.0, never, never), now, EventLog()};

@@ -155,7 +155,7 @@ TEST_CASE("an unknown word is rejected with the known ones") {
        "s.toml:15:8: error: load.kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
       {"one of several loads", good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity\""),
        "s.toml:18:8: error: load[1].kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
-      {"mesh", good_but("[mesh]", "[mesh]\nkind = \"spur\""), "s.toml:3:8: error: mesh.kind = \"spur\" must be one of \"worm\", \"none\""}});
+      {"mesh", good_but("[mesh]", "[mesh]\nkind = \"spur\""), "s.toml:3:8: error: mesh.kind = \"spur\" must be one of \"worm\", \"data_sheet\", \"none\""}});
 }
 
 TEST_CASE("contradicting statements are reported at the one to remove") {

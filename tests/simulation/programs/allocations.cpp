@@ -1,6 +1,5 @@
-// A step in which no event happens allocates nothing, alone or together, whatever the solver. (A motor with a delay
-// keeps the torques on their way in a queue, which allocates now and then.) A program of its own: it counts what the
-// whole process allocates. Prints one line per fault; exit status 1 if there is any.
+// A step allocates nothing, alone or together, whatever the solver and whatever happens in it. A program of its own: it
+// counts what the whole process allocates. Prints one line per fault; exit status 1 if there is any.
 #include <cstdlib>
 #include <random>
 
@@ -21,8 +20,8 @@ long events_of(const SteppedDrives& drives) {
   return all;
 }
 
-/// Steps drives under torques that reverse, and compares each step's events with what it allocates. The first steps are
-/// left out: solvers make their first.
+/// Steps drives under torques that reverse, and counts what each step allocates. The first third is left out: solvers
+/// record the equations of a mode when they meet it first, and torques behind a delay take their place.
 int faults(const char* what, std::size_t count, int steps, const std::vector<std::string>& overrides) {
   std::vector<Scenario> scenarios;
   for (std::size_t k = 0; k < count; ++k) {
@@ -33,28 +32,23 @@ int faults(const char* what, std::size_t count, int steps, const std::vector<std
   SteppedDrives drives(scenarios);
   std::vector<double> torques(count, 0.05);
   std::mt19937 random(1);
-  constexpr int first = 10;
-  int quiet = 0, faulty = 0;
-  long seen = 0;
+  const int first = steps / 3;
+  int faulty = 0;
   for (int step = 0; step < steps; ++step) {
-    if (step >= first && step % 20 == 0)
+    if (step > 0 && step % 20 == 0)
       for (double& torque : torques) torque = 0.02 * static_cast<double>(static_cast<int>(random() % 7) - 3);
     const long before = allocations;
     drives.step(torques, 1e-3);
-    const long allocated = allocations - before, events = events_of(drives);
-    if (events == seen && step >= first) {
-      ++quiet;
-      if (allocated > 0 && ++faulty == 1)
-        fmt::print(stderr, "{}: step {} has no event and allocates {} times\n", what, step, allocated);
-    }
-    seen = events;
+    const long allocated = allocations - before;
+    if (step >= first && allocated > 0 && ++faulty == 1)
+      fmt::print(stderr, "{}: step {} allocates {} times\n", what, step, allocated);
   }
-  if (quiet < steps / 4 || seen == 0) {
-    fmt::print(stderr, "{}: only {} of {} steps without an event, {} events: this shows nothing\n", what, quiet, steps,
-               seen);
+  const long events = events_of(drives);
+  if (events < 10) {
+    fmt::print(stderr, "{}: only {} events: this shows nothing\n", what, events);
     ++faulty;
   }
-  fmt::print("{}: {} steps without an event, {} of them allocate; {} events\n", what, quiet, faulty, seen);
+  fmt::print("{}: {} steps, {} of them allocate; {} events\n", what, steps - first, faulty, events);
   return faulty;
 }
 
@@ -67,6 +61,9 @@ int main() {
                 {taylor, "effect.stribeck.drop=0.05", "effect.stribeck.speed_m_per_s=0.05",
                  "effect.worm_coulomb.torque_Nm=0.003", "effect.gear_viscous.coefficient_Nms_per_rad=0.001"});
   all += faults("with a lag", 2, 600, {taylor, "effect.actuator_lag.time_constant_s=0.01"});
-  all += faults("nominal, by CVODE", 1, 300, {});
+  all += faults("with a delay", 2, 600, {taylor, "effect.actuator_delay.delay_s=0.0035"});
+  all += faults("nominal, by CVODE", 1, 600, {});
+  all += faults("elastic teeth", 1, 200,
+                {"effect.tooth_compliance.stiffness_N_per_m=1e6", "effect.tooth_compliance.damping_s_per_m=300"});
   return all > 0 ? EXIT_FAILURE : EXIT_SUCCESS;
 }
