@@ -18,7 +18,13 @@ using Json = nlohmann::ordered_json;
 
 /// Eight digits are more than a screen shows; NaN has no number in JSON.
 Json shortened(double value) {
-  return std::isfinite(value) ? Json(number_in(fmt::format("{:.8g}", value)).value_or(value)) : Json(nullptr);
+  if (!std::isfinite(value)) return nullptr;
+  if (value == 0.0) return 0.0;
+  // A power of ten up to 1e22 is exact, so that the nearest double to these digits comes out and is written with them.
+  const int digits = 7 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (digits > 22 || digits < -22) return number_in(fmt::format("{:.8g}", value)).value_or(value);
+  const double power = std::pow(10.0, std::abs(digits));
+  return digits >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
 }
 Json chosen(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   Json list = Json::array();

@@ -83,5 +83,6 @@
   last.append(reset, command);
   box.append(...tables.values(), fault, last);
   told();
+  requestAnimationFrame(() => setTimeout(run));  // the browser compiles what draws before anybody moves a slider
   window.view = { sliders, changed };  // for whoever drives the page from outside
 })();

@@ -8,7 +8,6 @@ fault.
 """
 
 import http.client
-import http.server
 import json
 import os
 import signal
@@ -16,31 +15,30 @@ import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import urllib.parse
 from pathlib import Path
 
 import h5py
 
-from browser_keys import BrowserKeys
+from browser import Browser
 
 KEY = "mesh.friction"
-QUESTIONS = """<script>
-(async function () {
+QUESTIONS = """(async function () {
   const faults = [], say = (truth, what) => { if (!truth) faults.push(what); };
   window.addEventListener("error", (e) => faults.push("error: " + e.message), true);
   const drawn = () => new Promise((done) => document.addEventListener("wormdrive:drawn", done, { once: true }));
   const found = { faults, times: [] };
-  const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-  const press = async (key) => {
+  const pressed = (key) => {
     const end = drawn();
-    await fetch("press", { method: "POST", body: key });
+    press(key);
     return end;
   };
   try {
-    await painted();
-    found.opened = performance.now();
+    while (!window.view || document.readyState !== "complete") await new Promise((done) => setTimeout(done, 5));
+    found.opened = Math.max(performance.timing.loadEventEnd - performance.timing.navigationStart,
+                            ...performance.getEntriesByType("paint").map((paint) => paint.startTime));
+    await new Promise((done) => setTimeout(done, 300));  // nobody moves a slider before
     const slider = view.sliders.find((s) => s.key === "mesh.friction"), [, range, number] = slider.row.children;
     const group = report.groups[0], first = report.data.groups[0].panels[0].series[0].values;
     say(group.charts.length >= 4, "no panels");
@@ -76,22 +74,21 @@ QUESTIONS = """<script>
     say(document.querySelector("#view .fault").textContent === "" && view.changed.size === 0, "nothing leads back to what is stated");
     range.focus();
     const at = Number(range.value);
-    await press("ArrowRight");
+    await pressed("ArrowRight");
     say(Number(range.value) > at && view.changed.get("mesh.friction") === Number(range.value), "the arrow key moves no slider");
     say(document.activeElement === range, "a key takes the focus from its slider");
     press("Tab");
     await new Promise((done) => { const wait = () => document.activeElement === number ? done() : setTimeout(wait, 5); setTimeout(done, 5000); wait(); });
     say(document.activeElement === number, "Tab does not lead from a slider to its number");
     document.querySelector("#view button").focus();
-    await press(" ");
+    await pressed(" ");
     say(view.changed.size === 0 && Number(range.value) === at, "the blank does not press the button");
     const dark = matchMedia("(prefers-color-scheme: dark)").matches;
     found.dark = dark;
     say((getComputedStyle(document.getElementById("view")).backgroundColor === "rgb(255, 255, 255)") !== dark, "the scheme is not followed");
   } catch (fault) { faults.push("exception: " + fault.message); }
-  fetch("answer", { method: "POST", body: JSON.stringify(found) });
-})();
-</script></body>"""
+  return JSON.stringify(found);
+})()"""
 
 
 class Viewed:
@@ -161,67 +158,15 @@ def hostile_requests(viewed):
     return answers
 
 
-def between(viewed, answers, profile):
-    """A server that passes on what the browser asks, puts the questions into the page and presses the keys it asks for."""
-    keys = []
-
-    class Passing(http.server.BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
-
-        def pass_on(self, method, body=None):
-            status, text, headers = viewed.ask(method, self.path, body, Host=viewed.address.netloc)
-            if method == "GET" and status == 200:
-                text = text.replace(b"</body>", QUESTIONS.encode(), 1)
-            self.send_response(status)
-            for name in ("Content-Type", "Content-Security-Policy"):
-                self.send_header(name, headers[name])
-            self.send_header("Content-Length", str(len(text)))
-            self.end_headers()
-            self.wfile.write(text)
-
-        def do_GET(self):
-            self.pass_on("GET")
-
-        def do_POST(self):
-            body = self.rfile.read(int(self.headers["Content-Length"]))
-            if self.path.endswith("/press"):
-                if not keys:
-                    keys.append(BrowserKeys(profile))
-                keys[0].press(body.decode())
-                return self.nothing()
-            if not self.path.endswith("/answer"):
-                return self.pass_on("POST", body)
-            answers.append(json.loads(body))
-            self.nothing()
-            come.set()
-
-        def nothing(self):
-            self.send_response(204)
-            self.end_headers()
-
-        def log_message(self, *words):
-            pass
-
-    come = threading.Event()
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Passing)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    return server, come
-
-
 def faults_of_page(viewed, chromium, program, scenario, folder, *options):
-    answers = []
     profile = f"{folder}/browser{len(options)}"
-    server, come = between(viewed, answers, profile)
-    address = f"http://127.0.0.1:{server.server_address[1]}{viewed.address.path}"
-    browser = subprocess.Popen([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0",
-                                f"--user-data-dir={profile}", *options, address], stderr=subprocess.DEVNULL)
-    come.wait(120)
-    browser.terminate()
-    browser.wait()
-    server.shutdown()
-    if not answers:
-        return ["the page does not answer"]
-    found = answers[0]
+    chrome = subprocess.Popen([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0",
+                               f"--user-data-dir={profile}", *options, viewed.address.geturl()], stderr=subprocess.DEVNULL)
+    try:
+        found = json.loads(Browser(profile).ask(QUESTIONS))
+    finally:
+        chrome.terminate()
+        chrome.wait()
     faults = found["faults"]
     if options and not found.get("dark"):
         faults.append("the browser does not offer the dark scheme")
@@ -249,8 +194,10 @@ def main(program, scenario, chromium=None):
             faults.append("others can look into the folder of the run")
         answers = hostile_requests(viewed)
         faults += [f"{name}: answered with {status}" for name, status in answers if 200 <= status < 400]
-        status, text, _ = viewed.ask("POST", viewed.address.path + "run", json.dumps({KEY: 0.2}))
-        if status != 200 or len(json.loads(text)["groups"]) != 1:
+        status, text, headers = viewed.ask("POST", viewed.address.path + "run", json.dumps({KEY: 0.2}), **{"Accept-Encoding": "gzip, br"})
+        if headers["Content-Encoding"]:
+            faults.append("answers are compressed, which takes longer than the run")
+        elif status != 200 or len(json.loads(text)["groups"]) != 1:
             faults.append(f"after hostile requests a proper one is answered with {status}")
         print(f"{len(answers)} hostile requests, {sum(s == 0 or s >= 400 for _, s in answers)} refused")
         if chromium:
