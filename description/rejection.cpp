@@ -141,11 +141,33 @@ std::optional<std::string> why_it_cannot_move(const Scenario& scenario) {
       friction, mesh.C1(), limit, -surface, Jg, -Jw_i / mesh.C1());
 }
 
+template <class Parameters>
+bool states_anything(const Parameters& parameters) {
+  const Parameters nothing{};
+  bool any = false;
+  for_each_field<Parameters>([&](const auto& f) { any = any || parameters.*f.member != nothing.*f.member; });
+  return any;
+}
+/// What is stated about a model for a law that has none.
+std::vector<ControllerRejection> unused_models(const ControlScenario& control) {
+  if (has_model(control.law)) return {};
+  std::vector<ControllerRejection> list;
+  const std::string_view kind = std::visit([](const auto& law) { return law.kind; }, control.law);
+  for (const auto& [table, stated] : {std::pair{"nominal", states_anything(control.nominal)},
+                                      std::pair{"variation", states_anything(control.variations)}})
+    if (stated)
+      list.push_back({table, fmt::format("[controller.{}] has no effect with kind = \"{}\", a law without a model; "
+                                         "remove it",
+                                         table, kind)});
+  return list;
+}
+
 /// Both branches must have a positive inertia, for the law divides by it, the linear design a solution, and no
 /// anti-windup may be faster than the samples.
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario) {
-  if (!scenario.control || !has_model(scenario.control->law)) return {};
-  std::vector<ControllerRejection> list;
+  if (!scenario.control) return {};
+  std::vector<ControllerRejection> list = unused_models(*scenario.control);
+  if (!list.empty() || !has_model(scenario.control->law)) return list;
   const NominalModel nominal = make_nominal(scenario);
   for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})
     if (nominal.inertia(C) <= 0.0)
@@ -182,8 +204,7 @@ std::optional<ControllerRejection> variation_rejection(const Scenario& scenario)
   const Variations& variations = scenario.control->variations;
   if (!variations.friction || (variations.C1 <= 0.0 && variations.C2 <= 0.0)) return std::nullopt;
   return ControllerRejection{
-      "friction",
-      "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"};
+      "friction", "controller.variation.friction is stated along with C1 or C2; keep the friction, or the two others"};
 }
 
 std::vector<ControllerRejection> sensor_rejections(const Scenario& scenario) {

@@ -95,6 +95,10 @@ TEST_CASE("anti-windup that cannot be is reported") {
        "s.toml:18:19: error: controller.tracking_time_s = 0.0001 s must be at least the sample time, 0.001 s"},
       {"no integral", but(sliding, "kind = \"position_servo\"\nsample_time_s = 1e-3\ngain_Nm_per_rad = 2\nanti_windup = \"conditional\"\n"),
        "s.toml:15:15: error: controller.anti_windup needs a law with an integral, and \"position_servo\" has none"},
+      {"a model that a servo does not use", but(sliding, "kind = \"position_servo\"\nsample_time_s = 1e-3\ngain_Nm_per_rad = 2\n"
+                                                         "[controller.nominal]\nC1 = -0.02\n[controller.variation]\nC1 = 0.1\n"),
+       "s.toml:15:1: error: [controller.nominal] has no effect with kind = \"position_servo\", a law without a model; remove it\n"
+       "s.toml:17:1: error: [controller.variation] has no effect with kind = \"position_servo\", a law without a model; remove it"},
       {"a servo without a gain", but(sliding, "kind = \"position_servo\"\nsample_time_s = 1e-3\n"),
        "s.toml:11:1: error: [controller] lacks 'gain_Nm_per_rad' (torque per angle to the goal)"}});
 }
