@@ -131,7 +131,7 @@ TEST_CASE("stepping: steps of several lengths end where they say", "[stepping]")
   double t = 0.0;
   for (const double dt : {0.01, 0.01, 1e-6, 0.25, 0.01}) {
     drive->step(0.03, dt);
-    CHECK(drive->time() == Approx(t += dt).epsilon(1e-15));
+    CHECK(drive->time() == Catch::Approx(t += dt).epsilon(1e-15));
     CHECK(drive->state().t == drive->time());
   }
 }
@@ -182,7 +182,7 @@ TEST_CASE("stepping: a motor with a lag follows its closed form", "[stepping]") 
     for (int k = 0; k < 7; ++k) {
       drive->step(held, 0.003);
       torque = held + (torque - held) * std::exp(-0.003 / 0.02);
-      CHECK(drive->state().at.tau_m == Approx(torque).margin(1e-16));
+      CHECK(drive->state().at.tau_m == Catch::Approx(torque).margin(1e-16));
     }
   }
 }

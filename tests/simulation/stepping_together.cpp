@@ -93,8 +93,8 @@ TEST_CASE("stepping together: one starts again while the others go on", "[steppi
     drives.step(torques, 0.01);
     fresh->step(0.06, 0.01);
   }
-  CHECK(drives.time()[4] == Approx(0.25).epsilon(1e-14));
-  CHECK(drives.gear_angle()[4] == Approx(fresh->place().theta_g).epsilon(1e-13));
+  CHECK(drives.time()[4] == Catch::Approx(0.25).epsilon(1e-14));
+  CHECK(drives.gear_angle()[4] == Catch::Approx(fresh->place().theta_g).epsilon(1e-13));
   drives.reset();
   for (const double t : drives.time()) CHECK(t == 0.0);
 }

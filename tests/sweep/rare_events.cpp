@@ -81,9 +81,9 @@ TEST_CASE("rare events: a plane at 2 to 5 deviations, in 2, 10 and 50 dimensions
       CHECK(subset.estimate.variation < 0.3);
       const DesignPoint design = find_design_point(plane(beta), dimensions, 0);
       REQUIRE(design.converged);
-      CHECK(design.beta == Approx(beta).epsilon(1e-6));
+      CHECK(design.beta == Catch::Approx(beta).epsilon(1e-6));
       for (const double cosine : design.direction)
-        CHECK(cosine == Approx(1.0 / std::sqrt(static_cast<double>(dimensions))).epsilon(1e-6));
+        CHECK(cosine == Catch::Approx(1.0 / std::sqrt(static_cast<double>(dimensions))).epsilon(1e-6));
       const RareEstimate importance = importance_sampling(plane(beta), design.point, {.seed = 7});
       CHECK(within(importance, below(-beta), 3.5));
       CHECK(importance.variation < 0.06);
@@ -91,8 +91,8 @@ TEST_CASE("rare events: a plane at 2 to 5 deviations, in 2, 10 and 50 dimensions
 }
 
 TEST_CASE("rare events: published problems with several ways to miss, and with none that is the most likely") {
-  REQUIRE(of_four_branches() == Approx(2.22e-3).epsilon(0.005));
-  REQUIRE(of_parabola() == Approx(3.02e-3).epsilon(0.005));
+  REQUIRE(of_four_branches() == Catch::Approx(2.22e-3).epsilon(0.005));
+  REQUIRE(of_parabola() == Catch::Approx(3.02e-3).epsilon(0.005));
   CHECK(within(subset_simulation(each(four_branches), 2, {.seed = 3}).estimate, of_four_branches(), 3.0));
   CHECK(within(subset_simulation(each(parabola), 2, {.seed = 3}).estimate, of_parabola(), 3.0));
   CHECK(within(subset_simulation(each(circle), 2, {.seed = 3}).estimate, std::exp(-12.5), 3.0));
