@@ -23,8 +23,19 @@ std::vector<Spelling> column_spellings(std::string_view name, const Scenario& sc
   return spellings(column->name, column->unit, scenario.axis);
 }
 
+/// What stands behind a stem in a column's name, as files write units: "ms", "mNm", "deg/s"; empty where it is not
+/// there.
+std::string unit_of_name(const std::string& column, const std::string& stem) {
+  if (!column.starts_with(stem + "_")) return {};
+  std::string words = column.substr(stem.size() + 1);
+  const std::string per = "_per_";
+  if (const std::size_t at = words.find(per); at != std::string::npos) words.replace(at, per.size(), "/");
+  return words;
+}
+
 /// Why a column is not there: a name of a file that resembles the one sought, or a way to say what it is called.
-std::string missing(const std::string& sought, const std::string& usual, const DataTable& table) {
+std::string missing(const std::string& sought, const Spelling& spelling, const DataTable& table) {
+  const std::string& usual = spelling.key;
   std::string text =
       table.csv ? fmt::format("no column '{}'; the header line names {}", sought, fmt::join(table.csv->names, ", "))
                 : fmt::format("no column '{}'; the file has {}", sought, table.described());
@@ -33,6 +44,8 @@ std::string missing(const std::string& sought, const std::string& usual, const D
     if (probably_meant(sought, {name}) || probably_meant(name, {sought})) similar.push_back(name);
   const std::string meant = similar.empty() ? "..." : similar.front();
   if (sought != usual) return text;
+  if (const std::string words = unit_of_name(meant, spelling.stem); !words.empty())
+    return text + fmt::format("; '{}' is no known unit of a quantity in {}", words, spelling.unit.symbol);
   return text + fmt::format("; [data] {} = \"{}\" in the scenario would say which it is", usual, meant);
 }
 
@@ -51,6 +64,11 @@ std::optional<FoundColumn> find_recorded(const DataTable& table, std::string_vie
   for (const Spelling& spelling : known)
     if (table.has(spelling.key)) return FoundColumn{spelling.key, spelling.unit};
   const std::string& stem = known.front().stem;
+  for (const std::string& column : table.names())
+    if (const auto size = known.front().key == stem
+                              ? std::nullopt
+                              : unit_in_words(unit_of_name(column, stem), known.front().unit.symbol))
+      return FoundColumn{column, Unit{{}, {}, *size}};
   if (!table.csv && table.has(stem) && !table.unit(stem).empty()) return FoundColumn{stem, std::nullopt};
   return std::nullopt;
 }
@@ -217,7 +235,7 @@ RecordedValues recorded_values(const DataTable& table, std::string_view name, co
   const std::optional<FoundColumn> found = find_recorded(table, name, scenario);
   if (!found) {
     const std::string sought = recorded_name(name, scenario);
-    if (required || sought != usual.key) reject(table.header(), missing(sought, usual.key, table));
+    if (required || sought != usual.key) reject(table.header(), missing(sought, usual, table));
     return {sought, usual.unit.si, {}};
   }
   RecordedValues column{found->name, found->unit ? found->unit->si : 1.0, table.numbers(found->name)};

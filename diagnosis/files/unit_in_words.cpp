@@ -41,7 +41,9 @@ constexpr std::array words_for_units{Word{"sec", "s", 1.0},
                                      Word{"rpm", "rad/s", per_minute},
                                      Word{"1/min", "rad/s", per_minute},
                                      Word{"ms-1", "m/s", 1.0},
-                                     Word{"cm", "m", 0.01}};
+                                     Word{"cm", "m", 0.01},
+                                     Word{"Ncm", "N m", 0.01},
+                                     Word{"Nmm", "N m", 1e-3}};
 
 struct Prefix {
   std::string_view text;
