@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -93,8 +94,7 @@ class StepRun {
 
   /// Goes on to a time [s]. end(t), asked at every change of mode, may end the step earlier: there, or at a later time
   /// [s]. Throws SimulationFailure where the drive cannot go on; it then stands where it halted.
-  template <class End>
-  void step(double until, End&& end) {
+  void step(double until, const std::function<double(double)>& end) {
     go(until, [&](double t, bool event) { return event ? end(t) : never; });
   }
   /// When the controller of a loop takes its next sample [s].
@@ -215,9 +215,9 @@ class StepRun {
     }
   };
 
-  /// Goes on to a time [s]; end(t, event) says on the way when to end instead [s], event being a change of mode.
-  template <class End>
-  void go(double until, End&& end) {
+  /// Goes on to a time [s]; end(t, event) says on the way when to end instead [s], event being a change of mode. No
+  /// template: the solver is compiled once.
+  void go(double until, const std::function<double(double, bool)>& end) {
     left_.reset();
     Solver solver(drive_, settings_);
     prepare(solver, until);
