@@ -23,6 +23,7 @@ struct DataSheet {
   double Jw{}, Jg{};                 ///< [kg m^2], as in MeshParameters
 
   static constexpr std::string_view kind = "data_sheet";
+  static constexpr std::string_view meaning = "worm and gear from a data sheet";
   static constexpr auto fields() {
     using D = DataSheet;
     constexpr Presence o = Presence::optional;

@@ -1,6 +1,5 @@
 #include "description/data_sheet.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,23 +9,21 @@
 namespace wormdrive {
 namespace {
 
-bool is_whole(double x) { return std::abs(x - std::round(x)) <= 1e-9 * x; }  // as far as decimals state a ratio
-
 /// Radii from teeth; returns tan lambda.
 double set_radii(MeshParameters<double>& mesh, const DataSheet& sheet, const DataSheetFault& fault) {
   const double starts = *sheet.starts, module = *sheet.module;
-  if (!is_whole(starts)) fault("starts", fmt::format("mesh.starts = {} must be a whole number", starts));
-  if (!is_whole(sheet.i * starts))
+  const double teeth = sheet.i * starts;
+  if (std::abs(teeth - std::round(teeth)) > 1e-9 * teeth)  // as far as decimals state a ratio
     fault("starts", fmt::format("mesh.ratio = {} and mesh.starts = {} give the gear {:.6g} teeth; their number must be "
                                 "whole",
-                                sheet.i, starts, sheet.i * starts));
-  mesh.lg = 0.5 * module * sheet.i * starts;
+                                sheet.i, starts, teeth));
+  mesh.lg = 0.5 * module * teeth;
   mesh.lw = sheet.a - mesh.lg;
   if (mesh.lw > 0.0) return 0.5 * module * starts / mesh.lw;
   fault("centre_distance_m",
         fmt::format("mesh.centre_distance_m = {} must be greater than {:.6g} m, the pitch radius of "
                     "a gear with {:.6g} teeth and mesh.module_m = {}",
-                    sheet.a, mesh.lg, sheet.i * starts, module));
+                    sheet.a, mesh.lg, teeth, module));
   return 0.0;
 }
 
@@ -79,7 +76,7 @@ MeshParameters<double> mesh_of(const DataSheet& sheet, const DataSheetFault& fau
   const double t = teeth ? set_radii(mesh, sheet, fault) : set_from_efficiencies(mesh, sheet, fault);
   if (t > 1.0) {
     fault("centre_distance_m", fmt::format("the lead angle of the worm is {:.4g} deg; it must be at most 45 deg",
-                                           std::atan(t) * 180.0 / std::numbers::pi));
+                                           std::atan(t) / unit::degree));
   } else if (t > 0.0) {
     mesh.lambda = std::atan(t);
     if (teeth) mesh.mu = friction_from_one(sheet, t, fault);

@@ -150,7 +150,6 @@ bool states_anything(const Parameters& parameters) {
 }
 /// What is stated about a model for a law that has none.
 std::vector<ControllerRejection> unused_models(const ControlScenario& control) {
-  if (has_model(control.law)) return {};
   std::vector<ControllerRejection> list;
   const std::string_view kind = std::visit([](const auto& law) { return law.kind; }, control.law);
   for (const auto& [table, stated] : {std::pair{"nominal", states_anything(control.nominal)},
@@ -166,8 +165,8 @@ std::vector<ControllerRejection> unused_models(const ControlScenario& control) {
 /// anti-windup may be faster than the samples.
 std::vector<ControllerRejection> controller_rejections(const Scenario& scenario) {
   if (!scenario.control) return {};
-  std::vector<ControllerRejection> list = unused_models(*scenario.control);
-  if (!list.empty() || !has_model(scenario.control->law)) return list;
+  if (!has_model(scenario.control->law)) return unused_models(*scenario.control);
+  std::vector<ControllerRejection> list;
   const NominalModel nominal = make_nominal(scenario);
   for (const auto& [name, C] : {std::pair{"C1", nominal.C1}, std::pair{"C2", nominal.C2}})
     if (nominal.inertia(C) <= 0.0)

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "bindings/fmi/plant_parameters.hpp"
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/rejection.hpp"
 #include "events/simulation_failure.hpp"

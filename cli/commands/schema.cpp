@@ -63,12 +63,7 @@ Json mesh(Axis axis) {
                         .requires_key("kind")
                         .fields<SingleInertia<double>>()
                         .json();
-  const Json sheet = SchemaTable(axis, "worm and gear from a data sheet")
-                         .with("kind", {{"const", DataSheet::kind}})
-                         .requires_key("kind")
-                         .fields<DataSheet>()
-                         .json();
-  return one_of({worm, none, sheet});
+  return one_of({worm, none, kind_table<DataSheet>(axis).json()});
 }
 
 Json load(Axis axis) {

@@ -83,6 +83,7 @@
   last.append(reset, command);
   box.append(...tables.values(), fault, last);
   told();
-  requestAnimationFrame(() => setTimeout(run));  // the browser compiles what draws before anybody moves a slider
+  // the browser compiles what draws before anybody moves a slider
+  requestAnimationFrame(() => setTimeout(() => window.report.show(window.report.data)));
   window.view = { sliders, changed };  // for whoever drives the page from outside
 })();

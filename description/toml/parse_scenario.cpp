@@ -52,11 +52,11 @@ class ScenarioReader {
     root_.section("mesh", [&](TableReader& mesh) {
       const auto kind = mesh.choice("kind", {"worm", std::string(DataSheet::kind), "none"}, Presence::optional);
       if (!kind) faults_.raise();
+      friction_at_ = mesh.where("friction");
       if (kind == "worm") {
         MeshParameters<double> parameters;
         mesh.read_fields(parameters);
         scenario_.mesh = parameters;
-        friction_at_ = mesh.where("friction");
         return;
       }
       if (kind == DataSheet::kind) {
@@ -79,8 +79,8 @@ class ScenarioReader {
   void read_data_sheet(TableReader& mesh) {
     DataSheet sheet;
     mesh.read_fields(sheet);
-    friction_at_ = mesh.where("friction");
     if (!faults_.empty() || !(sheet.i > 0.0 && sheet.a > 0.0)) return;  // told already, or by finish()
+    if (sheet.starts) require_whole(mesh, "starts", *sheet.starts);
     scenario_.mesh = mesh_of(sheet, [&](const std::string& key, const std::string& what) { mesh.fault(key, what); });
   }
 

@@ -64,11 +64,10 @@ std::optional<FoundColumn> find_recorded(const DataTable& table, std::string_vie
   for (const Spelling& spelling : known)
     if (table.has(spelling.key)) return FoundColumn{spelling.key, spelling.unit};
   const std::string& stem = known.front().stem;
-  for (const std::string& column : table.names())
-    if (const auto size = known.front().key == stem
-                              ? std::nullopt
-                              : unit_in_words(unit_of_name(column, stem), known.front().unit.symbol))
-      return FoundColumn{column, Unit{{}, {}, *size}};
+  if (known.front().key != stem)  // a pure number has no unit
+    for (const std::string& column : table.names())
+      if (const auto size = unit_in_words(unit_of_name(column, stem), known.front().unit.symbol))
+        return FoundColumn{column, Unit{{}, {}, *size}};
   if (!table.csv && table.has(stem) && !table.unit(stem).empty()) return FoundColumn{stem, std::nullopt};
   return std::nullopt;
 }
