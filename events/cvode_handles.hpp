@@ -43,6 +43,10 @@ inline void check_cvode(int flag) {
   if (flag < 0) throw SolverFault(cvode_reason(flag));
 }
 
+/// Of one step. From the third on CVODE lowers the order by one with each failure, of Adams' formulas from twelve,
+/// before it begins anew and shortens the step to a tenth each time.
+inline constexpr int usual_error_test_failures = 3, most_error_test_failures = 20;
+
 /// Diagnostics are told once, by the exception.
 inline void silence_cvode([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
 #if SUNDIALS_VERSION_MAJOR >= 7

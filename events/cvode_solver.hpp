@@ -15,6 +15,7 @@
 
 #include "core/numbers/crossing.hpp"
 #include "core/ripple.hpp"
+#include "events/allowed_error.hpp"
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
 #include "events/growth.hpp"
@@ -45,9 +46,10 @@ class CvodeSolver {
     memory_.reset(CVodeCreate(settings.method == Method::bdf ? CV_BDF : CV_ADAMS, context_));
     if (!memory_ || !y_) throw std::bad_alloc();
     check_cvode(CVodeInit(memory(), right_hand_side, 0.0, y_.get()));
-    check_cvode(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
+    check_cvode(CVodeWFtolerances(memory(), error_weights));
     check_cvode(CVodeSetUserData(memory(), this));
     check_cvode(CVodeSetMaxNumSteps(memory(), max_steps));
+    check_cvode(CVodeSetMaxErrTestFails(memory(), most_error_test_failures));
     if (settings.method == Method::bdf) {
       matrix_.reset(SUNDenseMatrix(System::state_size, System::state_size, context_));
       linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
@@ -104,15 +106,10 @@ class CvodeSolver {
   /// What the solver did since it was made.
   SolverStatistics statistics() const {
     SolverStatistics sum = total_;
-    long steps = 0, evaluations = 0, jacobians = 0, failures = 0;
-    check_cvode(CVodeGetNumSteps(memory(), &steps));
-    check_cvode(CVodeGetNumRhsEvals(memory(), &evaluations));
-    check_cvode(CVodeGetNumErrTestFails(memory(), &failures));
-    if (linear_) check_cvode(CVodeGetNumJacEvals(memory(), &jacobians));
-    sum.steps += steps;
-    sum.evaluations += evaluations;
-    sum.jacobians += jacobians;
-    sum.error_test_failures += failures;
+    sum.steps += count(CVodeGetNumSteps);
+    sum.evaluations += count(CVodeGetNumRhsEvals);
+    if (linear_) sum.jacobians += count(CVodeGetNumJacEvals);
+    sum.error_test_failures += count(CVodeGetNumErrTestFails);
     return sum;
   }
 
@@ -122,8 +119,8 @@ class CvodeSolver {
 
   static int right_hand_side(sunrealtype clock, N_Vector y, N_Vector ydot, void* self) {
     auto& solver = *static_cast<CvodeSolver*>(self);
-    const double t = solver.origin_ + clock;
-    const State dx = solver.system_.derivative(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
+    const Eigen::Map<const State> x(N_VGetArrayPointer(y));
+    const State dx = solver.system_.derivative(solver.origin_ + clock, x, solver.ahead_.mode);
     Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
     // once is for good: the fixed-point iteration would only shorten its step and try again, without end
     solver.finite_ = solver.finite_ && dx.allFinite();
@@ -131,10 +128,31 @@ class CvodeSolver {
   }
   static int jacobian(sunrealtype clock, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
-    const double t = solver.origin_ + clock;
+    const Eigen::Map<const State> x(N_VGetArrayPointer(y));
     Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) =
-        solver.system_.jacobian(t, Eigen::Map<const State>(N_VGetArrayPointer(y)), solver.ahead_.mode);
+        solver.system_.jacobian(solver.origin_ + clock, x, solver.ahead_.mode);
     return 0;
+  }
+  static int error_weights(N_Vector y, N_Vector weights, void* self) {
+    const auto& solver = *static_cast<const CvodeSolver*>(self);
+    double step = 0.0;
+    if (solver.rounding_counts_) CVodeGetCurrentStep(solver.memory(), &step);
+    Instant now = solver.ahead_;
+    now.x = Eigen::Map<const State>(N_VGetArrayPointer(y));
+    Eigen::Map<State>(N_VGetArrayPointer(weights)) =
+        allowed_error(solver.system_, now, solver.settings_, step).cwiseInverse();
+    return 0;
+  }
+  /// Whether the error test is busy with rounding: its failures tell, or steps that are many and short.
+  bool meets_rounding() {
+    const long before = std::exchange(failures_, count(CVodeGetNumErrTestFails));
+    if (failures_ - before > usual_error_test_failures) return true;
+    return count(CVodeGetNumSteps) % 1000 == 0 && mostly_rounding(system_, ahead_, settings_, step_);
+  }
+  long count(int (*of)(void*, long*)) const {
+    long number = 0;
+    check_cvode(of(memory(), &number));
+    return number;
   }
   /// Goes on by the first step of the motion from rest; false where that is over, and CVODE has begun behind it.
   bool first_step(Instant& now, double next, double limit) requires Foresees<System> {
@@ -157,15 +175,9 @@ class CvodeSolver {
         if (now.t == next || first_->fired() != no_guard) return true;
       }
       first_.reset();
-    } while (creeps(now) && ++first_steps_ < most_first_steps);
+    } while (creeps<System>(now, settings_) && ++first_steps_ < most_first_steps);
     ahead_ = now;
     begin();
-    return false;
-  }
-  /// Whether a moving shaft is so slow that what CVODE may err by could turn it.
-  bool creeps(const Instant& now) const {
-    for (int speed = 1; speed < 2 * shaft_count<System>(); speed += 2)
-      if (now.x[speed] != 0.0 && std::abs(now.x[speed]) < 100.0 * settings_.absolute_tolerance) return true;
     return false;
   }
   static constexpr int most_first_steps = 1000;  ///< at a standstill of that length CVODE may try
@@ -176,6 +188,8 @@ class CvodeSolver {
     state() = ahead_.x;
     origin_ = ahead_.t;
     check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
+    failures_ = 0;
+    rounding_counts_ = false;
     if constexpr (Foresees<System>) friction_changes_ = system_.effects().change_friction();
     if (!friction_changes_) set_longest_step(longest_step(ahead_));
     limit_ = std::numeric_limits<double>::quiet_NaN();
@@ -188,7 +202,8 @@ class CvodeSolver {
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
     if constexpr (Foresees<System>)
-      if (friction_changes_) set_longest_step(shortened_by_growth(longest_step(ahead_)));
+      if (friction_changes_)
+        set_longest_step(shortened_by_growth(system_, ahead_, longest_step(ahead_), limit_, total_.jacobians));
     const double from = clock_, before = ripple_rate(system_, ahead_.x);
     const int flag = CVode(memory(), next - origin_, y_.get(), &clock_, CV_ONE_STEP);
     ahead_.t = flag == CV_TSTOP_RETURN ? limit_ : origin_ + clock_;
@@ -198,6 +213,7 @@ class CvodeSolver {
     }
     step_ = clock_ - from;
     ahead_.x = state();
+    rounding_counts_ = meets_rounding() || rounding_counts_;
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
     const double parts = std::max(1.0, std::ceil(ripple * step_ / phase_between_looks(false)));
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
@@ -241,22 +257,7 @@ class CvodeSolver {
     const double omega = system_.fastest_input(now.t);
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
-  /// Friction that falls over the speed makes a motion unstable. In steps that are long against its growth an implicit
-  /// formula damps it, and its own estimate of the error finds nothing wrong. Friction may rest at the start of a step,
-  /// where the load passes through zero, and grow on its way, so both ends count.
-  double shortened_by_growth(double step) {
-    const auto grows_in = [&](double s) {
-      ++total_.jacobians;
-      Instant then = ahead_;
-      then.t += std::min(s, limit_ - ahead_.t);
-      return growth(system_, then);
-    };
-    if (const double rate = grows_in(0.0); rate > 0.0) step = std::min(step, growth_in_a_step / rate);
-    while (std::isfinite(step) && grows_in(step) * step > growth_in_a_step) step *= 0.5;
-    return step;
-  }
   void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
-  static constexpr double growth_in_a_step = 0.25;  ///< exponent, well within what formulas of low order follow
 
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
@@ -280,6 +281,8 @@ class CvodeSolver {
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
   int first_steps_ = 0;                              ///< so many since the latest restart
+  long failures_ = 0;                                ///< of the error test since then
+  bool rounding_counts_ = false;                     ///< in the error test
   bool friction_changes_ = false;                    ///< so the longest step may be another one after each
   double waited_ = 0.0;                              ///< how long the clock has stood for first steps [s]
   Guards guards_{};                                  ///< where CVODE is ...

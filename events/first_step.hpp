@@ -147,4 +147,12 @@ class FirstStep {
   RootSearch search_;
 };
 
+/// Whether a moving shaft is so slow that what a solver may err by could turn it.
+template <class System>
+bool creeps(const typename System::Instant& now, const SolverSettings& settings) {
+  for (int speed = 1; speed < 2 * shaft_count<System>(); speed += 2)
+    if (now.x[speed] != 0.0 && std::abs(now.x[speed]) < 100.0 * settings.absolute_tolerance) return true;
+  return false;
+}
+
 }  // namespace wormdrive

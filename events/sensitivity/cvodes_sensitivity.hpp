@@ -46,6 +46,7 @@ class CvodesSensitivity {
     check_cvode(CVodeSStolerances(memory(), settings.relative_tolerance, settings.absolute_tolerance));
     check_cvode(CVodeSetUserData(memory(), this));
     check_cvode(CVodeSetMaxNumSteps(memory(), 10'000'000));
+    check_cvode(CVodeSetMaxErrTestFails(memory(), most_error_test_failures));
     check_cvode(CVodeSetMaxStep(memory(), std::isfinite(settings.max_step) ? settings.max_step : 0.0));
     check_cvode(CVodeSensInit(memory(), count_, CV_SIMULTANEOUS, sensitivity_right_hand_side, handles_.data()));
     check_cvode(CVodeSetSensErrCon(memory(), SUNTRUE));

@@ -146,6 +146,7 @@ class Shadow {
       push = std::max(push, std::abs(number(acceleration(now(turned, 0.0)) - a)) +
                                 rounding * here.pull.size / std::abs(number(here.inertia.value)));
     }
+    if (course_.t == began_ && growth * late_ < 1.0) late_ = 0.0;  // roundings do not grow in it: push tells of them
     const double grown = std::expm1(growth * seconds);
     theta_drift_ += omega_error(0) * seconds * (1.0 + grown);
     drift_ += omega_error(0) * grown + push * (growth > 0.0 ? grown / growth : seconds);
@@ -166,7 +167,7 @@ class Shadow {
       // of a motion that is shorter than time is known nobody can tell whether it was one
       if (course_.t - began_ <= Quad(time_slack(0))) ages_.push_back(course_.since);
       course_.since = course_.t;
-      drift_ = fastest_ = hardest_ = 0.0;
+      drift_ = fastest_ = hardest_ = late_ = 0.0;
     }
     if (after != 0 && after != before) {
       if (!released(after)) return false;
@@ -186,12 +187,25 @@ class Shadow {
         const auto [pull, step] = course_.resting(sigma, Quad(1e-9) + Quad(1e-9) * abs(course_.t));
         lack = number(-std::min(Quad(sigma) * pull[0][0], Quad(sigma) * pull[1][0]));
         allowed = slack(sigma, true, 0, std::max(slope(pull[0], 0), slope(pull[1], 0))).pull;
+        if (lack <= allowed) late_ = lateness(sigma, allowed);
         course_.entered = entered;
         if (lack <= allowed) return true;
       }
     fail("starts " + std::string(sigma > 0 ? "forward" : "backward") + ", though " + text(lack) + " N m are lacking", 0,
          allowed);
     return false;
+  }
+
+  /// For how long from now on no more than an allowance pulls the gear in a direction [s].
+  double lateness(int sigma, double allowed) {
+    auto [pull, step] = course_.resting(sigma, Quad(course_.drive().end) - course_.t);
+    Quad late = 0;
+    for (Polynomial& c : pull) {
+      c[0] -= Quad(sigma * allowed);
+      const std::vector<Quad> ends = zeros(c, step);
+      late = std::max(late, Quad(sigma) * c[0] > 0 ? Quad(0) : ends.empty() ? step : ends.front());
+    }
+    return number(late);
   }
 
   /// Since when the gear may be at rest.
@@ -208,7 +222,7 @@ class Shadow {
 
   double time_slack(Quad s) const { return exactness_.time * number(course_.t + s); }
   double omega_error(Quad s) const {
-    return exactness_.absolute + exactness_.relative * fastest_ + hardest_ * time_slack(s) + drift_;
+    return exactness_.absolute + exactness_.relative * fastest_ + hardest_ * (time_slack(s) + late_) + drift_;
   }
   /// What grows is followed to first order: a motion that leaves rest as slowly as it is known may come to several
   /// times as much.
@@ -262,6 +276,7 @@ class Shadow {
   Quad began_ = -1;                       ///< when the present motion did [s]
   std::vector<Quad> ages_;                ///< since when the gear may be at rest [s]
   double fastest_ = 0.0, hardest_ = 0.0;  ///< speed and acceleration of the present motion [rad/s, rad/s^2]
+  double late_ = 0.0;                     ///< by how much roundings may delay the start of the present motion [s]
   double drift_ = 0.0;                    ///< of the speed, by roundings of the torques [rad/s]
   double way_ = 0.0, theta_drift_ = 0.0;  ///< of the angle so far, and its drift [rad]
 };
