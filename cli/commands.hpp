@@ -59,6 +59,7 @@ int efficiency_command(const EfficiencyOptions& options);
 struct DiagnoseOptions {
   ScenarioOptions scenario;
   std::vector<std::string> data;   ///< CSV, or results of run
+  std::vector<std::string> since;  ///< data of the same drive before something changed
   std::vector<std::string> loads;  ///< "file:key=value"
   std::string output;              ///< folder
   double seed = 1;                 ///< of bootstraps

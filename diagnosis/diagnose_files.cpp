@@ -10,6 +10,7 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "description/rejection.hpp"
+#include "diagnosis/changes.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/diagnose.hpp"
@@ -141,6 +142,22 @@ Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vec
   if (const auto why = why_the_drive_cannot_run(diagnosis.extended))
     diagnosis.remarks.push_back("the extended scenario cannot be run: " + *why);
   return diagnosis;
+}
+
+Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier,
+                         const std::vector<std::string>& later, const DiagnosisSettings& settings,
+                         const std::map<std::string, LoadParameters>& loads) {
+  const DataKind kind_then = kind_of_data(earlier, scenario), kind_now = kind_of_data(later, scenario);
+  const Diagnosis then = diagnose_files(scenario, kind_then, earlier, settings, loads);
+  const Scenario fitted = as_fitted(scenario, then);
+  DiagnosisSettings known = settings;
+  known.tolerances = known_tolerances(then);
+  Diagnosis now = diagnose_files(fitted, kind_now, later, known, loads);
+  tell_changes(then, fitted, now);
+  now.since->files = earlier;
+  if (then.verdict == Verdict::unexplained || then.verdict == Verdict::ambiguous)
+    now.remarks.insert(now.remarks.begin(), fmt::format("of the earlier data: {}", then.sentence));
+  return now;
 }
 
 }  // namespace wormdrive

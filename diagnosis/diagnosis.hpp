@@ -99,6 +99,24 @@ struct PredictedTorques {
   std::vector<double> measured, before, after;  ///< [N m]; each point by the fit that did not see it
 };
 
+/// A number of the drive by earlier and by later data, in SI.
+struct Change {
+  std::string effect;
+  Estimate before;      ///< its error is infinite where the earlier data show the effect at no size
+  Estimate after;       ///< the same field by the later data
+  Estimate difference;  ///< after less before, with the errors of both
+  bool certain = false;
+};
+
+/// What later data are compared with.
+struct Since {
+  std::vector<std::string> files;
+  Verdict verdict = Verdict::adequate;  ///< on the earlier data
+  std::string sentence;                 ///< the same
+  Scenario scenario;                    ///< fitted to them
+  std::vector<Change> changes;          ///< those that are certain first
+};
+
 /// What a diagnosis found; plain data, all in SI.
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
@@ -119,6 +137,7 @@ struct Diagnosis {
   std::vector<PredictionExample> examples;
   PredictedTorques torques;          ///< of records at constant speed and of break-in tables
   std::vector<Estimate> identified;  ///< constants that the data state directly: C1, C2, mu_s of a break-in table
+  std::optional<Since> since;        ///< of a comparison with earlier data
   std::vector<std::string> remarks;  ///< on the data and on the diagnosis
   double noise_torque{};             ///< of the process, rms [N m]
   double noise_angle{};              ///< of the sensor, rms [rad]

@@ -31,15 +31,16 @@ Kept kept(const std::optional<std::string>& output, std::vector<std::string> inp
 }
 
 /// What was found: the JSON of a report, the scenarios that follow, the residual torque as a table.
-py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed, unsigned threads,
-                  const Kept& kept) {
+py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files,
+                  const std::vector<std::string>& since, std::uint64_t seed, unsigned threads, const Kept& kept) {
   DiagnosisSettings settings;
   settings.seed = seed;
   settings.threads = static_cast<int>(threads_for(threads));
   const DataKind kind = kind_of_data(files, scenario);
   Diagnosis found = without_python([&](SignalWatch& watch) {
     settings.progress = [&](const std::string&) { watch(); };
-    return diagnose_files(scenario, kind, files, settings);
+    return since.empty() ? diagnose_files(scenario, kind, files, settings)
+                         : diagnose_since(scenario, since, files, settings);
   });
   const nlohmann::json findings = as_json(found, name(kind), files);
   if (kept.folder)
@@ -66,11 +67,14 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
 }  // namespace
 
 void add_diagnosis(py::module_& m) {
-  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files, std::uint64_t seed,
-                       unsigned threads, const std::optional<std::string>& output, const std::string& scenario_file,
-                       const std::string& command_line) {
-    return diagnose(scenario, files, seed, threads, kept(output, files, scenario_file, command_line));
-  });
+  m.def("diagnose",
+        [](const Scenario& scenario, const std::vector<std::string>& files, const std::vector<std::string>& since,
+           std::uint64_t seed, unsigned threads, const std::optional<std::string>& output,
+           const std::string& scenario_file, const std::string& command_line) {
+          std::vector<std::string> inputs = files;
+          inputs.insert(inputs.end(), since.begin(), since.end());
+          return diagnose(scenario, files, since, seed, threads, kept(output, inputs, scenario_file, command_line));
+        });
 }
 
 }  // namespace wormdrive

@@ -14,6 +14,8 @@ void add_data_commands(CommandSet& commands) {
           "recordings over time, records at constant speed or a break-in table (.csv, .mat, .h5), recognised by "
           "their columns; several files of one kind are diagnosed together")
       ->required();
+  add_repeated(command, "--since", options.since, "FILE",
+               "data of the same drive from before: what has changed since then; may be repeated");
   add_repeated(command, "--load", options.loads, "FILE:KEY=VALUE",
                "load of a recording if it is not that of the scenario: --load heavy.csv:mass_kg=0.9; may be repeated");
   command.add_option("-o,--output", options.output, "folder for the results")->required();

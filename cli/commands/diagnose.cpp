@@ -75,8 +75,31 @@ void print_blind_spots(const Diagnosis& d) {
   if (!unseen.empty()) print_item("unseen", fmt::format("{}", fmt::join(unseen, ", ")));
 }
 
+/// "+- 0.001", or that the earlier data do not show it.
+std::string error_of(const Estimate& e) {
+  return std::isfinite(e.standard_error) ? fmt::format("+- {:.2g}", e.standard_error / e.unit.si) : "not shown";
+}
+
+void print_changes(const Since& since) {
+  constexpr const char* row = "  {:<20} {:<26} {:>10} {:<11} {:>10} {:<11} {:>10} {:<11} {}";
+  const auto print_row = [&](const auto&... cells) {
+    std::string line = fmt::format(fmt::runtime(row), cells...);
+    line.resize(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  };
+  if (!since.changes.empty()) print_row("effect", "parameter", "before", "", "now", "", "change", "", "");
+  for (const Change& c : since.changes) {
+    const auto number = [&](const Estimate& e) { return fmt::format("{:.4g}", e.value / e.unit.si); };
+    const std::string unit = c.after.unit.suffix.empty() ? "" : fmt::format(" [{}]", c.after.unit.symbol);
+    print_row(c.effect, c.after.field + unit, number(c.before), error_of(c.before), number(c.after), error_of(c.after),
+              fmt::format("{:+.3g}", c.difference.value / c.difference.unit.si), error_of(c.difference),
+              c.certain ? "changed" : "");
+  }
+}
+
 void print(const Diagnosis& d) {
   fmt::print("{}\n", d.sentence);
+  if (d.since) print_changes(*d.since);
   for (const std::string& remark : d.remarks) print_item("data", remark);
   print_ranking(d);
   print_gain(d);
@@ -98,15 +121,17 @@ std::vector<std::string> draw_pictures(const DiagnosisFolder& folder, int at_a_t
 }
 
 /// Loads of recordings that are not the scenario's, by file.
-std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, DataKind kind) {
+std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, const Scenario& scenario) {
   std::map<std::string, std::vector<std::string>> overrides;
+  std::vector<std::string> files = options.data;
+  files.insert(files.end(), options.since.begin(), options.since.end());
   for (const std::string& load : options.loads) {
-    const auto file = std::find_if(options.data.begin(), options.data.end(),
-                                   [&](const std::string& data) { return load.starts_with(data + ":"); });
-    if (file == options.data.end())
+    const auto file =
+        std::find_if(files.begin(), files.end(), [&](const std::string& data) { return load.starts_with(data + ":"); });
+    if (file == files.end())
       reject({"--load " + load}, fmt::format("must be FILE:KEY=VALUE of one of the recordings {}, as in {}:mass_kg=0.9",
-                                             fmt::join(options.data, ", "), options.data.front()));
-    if (kind != DataKind::recording)
+                                             fmt::join(files, ", "), files.front()));
+    if (const DataKind kind = kind_of_data({*file}, scenario); kind != DataKind::recording)
       reject({*file}, fmt::format("holds {}; a load of its own is for a recording over time", name(kind)));
     overrides[*file].push_back("load." + load.substr(file->size() + 1));
   }
@@ -124,10 +149,11 @@ std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, 
 int diagnose_command(const DiagnoseOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   std::vector<std::string> inputs = options.data;
+  inputs.insert(inputs.end(), options.since.begin(), options.since.end());
   inputs.push_back(options.scenario.file);
   const DiagnosisFolder folder(options.output, inputs, options.replace);
   const DataKind kind = kind_of_data(options.data, scenario);
-  const std::map<std::string, LoadParameters> loads = own_loads(options, kind);
+  const std::map<std::string, LoadParameters> loads = own_loads(options, scenario);
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   const int threads = static_cast<int>(threads_for(options.threads));
   const Diagnosis diagnosis = [&] {
@@ -136,7 +162,8 @@ int diagnose_command(const DiagnoseOptions& options) {
     settings.seed = static_cast<std::uint64_t>(options.seed);
     settings.threads = threads;
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
-    return diagnose_files(scenario, kind, options.data, settings, loads);
+    return options.since.empty() ? diagnose_files(scenario, kind, options.data, settings, loads)
+                                 : diagnose_since(scenario, options.since, options.data, settings, loads);
   }();
 
   if (talk) print(diagnosis);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/report/diagnosis_tables.hpp"
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
 #include "diagnosis/report/diagnosis_json.hpp"
@@ -17,7 +18,6 @@ namespace wormdrive {
 namespace {
 
 using nlohmann::json;
-using Cell = std::variant<std::string, double>;
 
 std::string findings_of(const ResultFile& file) {
   return (std::filesystem::path(file.path()).parent_path() / "diagnosis.json").string();
@@ -30,24 +30,6 @@ json read_findings(const ResultFile& file) {
   const json findings = json::parse(text, nullptr, false);
   if (findings.is_discarded()) reject({path}, "cannot be read; wormdrive diagnose writes it next to diagnosis.h5");
   return findings;
-}
-
-/// null stands for a number that does not exist.
-double number(const json& value) { return value.is_number() ? value.get<double>() : NAN; }
-std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : ""; }
-
-std::string estimate(const json& parameter) {
-  const std::string unit = text(parameter.at("unit")), shown_unit = unit == "1" ? "" : " " + unit;
-  const std::string name = words(text(parameter.at("name")));
-  const double value = number(parameter.at("value")), error = number(parameter.at("standard_error"));
-  if (std::isnan(error)) return fmt::format("{} {:.4g}{}", name, value, shown_unit);
-  return fmt::format("{} {:.4g} ± {:.2g}{} (95 %: {:.4g} to {:.4g})", name, value, error, shown_unit,
-                     number(parameter.at("low")), number(parameter.at("high")));
-}
-std::string estimates(const json& effect) {
-  std::string all;
-  for (const json& parameter : effect.at("parameters")) all += (all.empty() ? "" : "; ") + estimate(parameter);
-  return all;
 }
 
 /// What a verdict means, for those who have not read the documentation.
@@ -72,81 +54,6 @@ std::string described_data(const json& data) {
   std::string all = text(data.at("kind"));
   for (const json& file : data.at("files")) all += ", " + std::filesystem::path(text(file)).filename().string();
   return all;
-}
-
-/// A table of findings: for each of a list a row of cells.
-template <class Row>
-void add(ReportPage& page, ReportTable table, const json& list, Row&& row) {
-  for (const json& item : list) table.rows.push_back(row(item));
-  if (!table.rows.empty()) page.tables.push_back(std::move(table));
-}
-
-void add_evidence(ReportPage& page, const json& findings) {
-  add(page, {"Causes", {{"effect"}, {"estimate"}}, {}}, findings.at("causes"), [](const json& c) {
-    return std::vector<Cell>{words(text(c.at("effect"))), estimates(c)};
-  });
-  add(page,
-      {"Evidence: every effect that was examined",
-       {{"effect"}, {"dBIC", true}, {"held-out gain [nats]", true}, {"estimate"}, {"outcome"}},
-       {},
-       "dBIC: how much the fit gains beyond what its parameters cost. Held-out gain: on data not used for the fit."},
-      findings.at("ranking"), [](const json& c) {
-        return std::vector<Cell>{words(text(c.at("effect"))), number(c.at("delta_bic")),
-                                 number(c.at("held_out_gain_nats")), estimates(c),
-                                 (c.at("named").get<bool>() ? "" : "rejected: ") + text(c.at("outcome"))};
-      });
-  add(page,
-      {"Prediction on data not used for the fit",
-       {{"horizon [s]", true},
-        {"stated model", true},
-        {"extended model", true},
-        {"95 % interval"},
-        {"noise floor", true},
-        {"unit"}},
-       {},
-       "Rms error at the end of predictions over this horizon; no model can fall below the noise floor."},
-      findings.at("gain"), [](const json& g) {
-        return std::vector<Cell>{number(g.at("horizon_s")),
-                                 number(g.at("before")),
-                                 number(g.at("after")),
-                                 fmt::format("{:.4g} to {:.4g}", number(g.at("after_low")), number(g.at("after_high"))),
-                                 number(g.at("noise_floor")),
-                                 text(g.at("unit"))};
-      });
-  add(page, {"Calibration: stated parameters within their tolerance", {{"effect"}, {"estimate"}}, {}},
-      findings.at("calibration"), [](const json& c) {
-        return std::vector<Cell>{words(text(c.at("effect"))), estimates(c)};
-      });
-  add(page, {"Constants identified from the data", {{"constant"}}, {}}, findings.at("identified"),
-      [](const json& c) { return std::vector<Cell>{estimate(c)}; });
-  const bool linear = findings.at("noise").contains("force_N");
-  add(page,
-      {"What remains unexplained",
-       {{"over"}, {"evidence [standard deviations]", true}, {linear ? "rms [N]" : "rms [N m]", true}},
-       {}},
-      findings.at("adequacy"), [&](const json& r) {
-        return std::vector<Cell>{text(r.at("axis")), number(r.at("evidence")),
-                                 number(r.at(linear ? "force_N" : "torque_Nm"))};
-      });
-  add(page,
-      {"What these data can show",
-       {{"effect"},
-        {"parameter"},
-        {"detectable from", true},
-        {"nameable from", true},
-        {"unit"},
-        {"nearest effect"},
-        {"likeness", true}},
-       {},
-       "No size: these data cannot show the effect at any size."},
-      findings.at("certificate"), [](const json& v) {
-        const std::string chosen = text(v.value("chosen", json()));
-        return std::vector<Cell>{
-            words(text(v.at("effect"))), words(text(v.at("parameter")) + (chosen.empty() ? "" : ", " + chosen)),
-            number(v.at("detectable")),  number(v.at("nameable")),
-            text(v.at("unit")),          words(text(v.at("nearest"))),
-            number(v.at("likeness"))};
-      });
 }
 
 /// Time where it rises throughout; else, of several recordings, the number of the sample.
@@ -268,7 +175,7 @@ ReportPage page_of(const ResultFile& file, const json& findings) {
     if (timed) add_predictions(file, group);
     page.groups.push_back(std::move(group));
   }
-  add_evidence(page, findings);
+  add_tables(page, findings);
   return page;
 }
 

@@ -73,6 +73,14 @@ json as_json(const Visibility& v) {
           {"likeness", number(v.likeness)}};
 }
 
+json as_json(const Change& c) {
+  return {{"effect", c.effect},
+          {"before", as_json(c.before)},
+          {"after", as_json(c.after)},
+          {"difference", as_json(c.difference)},
+          {"certain", c.certain}};
+}
+
 /// A key with its unit as it is on an axis: "torque_Nm" or "force_N".
 std::string key(std::string_view name, const Unit& unit, Axis axis) { return spellings(name, unit, axis).front().key; }
 
@@ -91,6 +99,13 @@ json list_of(const List& list) {
   json all = json::array();
   for (const auto& item : list) all.push_back(as_json(item));
   return all;
+}
+
+json as_json(const Since& since) {
+  return {{"files", since.files},
+          {"verdict", name(since.verdict)},
+          {"sentence", since.sentence},
+          {"changes", list_of(since.changes)}};
 }
 
 }  // namespace
@@ -125,6 +140,7 @@ nlohmann::json as_json(const Diagnosis& d, const std::string& data_kind, const s
            {{key("torque", unit::newton_metre, d.extended.axis), number(d.noise_torque)},
             {key("angle", unit::radian, d.extended.axis), number(d.noise_angle)}}},
           {"experiment", d.experiment_reason.empty() ? json(nullptr) : json(d.experiment_reason)},
+          {"since", d.since ? as_json(*d.since) : json(nullptr)},
           {"remarks", d.remarks},
           {"settings", {{"seed", d.seed}, {"passes", d.passes}}},
           {"program", build_description()}};

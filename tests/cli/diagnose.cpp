@@ -74,6 +74,7 @@ TEST_CASE("the JSON of a diagnosis has every key with its type, and null instead
                     {"adequacy", "array"},
                     {"noise", "object"},
                     {"experiment", "string null"},
+                    {"since", "null"},
                     {"remarks", "array"},
                     {"settings", "object"},
                     {"program", "string"}});

@@ -266,6 +266,10 @@ class Shared(unittest.TestCase):
         data = {"load_torque_Nm": loads,
                 "motor_torque_Nm": [load * (0.0470713, -0.0837434)[k % 2] for k, load in enumerate(loads)]}
         found = wormdrive.diagnose(SCENARIOS / "fig07_break_in_07cm_forward.toml", data)
+        noisy = {**data, "motor_torque_Nm": np.array(data["motor_torque_Nm"]) * np.random.default_rng(3).normal(1.0, 0.01, 20)}
+        changed = wormdrive.diagnose(SCENARIOS / "fig07_break_in_07cm_forward.toml", noisy, since=noisy)
+        self.assertTrue(changed.findings["sentence"].startswith("Nothing that these data show has changed."))
+        self.assertFalse(any(change["certain"] for change in changed.findings["since"]["changes"]))
         again = pickle.loads(pickle.dumps(found))
         self.assertEqual((again.findings, again.extended), (found.findings, found.extended))
         np.testing.assert_array_equal(again.residual.after, found.residual.after)

@@ -309,27 +309,30 @@ def summary(path: Union[str, "os.PathLike[str]"], /, *, metric: str = "", worst:
     return json.loads(_core.summary(os.fspath(path), metric, worst, done_only))  # type: ignore[no-any-return]
 
 
-def diagnose(scenario: Source, data: Any, /, *, seed: int = 1, threads: int = 0,
+def diagnose(scenario: Source, data: Any, /, *, since: Any = None, seed: int = 1, threads: int = 0,
              output: Optional[Union[str, "os.PathLike[str]"]] = None, **overrides: Any) -> Diagnosis:
     """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
-    names of a CSV file, {"time_s": array, ...}. output: a folder for the files of `wormdrive diagnose`, pictures apart;
-    `wormdrive report` makes a page of it."""
+    names of a CSV file, {"time_s": array, ...}. since: data of the same drive from before, likewise; then what has changed.
+    output: a folder for the files of `wormdrive diagnose`, pictures apart; `wormdrive report` makes a page of it."""
     core = Scenario(scenario, _look=True, **overrides)._scenario
     folder = None if output is None else os.fspath(output)
     scenario_file = "" if isinstance(scenario, Scenario) or _text_of(scenario) is not None else os.fspath(scenario)  # type: ignore[arg-type]
 
-    def found(files: list[str]) -> Diagnosis:
-        return Diagnosis(_core.diagnose(core, files, seed, threads, folder, scenario_file, _command_line()))
+    with tempfile.TemporaryDirectory() as scratch:
+        return Diagnosis(_core.diagnose(core, _files_of(data, scratch, "data.csv"),
+                                        [] if since is None else _files_of(since, scratch, "since.csv"), seed, threads, folder,
+                                        scenario_file, _command_line()))
 
+
+def _files_of(data: Any, scratch: str, name: str) -> list[str]:
+    """Paths of data; columns are written to a file of this name."""
     if isinstance(data, Mapping):
-        with tempfile.TemporaryDirectory() as scratch:
-            path = os.path.join(scratch, "data.csv")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(",".join(data) + "\n")
-                file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
-            return found([path])
-    files = [data] if isinstance(data, (str, os.PathLike)) else data
-    return found([os.fspath(file) for file in files])
+        path = os.path.join(scratch, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(",".join(data) + "\n")
+            file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
+        return [path]
+    return [os.fspath(file) for file in ([data] if isinstance(data, (str, os.PathLike)) else data)]
 
 
 def _command_line() -> str:
