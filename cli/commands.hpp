@@ -49,8 +49,8 @@ int steady_command(const SteadyOptions& options);
 struct EfficiencyOptions {
   ScenarioOptions scenario;
   std::string output;
-  double max_speed = 100.0;        ///< worm speed [rad/s]
-  std::optional<double> max_load;  ///< [N m]
+  std::optional<double> max_speed;  ///< worm speed [rad/s]
+  std::optional<double> max_load;   ///< [N m]
   int points = 20;
   Replace replace = Replace::same_kind;
 };

@@ -152,6 +152,14 @@ Run<System> run(System system, const Timetable& timetable, typename System::Inst
   return run(std::move(system), timetable, from, settings, nobody);
 }
 
+// The runs of most tests are compiled once, in support.cpp.
+#define WORMDRIVE_TEST_RUN(Drive)                                                                              \
+  template Run<Drive> run(Drive, const Timetable&, typename Drive::Instant, const SolverSettings&, NoController&)
+using TimedDrive = WormDrive<double, TimedLoad>;
+using ArmDrive = WormDrive<double, GravityLoad>;
+extern WORMDRIVE_TEST_RUN(TimedDrive);
+extern WORMDRIVE_TEST_RUN(ArmDrive);
+
 // ---- reference data ---------------------------------------------------------------------------------------------
 
 /// A CSV file with a header: text by column name and row.

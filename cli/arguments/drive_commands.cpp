@@ -12,7 +12,7 @@ void add_optional_output(CLI::App& command, std::string& output) {
 void add_max_load(CLI::App& command, std::optional<double>& max_load) {
   command
       .add_option("--max-load", max_load,
-                  "largest load torque [N m]; default: 1.5 times that of the gravity arm, or 1.5 N m without an arm")
+                  "largest load torque [N m]; default: 1.5 times that of the gravity arm or of the scenario's run")
       ->check(finite_number(false));
 }
 
@@ -87,7 +87,7 @@ void add_steady(CommandSet& commands) {
                      "worm_speed_rad_per_s, motor_torque_Nm");
   command
       .add_option("--max-speed", options.max_speed,
-                  "largest worm speed [rad/s]; default: that of the data, or 100 rad/s without data")
+                  "largest worm speed [rad/s]; default: that of the data, or of the scenario's run")
       ->check(finite_number(false));
   command.add_option("--points", options.points, "number of speeds in each direction")
       ->check(CLI::Range(1, 100000))
@@ -100,9 +100,9 @@ void add_efficiency(CommandSet& commands) {
       commands.add("efficiency", "compute the efficiency over worm speed and load torque", efficiency_command);
   add_scenario_options(command, options.scenario);
   add_optional_output(command, options.output);
-  command.add_option("--max-speed", options.max_speed, "largest worm speed [rad/s]")
-      ->check(finite_number(false))
-      ->capture_default_str();
+  command
+      .add_option("--max-speed", options.max_speed, "largest worm speed [rad/s]; default: that of the scenario's run")
+      ->check(finite_number(false));
   add_max_load(command, options.max_load);
   command.add_option("--points", options.points, "number of speeds in each direction, and of loads of each sign")
       ->check(CLI::Range(2, 1000))

@@ -13,6 +13,7 @@
 #include "output/run_columns.hpp"
 #include "simulation/efficiency_map.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/operating_range.hpp"
 
 namespace wormdrive {
 namespace {
@@ -103,7 +104,7 @@ void print_best(const Map& map) {
   const OperatingPoint *driven = best(map, false), *driving = best(map, true);
   print_item("motor", driven ? "drives the load with up to " + where(*driven) : "drives none of these loads");
   print_item("load", driving ? "returns up to " + where(*driving)
-                             : "returns nothing: the gear locks itself, the motor has to help it along");
+                             : "returns nothing at any of these loads: the motor has to help it along");
 }
 
 }  // namespace
@@ -113,8 +114,9 @@ int efficiency_command(const EfficiencyOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   if (std::holds_alternative<SingleInertia<double>>(scenario.mesh))
     reject({options.scenario.file}, "efficiency needs teeth, but mesh.kind is \"none\"");
-  Map map{both_ways(options.max_speed, options.points),
-          both_ways(options.max_load.value_or(largest_shown_load(scenario)), options.points),
+  const OperatingRange shown = options.max_speed && options.max_load ? OperatingRange{} : operating_range(scenario);
+  Map map{both_ways(options.max_speed.value_or(shown.worm_speed), options.points),
+          both_ways(options.max_load.value_or(shown.load_torque), options.points),
           {}};
   map.points = efficiency_map(scenario, map.speeds, map.loads);
   if (!options.output.empty()) write(options.output, scenario, map, options);

@@ -13,6 +13,7 @@
 #include "description/toml/write_scenario.hpp"
 #include "output/hdf5/table.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/operating_range.hpp"
 #include "simulation/steady_scenario.hpp"
 
 namespace wormdrive {
@@ -84,8 +85,9 @@ int statics_command(const StaticsOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) reject({options.scenario.file}, "statics needs teeth, but mesh.kind is \"none\"");
-  const StaticsMap map = make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
-                                  options.max_load.value_or(largest_shown_load(scenario)), options.points);
+  const StaticsMap map =
+      make_map(make_mesh(scenario, Motion::forward), make_mesh(scenario, Motion::backward),
+               options.max_load ? *options.max_load : operating_range(scenario).load_torque, options.points);
   const bool outside = mesh.regime() == LockingRegime::worm_self_locking;
   if (!options.output.empty()) write(options.output, scenario, map, options);
   if (options.scenario.json) {

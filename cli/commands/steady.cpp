@@ -14,6 +14,7 @@
 #include "diagnosis/data/speed_torque_records.hpp"
 #include "output/hdf5/table.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/operating_range.hpp"
 #include "simulation/steady_scenario.hpp"
 
 namespace wormdrive {
@@ -157,13 +158,14 @@ int steady_command(const SteadyOptions& options) {
   std::optional<Comparison> comparison;
   if (!options.data.empty())
     comparison = compare(scenario, options.data, read_speed_torque_records(options.data, scenario));
-  double max_speed = 100.0;
-  if (comparison) {
-    max_speed = 0.0;
+  double fastest_record = 0.0;
+  if (comparison)
     for (const SpeedTorqueRecord& record : comparison->records)
-      max_speed = std::max(max_speed, 1.05 * std::abs(record.worm_speed));
-  }
-  const Curve curve = make_curve(scenario, options.max_speed.value_or(max_speed), options.points);
+      fastest_record = std::max(fastest_record, 1.05 * std::abs(record.worm_speed));
+  const double max_speed = options.max_speed ? *options.max_speed
+                           : comparison      ? fastest_record
+                                             : operating_range(scenario).worm_speed;
+  const Curve curve = make_curve(scenario, max_speed, options.points);
   if (!options.output.empty()) write(options.output, scenario, curve, comparison, options);
   if (options.scenario.json) {
     print_json(as_json(scenario, curve, comparison));

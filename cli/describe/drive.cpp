@@ -96,20 +96,4 @@ void print_json(const nlohmann::json& json) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-double largest_shown_load(const Scenario& scenario) {
-  double amplitude = 0.0;
-  const auto take = [&](const auto& load) {
-    if constexpr (requires { load.torque_amplitude(); }) amplitude += std::abs(load.torque_amplitude());
-  };
-  std::visit(
-      [&](const auto& load) {
-        if constexpr (requires { load.terms; })
-          for (const auto& term : load.terms) std::visit(take, term);
-        else
-          take(load);
-      },
-      scenario.load);
-  return amplitude > 0.0 ? 1.5 * amplitude : 1.5;
-}
-
 }  // namespace wormdrive

@@ -27,9 +27,6 @@ std::string describe_audit(const AuditReport& report, const Scenario& scenario);
 /// Prints "  label    text", wrapped text indented under itself.
 void print_item(const std::string& label, const std::string& text);
 
-/// Up to which load torque [N m] maps of a scenario reach: its own with room around it.
-double largest_shown_load(const Scenario& scenario);
-
 /// NAME.h5 beside the current directory for a scenario NAME.toml; never the scenario file itself.
 std::string default_output(const std::string& scenario_file, const std::string& suffix);
 

@@ -8,8 +8,7 @@
 #include "fmi/stepper.hpp"
 #include "simulation/run_scenario.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_co_simulation {
 
 namespace {
 
@@ -320,3 +319,5 @@ TEST_CASE("instances in threads of their own do not see each other") {
   CHECK(ends[1] == ends[3]);
   CHECK(std::abs(ends[0] - ends[1]) < 1e-9);
 }
+
+}  // namespace wormdrive::test::fmi_co_simulation

@@ -7,8 +7,7 @@
 #include "fmi/exported.hpp"
 #include "fmi/importer3.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_derivatives {
 
 namespace {
 
@@ -298,3 +297,5 @@ TEST_CASE("what has no derivative is refused in one line") {
   CHECK_THROWS_WITH(ask(inside, "normal_force", "gear_angle"),
                     "fmi2GetDirectionalDerivative must not be called in step mode");
 }
+
+}  // namespace wormdrive::test::fmi_derivatives

@@ -4,8 +4,7 @@
 #include "fmi/importer3.hpp"
 #include "simulation/run_scenario.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_fmi3 {
 
 namespace {
 
@@ -147,3 +146,5 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 3.0", "[referenc
       if (version == "3") keeps("fmi3TerminalsAndIcons.xsd", "terminalsAndIcons/terminalsAndIcons.xml");
     }
 }
+
+}  // namespace wormdrive::test::fmi_fmi3

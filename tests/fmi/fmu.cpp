@@ -12,8 +12,7 @@
 #include "simulation/load_scenario.hpp"
 #include "simulation/run_scenario.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_fmu {
 
 namespace {
 
@@ -281,3 +280,5 @@ TEST_CASE("what cannot be an FMU is refused with a way out, and nothing is writt
         true,
         4}});
 }
+
+}  // namespace wormdrive::test::fmi_fmu

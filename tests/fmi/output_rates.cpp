@@ -4,8 +4,7 @@
 #include "fmi/importer3.hpp"
 #include "fmi/stepper.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_output_rates {
 
 namespace {
 
@@ -103,3 +102,5 @@ TEST_CASE("outputs without a rate, and rates of a higher order, are refused") {
   CHECK_THROWS_WITH(rate(plant.model, "event_time"),
                     "value reference 11 is no continuous output with a rate in co-simulation");
 }
+
+}  // namespace wormdrive::test::fmi_output_rates

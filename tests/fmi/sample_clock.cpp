@@ -4,8 +4,7 @@
 #include "fmi/importer3.hpp"
 #include "simulation/run_scenario.hpp"
 
-using namespace wormdrive;
-using namespace wormdrive::test;
+namespace wormdrive::test::fmi_sample_clock {
 
 namespace {
 
@@ -172,3 +171,5 @@ TEST_CASE("FMI 3.0: the clock follows the sample time that an importer sets, and
   model.enter_events();
   model.tick();
 }
+
+}  // namespace wormdrive::test::fmi_sample_clock

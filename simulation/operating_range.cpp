@@ -1,0 +1,55 @@
+#include "simulation/operating_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "description/build.hpp"
+#include "description/rejection.hpp"
+#include "events/simulation_failure.hpp"
+#include "simulation/run_scenario.hpp"
+
+namespace wormdrive {
+namespace {
+
+/// Sum of the amplitudes of all arms [N m].
+double arm_amplitude(const Scenario& scenario) {
+  double amplitude = 0.0;
+  const auto take = [&](const auto& load) {
+    if constexpr (requires { load.torque_amplitude(); }) amplitude += std::abs(load.torque_amplitude());
+  };
+  std::visit(
+      [&](const auto& load) {
+        if constexpr (requires { load.terms; })
+          for (const auto& term : load.terms) std::visit(take, term);
+        else
+          take(load);
+      },
+      scenario.load);
+  return amplitude;
+}
+
+}  // namespace
+
+OperatingRange operating_range(const Scenario& scenario) {
+  double speed = 0.0, load = 0.0, motor = 0.0;
+  const auto take = [&](const Trajectory& part) {
+    for (const Row& row : part.rows) {
+      speed = std::max(speed, std::abs(row.at.omega_g));
+      load = std::max(load, std::abs(row.at.tau_l));
+      motor = std::max(motor, std::abs(row.at.tau_m));
+    }
+  };
+  if (scenario.run.duration > 0.0 && !why_it_cannot_run(scenario)) try {
+      run_scenario(scenario, {.rows = take});
+    } catch (const SimulationFailure&) {  // up to there it ran
+    }
+  const double ratio = make_mesh(scenario).i;
+  constexpr double room = 1.5;
+  load = room * std::max(load, arm_amplitude(scenario));
+  if (speed == 0.0) speed = 2.0 * std::numbers::pi;
+  if (load == 0.0) load = motor > 0.0 ? motor * ratio : 1.0;
+  return {speed * ratio, load};
+}
+
+}  // namespace wormdrive
