@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,8 @@ class Shadow {
     follow(course_.drive().end);
     return complaint_;
   }
+  /// How many times as much as is allowed contradicts; infinite for a mode that cannot be.
+  double excess() const { return excess_; }
   /// How far it is behind the last call [rad, rad/s].
   Quad theta() const { return course_.theta; }
   Quad omega() const { return course_.omega; }
@@ -114,7 +117,7 @@ class Shadow {
       hardest_ = std::max(hardest_, slope(ahead.omega, s));
       const double allowed = omega_slack(s) + slope(ahead.omega, s) * time_slack(s);
       if (Quad(mode_.motion) * speed < -Quad(allowed))
-        return fail("moves the other way, at " + text(speed) + " rad/s", s, allowed);
+        return fail("moves the other way, at " + text(speed) + " rad/s", s, number(speed), allowed);
     }
     if (mode_.flank != 0)
       for (const Quad s : looks(ahead.beyond, h)) {
@@ -122,7 +125,8 @@ class Shadow {
         const double allowed =
             slack(mode_.motion, false, s, slope(ahead.beyond, s), value(ahead.theta, s), value(ahead.omega, s)).beyond;
         if (Quad(mode_.flank) * beyond > Quad(allowed))
-          return fail("the other flank carries, " + text(beyond) + " N m beyond the surface", s, allowed);
+          return fail("the other flank carries, " + text(beyond) + " N m beyond the surface", s, number(beyond),
+                      allowed);
       }
     course_.theta = value(ahead.theta, h);
     course_.omega = value(ahead.omega, h);
@@ -159,7 +163,7 @@ class Shadow {
       const Outcome<Sized> now = course_.now(before, mode_.flank, false, course_.theta, course_.omega);
       const double allowed = omega_slack(0) + std::abs(number(now.pull.value / now.inertia.value)) * time_slack(0);
       if (std::abs(number(course_.omega)) > allowed) {
-        fail("stops or turns at a speed of " + text(course_.omega) + " rad/s", 0, allowed);
+        fail("stops or turns at a speed of " + text(course_.omega) + " rad/s", 0, number(course_.omega), allowed);
         return false;
       }
       course_.omega = 0;
@@ -192,7 +196,7 @@ class Shadow {
         if (lack <= allowed) return true;
       }
     fail("starts " + std::string(sigma > 0 ? "forward" : "backward") + ", though " + text(lack) + " N m are lacking", 0,
-         allowed);
+         lack, allowed);
     return false;
   }
 
@@ -254,7 +258,8 @@ class Shadow {
     return sum;
   }
 
-  Quad fail(const std::string& what, Quad s, double allowed) {
+  Quad fail(const std::string& what, Quad s, double amount, double allowed) {
+    excess_ = std::abs(amount) / allowed;
     complaint_ = at(what + ", allowed " + text(allowed), s);
     return 0;
   }
@@ -272,6 +277,7 @@ class Shadow {
   Exactness exactness_;
   Mode mode_;
   std::string complaint_;
+  double excess_ = std::numeric_limits<double>::infinity();
   double inputs_before_ = 0.0;
   Quad began_ = -1;                       ///< when the present motion did [s]
   std::vector<Quad> ages_;                ///< since when the gear may be at rest [s]

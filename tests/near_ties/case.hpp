@@ -17,10 +17,11 @@ struct Elastic {
 struct Case {
   judge::Drive drive;
   std::optional<Elastic> elastic;
-  double report = 0.0;  ///< interval of the reports [s]
-  double sample = 0.0;  ///< period of samples that change nothing [s], 0 for none
-  std::string tie;      ///< what touches what
-  double excess = 0.0;  ///< by which share it goes beyond
+  double report = 0.0;       ///< interval of the reports [s]
+  double sample = 0.0;       ///< period of samples that change nothing [s], 0 for none
+  std::string tie;           ///< what touches what
+  double excess = 0.0;       ///< by which share it goes beyond
+  double tolerance = 1e-12;  ///< relative, of every run; the absolute one is that of a hundredth of a radian in its run
 };
 
 /// Motion of the worm, flank, motion of the gear; the last is 0 for rigid teeth.
@@ -51,8 +52,6 @@ constexpr const char* name(By by) {
   return "";
 }
 
-/// Relative tolerance of every run; the absolute one is that of a drive that moves a hundredth of a radian in its run.
-inline constexpr double tolerance = 1e-12;
 double absolute_tolerance(const Case& tie, By by);
 
 /// Runs a case by one of the program's solvers.

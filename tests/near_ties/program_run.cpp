@@ -66,7 +66,7 @@ Scenario scenario(const Case& tie, By by) {
   s.initial = {d.theta, d.omega};
   s.run.duration = d.end;
   s.run.report_interval = tie.report;
-  s.run.relative_tolerance = tolerance;
+  s.run.relative_tolerance = tie.tolerance;
   s.run.absolute_tolerance = absolute_tolerance(tie, by);
   s.run.solver = by == By::taylor ? SolverKind::taylor : SolverKind::cvode;
   s.run.method = by == By::adams ? Method::adams : Method::bdf;
@@ -153,7 +153,7 @@ ProgramRun run_with(const Scenario& s, const LoadParameters& load, const Case& t
 double absolute_tolerance(const Case& tie, By by) {
   // a hundredth of the relative one is meant for speeds around 1 rad/s; taylor's is an error per second
   const double slower = std::max(1.0, tie.drive.end);
-  return 0.01 * tolerance / (by == By::taylor ? slower * slower : slower);
+  return 0.01 * tie.tolerance / (by == By::taylor ? slower * slower : slower);
 }
 
 ProgramRun run(const Case& tie, By by) {
