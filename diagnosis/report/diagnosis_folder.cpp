@@ -28,7 +28,7 @@ std::string ids(const std::vector<EstimatedEffect>& effects) {
 
 namespace {
 /// diagnosis.h5 is the first: it tells that the others are of a diagnosis too.
-constexpr const char* file_names[] = {"diagnosis.h5",    "extended.toml",    "before.toml",
+constexpr const char* file_names[] = {"diagnosis.h5",    "extended.toml",    "fitted_to_earlier.toml",
                                       "experiment.toml", "uncertainty.toml", "diagnosis.json"};
 }  // namespace
 
@@ -75,7 +75,7 @@ std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nl
     written.push_back(inside(name));
     write_text_file(written.back(), text);
   };
-  write_or_remove("before.toml", found.since ? to_toml(found.since->scenario) : "");
+  write_or_remove("fitted_to_earlier.toml", found.since ? to_toml(found.since->scenario) : "");
   write_or_remove("experiment.toml", found.experiment ? to_toml(*found.experiment) : "");
   write_or_remove("uncertainty.toml", uncertainty_study(found));
   for (const std::string& picture : pictures()) written.push_back(picture);
