@@ -11,6 +11,8 @@
 #include "description/keys.hpp"
 #include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/inference/comparison.hpp"
+#include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive {
 namespace {
@@ -40,11 +42,6 @@ std::vector<Number> fitted_numbers(const Diagnosis& d) {
   return all;
 }
 
-Estimate estimate(const Estimate& like, double value, double error) {
-  constexpr double normal_95 = 1.96;
-  return {like.field, like.unit, value, error, value - normal_95 * error, value + normal_95 * error};
-}
-
 /// A number by the earlier data. One that was not fitted is what the scenario states, or nothing; how well that is
 /// known follows from the smallest size that would have shown.
 Estimate earlier_estimate(const Diagnosis& earlier, const Scenario& fitted, const std::string& effect,
@@ -56,20 +53,15 @@ Estimate earlier_estimate(const Diagnosis& earlier, const Scenario& fitted, cons
   for (const Visibility& v : earlier.certificate)
     if (v.effect == effect && v.field == later.field && v.observable)
       error = v.detectable / AcceptanceRules{}.least_tolerances;
-  return estimate(later, stated.on ? stated.value : 0.0, error);
+  return estimate(later.field, later.unit, stated.on ? stated.value : 0.0, error);
 }
 
 Change change(const std::string& effect, const Estimate& before, const Estimate& after) {
   double difference = after.value - before.value;
   if (after.unit.suffix == unit::degrees.suffix) difference = std::remainder(difference, 2.0 * std::numbers::pi);
   const double error = std::hypot(before.standard_error, after.standard_error);
-  return {effect, before, after, estimate(after, difference, error),
+  return {effect, before, after, estimate(after.field, after.unit, difference, error),
           std::abs(difference) > AcceptanceRules{}.least_tolerances * error};
-}
-
-std::string in_words(std::string id) {
-  std::replace(id.begin(), id.end(), '_', ' ');
-  return id;
 }
 
 /// "worm viscous: coefficient 1e-05 -> 2.1e-05 N m s/rad (by 1.1e-05 +- 1e-06)"

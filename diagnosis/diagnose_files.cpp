@@ -144,15 +144,14 @@ Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vec
   return diagnosis;
 }
 
-Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier,
+Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier, DataKind kind,
                          const std::vector<std::string>& later, const DiagnosisSettings& settings,
                          const std::map<std::string, LoadParameters>& loads) {
-  const DataKind kind_then = kind_of_data(earlier, scenario), kind_now = kind_of_data(later, scenario);
-  const Diagnosis then = diagnose_files(scenario, kind_then, earlier, settings, loads);
+  const Diagnosis then = diagnose_files(scenario, kind_of_data(earlier, scenario), earlier, settings, loads);
   const Scenario fitted = as_fitted(scenario, then);
   DiagnosisSettings known = settings;
   known.tolerances = known_tolerances(then);
-  Diagnosis now = diagnose_files(fitted, kind_now, later, known, loads);
+  Diagnosis now = diagnose_files(fitted, kind, later, known, loads);
   tell_changes(then, fitted, now);
   now.since->files = earlier;
   if (then.verdict == Verdict::unexplained || then.verdict == Verdict::ambiguous)

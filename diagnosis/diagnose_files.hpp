@@ -26,9 +26,9 @@ DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& sce
 Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
                          const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads = {});
 
-/// Diagnoses the earlier files, then the later ones against the drive as it was then, and tells what changed. Throws
-/// InputFault.
-Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier,
+/// Diagnoses the earlier files, then the later ones, of a kind, against the drive as it was then, and tells what
+/// changed. Throws InputFault.
+Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier, DataKind kind,
                          const std::vector<std::string>& later, const DiagnosisSettings& settings,
                          const std::map<std::string, LoadParameters>& loads = {});
 

@@ -40,7 +40,7 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
   Diagnosis found = without_python([&](SignalWatch& watch) {
     settings.progress = [&](const std::string&) { watch(); };
     return since.empty() ? diagnose_files(scenario, kind, files, settings)
-                         : diagnose_since(scenario, since, files, settings);
+                         : diagnose_since(scenario, since, kind, files, settings);
   });
   const nlohmann::json findings = as_json(found, name(kind), files);
   if (kept.folder)

@@ -163,7 +163,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     settings.threads = threads;
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
     return options.since.empty() ? diagnose_files(scenario, kind, options.data, settings, loads)
-                                 : diagnose_since(scenario, options.since, options.data, settings, loads);
+                                 : diagnose_since(scenario, options.since, kind, options.data, settings, loads);
   }();
 
   if (talk) print(diagnosis);

@@ -165,12 +165,15 @@ Eigen::MatrixXd with_structural_errors(const Hypothesis& h, Eigen::MatrixXd cova
 }
 
 Estimate estimate(std::string_view field, const FieldOfEffect& at, double variance) {
-  constexpr double normal_95 = 1.96;
-  const double error = std::sqrt(std::max(0.0, variance));
-  return {std::string(field), at.unit, at.value, error, at.value - normal_95 * error, at.value + normal_95 * error};
+  return estimate(field, at.unit, at.value, std::sqrt(std::max(0.0, variance)));
 }
 
 }  // namespace
+
+Estimate estimate(std::string_view field, const Unit& unit, double value, double error) {
+  constexpr double normal_95 = 1.96;
+  return {std::string(field), unit, value, error, value - normal_95 * error, value + normal_95 * error};
+}
 
 EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,
                           const std::vector<Coordinate>& coordinates) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include <Eigen/Core>
 
 #include "diagnosis/diagnosis.hpp"
@@ -12,6 +14,9 @@ namespace wormdrive {
 /// an evaluated hypothesis. rounds: how often the slopes are taken again, over as much as the errors that came out: an
 /// event that passes a sample makes the likelihood steep over less.
 Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds);
+
+/// A number with its standard error and 95 % interval.
+Estimate estimate(std::string_view field, const Unit& unit, double value, double error);
 
 /// The parameters of a candidate in a hypothesis with standard errors and 95 % intervals.
 EstimatedEffect estimated(const Hypothesis& h, const Eigen::MatrixXd& covariance, std::string_view effect,

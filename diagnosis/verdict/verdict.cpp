@@ -12,11 +12,6 @@ namespace wormdrive {
 
 namespace {
 
-std::string in_words(std::string id) {
-  std::replace(id.begin(), id.end(), '_', ' ');
-  return id;
-}
-
 std::string joined(const std::vector<std::string>& parts, std::string_view last) {
   std::string all;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -91,6 +86,11 @@ std::string causes_sentences(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string in_words(std::string id) {
+  std::replace(id.begin(), id.end(), '_', ' ');
+  return id;
+}
 
 const PredictionError* reported_error(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)

@@ -22,6 +22,9 @@ bool impacts(const Diagnosis& diagnosis);
 /// The class that an effect belongs to, null if it is told from all others.
 const std::vector<std::string>* class_of(const Diagnosis& diagnosis, std::string_view effect);
 
+/// An id as it is read: "worm viscous".
+std::string in_words(std::string id);
+
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect, Axis axis);
 

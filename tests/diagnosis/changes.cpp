@@ -32,7 +32,7 @@ std::string recorded(const Folder& folder, const std::string& name, std::uint64_
 }
 
 Diagnosis changed(const Scenario& scenario, const std::string& before, const std::string& after) {
-  return diagnose_since(scenario, {before}, {after}, {});
+  return diagnose_since(scenario, {before}, kind_of_data({after}, scenario), {after}, {});
 }
 
 std::vector<Change> certain(const Diagnosis& d) {

@@ -135,8 +135,11 @@ Judgement judgement(const Case& tie, bool judged) {
       const auto [what, excess] = contradiction(tie, solvers[k], runs[k], most_steps);
       if (what.empty()) continue;
       const Case fine = finer(tie);
-      if (excess <= a_little && contradiction(fine, solvers[k], run(fine, solvers[k]), most_steps).what.empty())
-        continue;
+      if (excess <= a_little) {
+        const ProgramRun again = run(fine, solvers[k]);
+        const bool sound = again.halt.empty() && again.broken.empty();  // a halted run contradicts nothing behind it
+        if (sound && contradiction(fine, solvers[k], again, most_steps).what.empty()) continue;
+      }
       return {Verdict::silent, fmt::format("{}: {}", name(solvers[k]), what)};
     } catch (const judge::GivesUp&) {
       if (same) return {Verdict::not_judged};
