@@ -12,6 +12,7 @@
 #include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/inference/comparison.hpp"
 #include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive {
@@ -51,8 +52,7 @@ Estimate earlier_estimate(const Diagnosis& earlier, const Scenario& fitted, cons
   const FieldOfEffect stated = field_of(fitted.effects, effect, later.field);
   double error = unseen;
   for (const Visibility& v : earlier.certificate)
-    if (v.effect == effect && v.field == later.field && v.observable)
-      error = v.detectable / AcceptanceRules{}.least_tolerances;
+    if (v.effect == effect && v.field == later.field && v.observable) error = v.detectable / rules::least_tolerances;
   return estimate(later.field, later.unit, stated.on ? stated.value : 0.0, error);
 }
 
@@ -61,7 +61,7 @@ Change change(const std::string& effect, const Estimate& before, const Estimate&
   if (after.unit.suffix == unit::degrees.suffix) difference = std::remainder(difference, 2.0 * std::numbers::pi);
   const double error = std::hypot(before.standard_error, after.standard_error);
   return {effect, before, after, estimate(after.field, after.unit, difference, error),
-          std::abs(difference) > AcceptanceRules{}.least_tolerances * error};
+          std::abs(difference) > rules::least_tolerances * error};
 }
 
 /// "worm viscous: coefficient 1e-05 -> 2.1e-05 N m s/rad (by 1.1e-05 +- 1e-06)"

@@ -20,6 +20,10 @@
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/noise.hpp"
+#include "diagnosis/rules/recordings.hpp"
+#include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/adequacy.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/experiment.hpp"
@@ -48,10 +52,11 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
   std::vector<PreparedRecording> all;
   std::size_t blocks = 0;
   for (const Recording& r : recordings) {
-    if (r.samples() < least_samples || static_cast<double>(r.samples()) * r.period < least_duration - 1e-9)
-      throw std::invalid_argument(
-          fmt::format("a diagnosis needs recordings of at least {} s and {} samples", least_duration, least_samples));
-    all.push_back(prepared(r, {}, blocks, ratio));
+    if (r.samples() < rules::least_samples ||
+        static_cast<double>(r.samples()) * r.period < rules::least_duration - 1e-9)
+      throw std::invalid_argument(fmt::format("a diagnosis needs recordings of at least {} s and {} samples",
+                                              rules::least_duration, rules::least_samples));
+    all.push_back(prepared(r, blocks, ratio));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
@@ -84,9 +89,10 @@ Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all
   CauseSearch* better = &found;
   if (hides_what_is_slow(found.model().noise_model)) {
     second.select(*start_plainly(), nullptr);
-    const auto error = [&](const CauseSearch& s) { return error_ahead(evaluation, s.model(), reported_horizon); };
-    constexpr double clearly = 0.9;
-    if (error(second) < clearly * error(found)) better = &second;
+    const auto error = [&](const CauseSearch& s) {
+      return error_ahead(evaluation, s.model(), rules::reported_horizon);
+    };
+    if (error(second) < rules::clearly_better * error(found)) better = &second;
   }
   better->try_pairs();
   return better->confirmed();
@@ -161,18 +167,6 @@ void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& befo
   const NoiseSizes noise = noise_sizes(evaluation, after);
   d.noise_angle = noise.angle;
   d.noise_torque = noise.torque;
-}
-
-/// What no test of the residuals saw, for it took it for outliers, may show in the error ahead.
-std::optional<Remainder> error_above_noise(const Diagnosis& d) {
-  constexpr double most = 3.0, most_of_bounces = 10.0;
-  const PredictionError* e = reported_error(d);
-  if (!e || e->after <= most * e->floor) return std::nullopt;
-  const double ratio = e->after / e->floor;
-  // what bounces leave does not speak against a gap
-  const double gain = impacts(d) && ratio <= most_of_bounces ? 0.0 : std::numeric_limits<double>::infinity();
-  return Remainder{fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, ratio), ratio, 0.0,
-                   gain};
 }
 
 /// Looks for a motion that splits a class of a diagnosis, the first for which there may be one.

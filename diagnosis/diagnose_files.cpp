@@ -17,6 +17,7 @@
 #include "diagnosis/points/break_in_points.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
+#include "diagnosis/rules/recordings.hpp"
 #include "output/resource.hpp"
 
 namespace wormdrive {
@@ -62,11 +63,10 @@ Diagnosis of_records(const Scenario& scenario, const std::vector<std::string>& f
   std::sort(records.begin(), records.end(), [](const SpeedTorqueRecord& a, const SpeedTorqueRecord& b) {
     return std::tie(a.worm_speed, a.motor_torque, a.name) < std::tie(b.worm_speed, b.motor_torque, b.name);
   });  // so that the order of the files makes no difference
-  constexpr std::size_t least_rows = 8;
-  if (records.size() < least_rows)
+  if (records.size() < rules::least_rows)
     reject({files.front()}, fmt::format("{} records at constant speed; a diagnosis needs at least {}, in both "
                                         "directions",
-                                        records.size(), least_rows));
+                                        records.size(), rules::least_rows));
   const TorquePoints points = steady_points(records, scenario);
   Diagnosis diagnosis = diagnose(
       scenario, points, steady_points_at_two_loads(records, scenario, 2.0 * points.load_torque.front()), settings);

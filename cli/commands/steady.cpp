@@ -12,6 +12,7 @@
 #include "description/toml/write_scenario.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/data/speed_torque_records.hpp"
+#include "diagnosis/rules/recordings.hpp"
 #include "output/hdf5/table.hpp"
 #include "simulation/load_scenario.hpp"
 #include "simulation/operating_range.hpp"
@@ -142,7 +143,7 @@ void print_comparison(const Comparison& comparison, const std::string& data, con
       print_item("left out", fmt::format("{}: record {}: {} = {:g} is {:.0f} robust standard deviations "
                                          "from its record's median (limit {:.0f})",
                                          to_string({data, s.line}), record.name, torque, s.torque, s.deviations,
-                                         implausible_deviations));
+                                         rules::implausible_deviations));
   print_item("compared",
              fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m", 1e3 * comparison.rms_error,
                          comparison.records.size(), 1e3 * comparison.rms_torque));

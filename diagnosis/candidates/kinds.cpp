@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/predictor/filtered_states.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
@@ -32,7 +33,7 @@ Candidate late(std::string_view effect, std::string_view field, double period, d
   constexpr double mechanical = 3e-3;  // [s]
   std::vector<double> starts{0.5 * period, 3.0 * period};
   if (starts.back() < mechanical) starts.push_back(2.0 * mechanical);
-  Candidate s = finite(effect, field, period, least, std::max(30.0 * period, remembered_time), starts);
+  Candidate s = finite(effect, field, period, least, std::max(30.0 * period, rules::remembered_time), starts);
   s.coordinates[0].model_error = {.of_scale = 0.0, .size = 1.5e-5};
   s.coordinates[0].none_at_low = true;
   return s;

@@ -7,6 +7,7 @@
 
 #include "description/diagnostics.hpp"
 #include "diagnosis/data/torque_judge.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 namespace {
@@ -23,10 +24,9 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
   const auto* const load = std::get_if<Signal>(&scenario.load);
   if (!mesh || !load || !load->terms.empty()) return;
   // As for a wrong unit: most is unaccounted for as it stands, and little with the load.
-  constexpr double most = 0.35, too_much = 0.6;
   const TorqueJudge judge(table, table.torque.values, table.angle.values, period);
   const double as_it_is = judge.fit(scenario).missed_rms;
-  if (as_it_is < too_much) return;
+  if (as_it_is < rules::too_much_unaccounted) return;
 
   Explained best;
   Scenario with = scenario;
@@ -48,7 +48,7 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
       for (const double factor : {1.0 - 0.6 * step, 1.0, 1.0 + 0.6 * step})
         look(from.torque * factor, from.offset + angle);
   }
-  if (best.missed > most || best.missed > 0.5 * as_it_is) return;
+  if (best.missed > rules::well_accounted || best.missed > rules::clearly_less * as_it_is) return;
   reject(
       table.where(),
       fmt::format("{} does not fit a drive without a load ({:.0f} % of it unaccounted for) but one with a mass on an "

@@ -8,15 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/rules/recordings.hpp"
 #include "statistics/robust.hpp"
 
 namespace wormdrive {
 namespace {
-
-constexpr double robust_deviations = 20.0;    ///< beyond which a value is impossible
-constexpr std::size_t longest_group = 5;      ///< of neighbours that are left out together
-constexpr double most_impossible = 0.01;      ///< share of all samples
-constexpr std::size_t standing_samples = 10;  ///< equal readings in a row that count as standing
 
 /// How far off a straight line the readings of an encoder may be.
 struct Straightness {
@@ -26,7 +22,7 @@ struct Straightness {
       : bend(limits.largest_acceleration * limits.period * limits.period) {
     std::vector<double> seconds;
     for (std::size_t k = 1; k + 1 < y.size(); ++k) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
-    tolerance = robust_deviations * std::max(robust_deviation(std::move(seconds)), resolution(y));
+    tolerance = rules::impossible_deviations * std::max(robust_deviation(std::move(seconds)), resolution(y));
   }
 };
 
@@ -56,7 +52,7 @@ class Path {
 
 [[noreturn]] void refuse_jump(const RecordedTable& table, const RecordedValues& angle, std::size_t k) {
   const double jump = angle.values[k] - angle.values[k - 1], turns = jump / (2.0 * std::numbers::pi);
-  const bool within_a_turn = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
+  const bool within_a_turn = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < rules::near_whole_turn;
   reject(table.where(k),
          fmt::format("{} jumps from {:.6g} to {:.6g} within one sample: {}", angle.name,
                      angle.in_file(angle.values[k - 1]), angle.in_file(angle.values[k]),
@@ -68,9 +64,10 @@ class Path {
 void refuse_standing(const RecordedTable& table, const RecordedValues& angle, const SampleLimits& limits) {
   const std::vector<double>& y = angle.values;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  constexpr std::size_t look = 5;
-  const double sudden = 1.5 * limits.largest_acceleration * static_cast<double>(look) * limits.period +
-                        4.0 * resolution(y) / (static_cast<double>(look - 1) * limits.period);
+  constexpr std::size_t look = rules::beside_standstill;
+  const double sudden =
+      rules::impossible_start * limits.largest_acceleration * static_cast<double>(look) * limits.period +
+      rules::rounding_of_speed * resolution(y) / (static_cast<double>(look - 1) * limits.period);
   // speed between two samples, or between the first and the one before the second, should that be a wrong one
   const auto speed = [&](std::size_t a, std::size_t b) {
     const double steps = static_cast<double>(b - a);
@@ -81,7 +78,7 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
   for (std::size_t from = 0; from < y.size();) {
     std::size_t to = from + 1;
     while (to < y.size() && y[to] == y[from]) ++to;
-    if (to - from >= standing_samples) {
+    if (to - from >= rules::standing_readings) {
       const double before = from < look || table.crosses_pause(from, look) ? 0.0 : speed(from - look, from - 1);
       const double after = to + look > y.size() || table.crosses_pause(to, look) ? 0.0 : speed(to, to + look - 1);
       if (std::max(before, after) > sudden)
@@ -111,17 +108,17 @@ std::string group_told(const RecordedTable& table, const std::string& what, doub
 template <class Leave>
 void follow(const RecordedTable& table, RecordedValues& angle, std::size_t begin, std::size_t end,
             const Straightness& straight, Leave&& leave) {
-  constexpr std::size_t undisturbed = 8;
   const std::span<double> y = std::span(angle.values).subspan(begin, end - begin);
-  if (y.size() <= undisturbed) return;
+  if (y.size() <= rules::undisturbed_samples) return;
   Path path(y, straight);
   std::reverse(y.begin(), y.end());
   for (const bool reversed : {true, false}) {
-    for (std::size_t k = reversed ? y.size() - undisturbed : undisturbed; k < y.size(); ++k) {
+    for (std::size_t k = reversed ? y.size() - rules::undisturbed_samples : rules::undisturbed_samples; k < y.size();
+         ++k) {
       if (path.continues(k, k)) continue;
       std::size_t back = k + 1;
-      while (back < y.size() && back - k <= longest_group && !path.continues(k, back)) ++back;
-      if (back < y.size() && back - k > longest_group) {
+      while (back < y.size() && back - k <= rules::longest_impossible && !path.continues(k, back)) ++back;
+      if (back < y.size() && back - k > rules::longest_impossible) {
         if (reversed) break;
         refuse_jump(table, angle, begin + k);
       }
@@ -145,17 +142,17 @@ double resolution(const std::vector<double>& angles) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < sorted.size(); ++k)
     if (sorted[k] - sorted[k - 1] > 1e-9 * range) steps.push_back(sorted[k] - sorted[k - 1]);
-  if (steps.size() < 10) return 0.0;
+  if (steps.size() < rules::fewest_differences) return 0.0;
   std::sort(steps.begin(), steps.end());
   const double step = steps[steps.size() / 500];  // not the very smallest: a last digit may round
   // readings of an encoder differ by whole steps; only small differences can tell
   double near = 0.0, whole = 0.0;
   for (const double s : steps) {
-    if (s > 5.5 * step) break;
+    if (s > rules::largest_telling_difference * step) break;
     near += 1.0;
-    whole += std::abs(s / step - std::round(s / step)) < 0.05 ? 1.0 : 0.0;
+    whole += std::abs(s / step - std::round(s / step)) < rules::near_whole_reading ? 1.0 : 0.0;
   }
-  return whole > 0.9 * near ? step : 0.0;
+  return whole > rules::least_whole_readings * near ? step : 0.0;
 }
 
 std::vector<std::string> leave_out_impossible(RecordedTable& table, const SampleLimits& limits,
@@ -172,7 +169,8 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
   const double middle = median(u);
   std::vector<double> sizes;
   for (const double torque : u) sizes.push_back(torque - middle);
-  const double far = std::max(robust_deviations * robust_deviation(u), 5.0 * usual_peak(std::move(sizes)));
+  const double far = std::max(rules::impossible_deviations * robust_deviation(u),
+                              rules::impossible_peaks * usual_peak(std::move(sizes)));
   for (std::size_t k = 0; k < u.size(); ++k) {
     if (far == 0.0 || std::abs(u[k] - middle) <= far) continue;
     leave(table.torque.name, table.torque.in_file(u[k]), k, k + 1);
@@ -192,7 +190,7 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
       begin = end;
     }
   }
-  if (static_cast<double>(left_out) > most_impossible * static_cast<double>(u.size()))
+  if (static_cast<double>(left_out) > rules::most_impossible * static_cast<double>(u.size()))
     reject(table.where(),
            fmt::format("{} of {} samples are such that no measurement can have given them", left_out, u.size()));
   return remarks;

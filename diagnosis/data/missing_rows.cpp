@@ -7,6 +7,7 @@
 
 #include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/data/sample_times.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 namespace {
@@ -52,14 +53,13 @@ double usual_step(const Times& t) {
 
 /// Of stamps at random, half of the steps lie within a quarter of a period of a whole number of them.
 void refuse_no_rate(const RecordedTable& table, double usual) {
-  constexpr double near = 0.25, most = 0.75;
   const Times& t = table.time.values;
   double within = 0.0;
   for (std::size_t k = 1; k < t.size(); ++k) {
     const double step = (t[k] - t[k - 1]) / usual;
-    within += std::abs(step - static_cast<double>(periods(step, 1.0))) < near ? 1.0 : 0.0;
+    within += std::abs(step - static_cast<double>(periods(step, 1.0))) < rules::near_whole_step ? 1.0 : 0.0;
   }
-  if (const double share = within / static_cast<double>(t.size() - 1); share < most)
+  if (const double share = within / static_cast<double>(t.size() - 1); share < rules::least_whole_steps)
     reject(table.where(), fmt::format("{} shows no rate: only {:.0f} % of its steps are within a quarter of {:.3g} s "
                                       "or of a multiple of it",
                                       table.time.name, 100.0 * share, usual));
@@ -94,17 +94,17 @@ std::string told(const RecordedTable& table, const Count& missing, double step) 
 MissingRows bridge_missing_rows(RecordedTable& table) {
   const Times t = table.time.values;
   const std::string& name = table.time.name;
-  if (t.size() < least_samples)
-    reject(table.where(), fmt::format("{} samples; a diagnosis needs at least {}", t.size(), least_samples));
+  if (t.size() < rules::least_samples)
+    reject(table.where(), fmt::format("{} samples; a diagnosis needs at least {}", t.size(), rules::least_samples));
   refuse_disorder(table);
   MissingRows found{usual_step(t), {1}, {}};
-  if (found.step > longest_period)
+  if (found.step > rules::longest_period)
     reject(table.where(), fmt::format("{} has steps of {:.3g} s; a diagnosis needs at most {} s (is {} in seconds?)",
-                                      name, found.step, longest_period, name));
+                                      name, found.step, rules::longest_period, name));
   refuse_no_rate(table, found.step);
 
   // over this time the speed is taken for even as well; one row is bridged always
-  const auto longest = std::max(1L, std::lround(CuttingRules{}.slope_half_width / found.step));
+  const auto longest = std::max(1L, std::lround(rules::slope_half_width / found.step));
   std::vector<std::uint32_t> lines{table.where(0).line};
   Count missing;
   std::vector<RecordedValues*> columns;

@@ -14,6 +14,7 @@
 #include "diagnosis/data/impossible_samples.hpp"
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/data/torque_judge.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 namespace {
@@ -78,8 +79,10 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
   }
   if (square == 0.0 || other == 0.0) return;
   const double factor = product / square;
-  if (product * product > 0.8 * square * other && factor > 0.8 && factor < 1.25) return;
-  const auto is = [&](double expected) { return std::abs(factor / expected - 1.0) < 0.05; };
+  if (product * product > rules::least_speed_likeness * square * other && factor * rules::most_speed_factor > 1.0 &&
+      factor < rules::most_speed_factor)
+    return;
+  const auto is = [&](double expected) { return std::abs(factor / expected - 1.0) < rules::near_unit; };
   std::string why = "is not the derivative of";
   if (is(30.0 / std::numbers::pi)) why = "is in rpm, which does not match";
   if (is(180.0 / std::numbers::pi)) why = "is in degrees per second, which does not match";
@@ -105,12 +108,10 @@ void refuse_other_ratio(const RecordedTable& table, const Scenario& scenario) {
     square += std::pow(gear[k] - gear_mean, 2);
     other += std::pow(worm[k] - worm_mean, 2);
   }
-  // Both move together, and no encoder's scale is off by so much: what is closer is for the diagnosis.
-  constexpr double together = 0.99, too_far = 0.1;
-  if (square == 0.0 || product * product < together * square * other) return;
+  if (square == 0.0 || product * product < rules::least_meshing * square * other) return;
   const double ratio = product / square;
-  if (std::abs(ratio / mesh->i - 1.0) < too_far) return;
-  const auto is = [&](double expected) { return std::abs(ratio / expected - 1.0) < 0.02; };
+  if (std::abs(ratio / mesh->i - 1.0) < rules::other_ratio) return;
+  const auto is = [&](double expected) { return std::abs(ratio / expected - 1.0) < rules::near_ratio; };
   const std::string remedy = is(-mesh->i)                             ? "turn its sign"
                              : is(1.0)                                ? "it is counted at the gear"
                              : is(mesh->i * 180.0 / std::numbers::pi) ? "it is in degrees"
@@ -141,24 +142,25 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
               scenario.axis == Axis::linear ? "nothing ever moved, or its encoder was stuck"
                                             : "the gear never moved, or its encoder was stuck");
   const double step = resolution(table.angle.values);
-  if (span(table.angle.values) < 20.0 * step)
-    reject(table.where(),
-           fmt::format("{} moves by {:.3g} {}, less than 20 steps of its encoder: too little to learn from",
-                       table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad")));
+  if (span(table.angle.values) < rules::least_motion * step)
+    reject(
+        table.where(),
+        fmt::format("{} moves by {:.3g} {}, less than {:g} steps of its encoder: too little to learn from",
+                    table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad"), rules::least_motion));
   refuse_other_speed(table, period, scenario);
   refuse_other_ratio(table, scenario);
   const auto fit = [&](const Values& torque, const Values& angle) {
     return TorqueJudge(table, torque, angle, period).fit(scenario);
   };
   const TorqueFit as_is = fit(table.torque.values, table.angle.values);
-  if (as_is.missed < 0.6) return;
+  if (as_is.missed < rules::too_much_unaccounted) return;
   std::optional<std::pair<double, std::string>> best;
   for (const Reading& reading : readings(table, scenario)) {
     const double missed = fit(reading.torque, reading.angle).missed;
     if (!best || missed < best->first) best = {missed, reading.says};
   }
   if (best && best->first >= least_missed_by_turned_arm(table, period, scenario)) return;
-  if (best && best->first < 0.35 && best->first < 0.5 * as_is.missed)
+  if (best && best->first < rules::well_accounted && best->first < rules::clearly_less * as_is.missed)
     reject(
         table.where(),
         fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->second,
@@ -168,7 +170,8 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
   if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const TorqueFit as_is = TorqueJudge(table, table.torque.values, table.angle.values, period).fit(scenario);
-  if (as_is.missed > 0.6 && (as_is.factor > 10.0 || as_is.factor < 0.1))
+  if (as_is.missed > rules::too_much_unaccounted &&
+      (as_is.factor > rules::wrong_size || as_is.factor * rules::wrong_size < 1.0))
     reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
                                       "unit, or wrong scenario",
                                       table.torque.name, as_is.factor));

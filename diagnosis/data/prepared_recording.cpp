@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rules/recordings.hpp"
+
 namespace wormdrive {
 
 namespace {
@@ -53,8 +55,7 @@ std::vector<double> worm_at_gear(const Recording& recording, double ratio) {
 /// the model can follow. Not beyond the slowest sampling that shows how a drive starts and stops.
 std::size_t telling_interval(const Recording& recording, const std::vector<std::uint8_t>& moving) {
   if (recording.gear_resolution == 0.0) return 1;
-  constexpr double most_repeated = 0.25;
-  const auto longest = static_cast<std::size_t>(longest_period / recording.period);
+  const auto longest = static_cast<std::size_t>(rules::longest_period / recording.period);
   const std::vector<double>& y = recording.gear_angle;
   for (std::size_t every = 1; every < longest; ++every) {
     std::size_t repeated = 0, all = 0;
@@ -63,22 +64,22 @@ std::size_t telling_interval(const Recording& recording, const std::vector<std::
       ++all;
       if (std::abs(y[k] - y[k - every]) < 0.5 * recording.gear_resolution) ++repeated;
     }
-    if (static_cast<double>(repeated) <= most_repeated * static_cast<double>(all)) return every;
+    if (static_cast<double>(repeated) <= rules::most_repeated * static_cast<double>(all)) return every;
   }
   return std::max<std::size_t>(1, longest);
 }
 
 }  // namespace
 
-PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
-                           double ratio) {
+PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio) {
   PreparedRecording p;
   p.data = recording;
   const std::size_t n = recording.samples();
   const double Ts = recording.period;
   p.worm_angle = worm_at_gear(recording, ratio);
   p.worm_resolution = recording.worm_resolution / ratio;
-  const auto half_width = static_cast<std::size_t>(std::max(4L, std::lround(rules.slope_half_width / Ts)));
+  const auto half_width =
+      static_cast<std::size_t>(std::max(rules::least_half_width, std::lround(rules::slope_half_width / Ts)));
   p.speed.resize(n);
   for (std::size_t k = 0, begin = 0; k <= recording.restarts.size(); ++k) {
     const std::size_t end = k < recording.restarts.size() ? recording.restarts[k] : n;
@@ -89,12 +90,12 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
   p.torque_spikes = torque_spikes(recording);
   p.rms_torque = root_mean_square(recording.motor_torque);
   for (const double u : recording.motor_torque) p.largest_torque = std::max(p.largest_torque, std::abs(u));
-  p.block_length = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rules.block / Ts)));
+  p.block_length = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rules::block / Ts)));
   p.moving.resize(n);
   p.used.resize(n);
   p.held_out.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    p.moving[k] = std::abs(p.speed[k]) > rules.standing_share * p.rms_speed;
+    p.moving[k] = std::abs(p.speed[k]) > rules::standing_share * p.rms_speed;
   }
   if (!recording.has_worm_encoder()) p.every = telling_interval(recording, p.moving);
   if (p.every > 1) {
@@ -103,10 +104,9 @@ PreparedRecording prepared(const Recording& recording, const CuttingRules& rules
       if (k % p.every != 0) p.data.valid[k] = 0;
   }
   for (std::size_t k = 0; k < n; ++k) {
-    p.used[k] = static_cast<double>(k) * Ts >= rules.burn_in && (p.data.valid.empty() || p.data.valid[k]);
+    p.used[k] = static_cast<double>(k) * Ts >= rules::burn_in && (p.data.valid.empty() || p.data.valid[k]);
     const std::size_t block = first_block + k / p.block_length;
-    p.held_out[k] =
-        block % static_cast<std::size_t>(rules.held_out_every) == static_cast<std::size_t>(rules.held_out_every) - 1;
+    p.held_out[k] = block % rules::held_out_every == rules::held_out_every - 1;
   }
   // a prediction that starts anew has its speed from these samples, and is not to be judged by them
   for (const std::size_t restart : recording.restarts)

@@ -9,15 +9,6 @@
 
 namespace wormdrive {
 
-/// How recordings are cut for a diagnosis.
-struct CuttingRules {
-  double burn_in = 0.1;             ///< dropped from the start: the initial speed is a guess [s]
-  double block = 0.5;               ///< data are held out and compared by blocks of this length [s]
-  int held_out_every = 3;           ///< each block of that number is held out
-  double slope_half_width = 0.012;  ///< of the line whose slope is the speed [s]
-  double standing_share = 0.008;    ///< slower than this share of the rms speed is standing
-};
-
 /// A recording with what a fit needs to know of every sample beforehand; it follows from the data alone.
 struct PreparedRecording {
   Recording data;
@@ -46,8 +37,7 @@ struct PreparedRecording {
 
 /// first_block: number of the recording's first block, counted through all recordings. ratio: worm angle over gear
 /// angle.
-PreparedRecording prepared(const Recording& recording, const CuttingRules& rules, std::size_t first_block,
-                           double ratio = 1.0);
+PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio = 1.0);
 
 /// The same with nothing held out: for the final fit.
 PreparedRecording with_all_data(PreparedRecording recording);

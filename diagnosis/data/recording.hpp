@@ -9,10 +9,6 @@
 
 namespace wormdrive {
 
-inline constexpr std::size_t least_samples = 1000;  ///< of a recording that can be diagnosed
-inline constexpr double longest_period = 0.02;      ///< [s]: slower samples do not show how a drive starts and stops
-inline constexpr double least_duration = 3.0;       ///< [s]: six blocks of half a second, two of them held out
-
 /// A recording of a drive in SI; plain data.
 struct Recording {
   std::string name;                  ///< the file's, or what the caller calls it

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/data/recording.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 namespace {
@@ -87,17 +88,16 @@ SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
   const std::vector<double> t = with_pauses_closed(table, rows.step);
   const auto [start, period] = whole_line(t);
   const double duration = static_cast<double>(t.size()) * period;
-  if (duration < least_duration - 1e-9)
+  if (duration < rules::least_duration - 1e-9)
     reject(table.where(), fmt::format("{} samples of {:.3g} s are {:.3g} s; a diagnosis needs at least {} s", t.size(),
-                                      period, duration, least_duration));
+                                      period, duration, rules::least_duration));
 
-  constexpr std::size_t neighbours = 50;  // on either side: a drift bends their line by nothing, one step by itself
   SampleTimes found{start, period, {}, {}};
   if (!rows.remark.empty()) found.remarks.push_back(rows.remark);
   double jitter = 0.0, drift = 0.0;  // by which a sample misses its neighbours' line, and that one the whole [steps]
   std::vector<double> steady, steps;
   for (std::size_t k = 0; k < t.size(); ++k) {
-    const Line line = line_around(t, k, neighbours);
+    const Line line = line_around(t, k, rules::neighbours_of_stamp);
     found.times.push_back(line.at);
     steady.push_back(line.step);
     if (k > 0) steps.push_back(t[k] - t[k - 1]);
@@ -105,8 +105,7 @@ SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
     drift = std::max(drift, std::abs(line.at - start - static_cast<double>(k) * period) / period);
   }
 
-  constexpr double most_late = 0.25;  // further off, a stamp does not tell which time of an even grid it stands for
-  if (jitter > even_enough && (jitter > most_late || !read_at_even_times(table, rows.there))) {
+  if (jitter > rules::even_enough && (jitter > rules::latest_stamp || !read_at_even_times(table, rows.there))) {
     const auto [shortest, longest] = range(steps);
     found.remarks.push_back(
         fmt::format("the sample times miss even steps by up to {:.0f} % of a step, which are {:.3g} "
@@ -116,10 +115,10 @@ SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
     for (std::size_t k = 0; k < t.size(); ++k) found.times[k] = stamps[k] - stamps.front();
     return found;
   }
-  if (jitter > even_enough)
+  if (jitter > rules::even_enough)
     found.remarks.push_back(
         fmt::format("the sample times miss even steps by up to {:.0f} % of a step; taken for even", 100.0 * jitter));
-  if (drift > even_enough) {
+  if (drift > rules::even_enough) {
     const auto [shortest, longest] = range(steady);
     found.remarks.push_back(
         fmt::format("the steps drift between {:.6g} s and {:.6g} s, {:.2g} s off an even grid; followed as they are",

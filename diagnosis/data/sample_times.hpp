@@ -14,8 +14,6 @@ struct SampleTimes {
   std::vector<std::string> remarks;
 };
 
-inline constexpr double even_enough = 0.02;  ///< of a step: what misses one even grid by less is taken for even
-
 /// The times at which a recording was sampled. Stamps that miss an even grid are followed, unless the angle goes on
 /// more evenly with time without them: then a clock sampled it, and the stamps were late on their way. Throws
 /// InputFault where the recording is too short.

@@ -6,6 +6,7 @@
 
 #include "description/diagnostics.hpp"
 #include "diagnosis/data/recorded_table.hpp"
+#include "diagnosis/rules/recordings.hpp"
 #include "statistics/robust.hpp"
 
 namespace wormdrive {
@@ -34,7 +35,7 @@ SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& 
   SpeedTorqueRecord record{name, 0.0, 0.0, 0, {}};
   std::vector<double> kept_speeds, kept_torques;
   for (std::size_t k = 0; k < torques.size(); ++k) {
-    if (distances[k] > implausible_deviations * sigma) {
+    if (distances[k] > rules::implausible_deviations * sigma) {
       record.left_out.push_back({lines[k], torques[k], distances[k] / sigma});
     } else {
       kept_speeds.push_back(speeds[k]);

@@ -24,9 +24,6 @@ struct SpeedTorqueRecord {
   std::vector<ImplausibleSample> left_out;
 };
 
-/// Robust standard deviations (1.4826 MAD) beyond which a sample is left out.
-inline constexpr double implausible_deviations = 20.0;
-
 /// Reads a CSV, MAT or HDF5 file with the columns record, worm_speed_rad_per_s and motor_torque_Nm, or what the
 /// scenario calls them; records in the order of the file. Throws InputFault for a file that cannot be read so.
 std::vector<SpeedTorqueRecord> read_speed_torque_records(const std::string& path, const Scenario& scenario = {});

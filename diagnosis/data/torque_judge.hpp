@@ -6,6 +6,7 @@
 
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/data/recorded_table.hpp"
+#include "diagnosis/rules/recordings.hpp"
 #include "statistics/sizes.hpp"
 
 namespace wormdrive {
@@ -25,9 +26,10 @@ class TorqueJudge {
   TorqueJudge(const RecordedTable& table, const std::vector<double>& torque, const std::vector<double>& angle,
               double period)
       : table_(table),
-        half_width_(static_cast<std::size_t>(std::max(4L, std::lround(0.012 / period)))),
+        half_width_(
+            static_cast<std::size_t>(std::max(rules::least_half_width, std::lround(rules::slope_half_width / period)))),
         motion_(measured_motion(angle, period, half_width_)),
-        still_(std::max(0.3 * median_size(motion_.speed), 1e-9)),
+        still_(std::max(rules::too_slow_for_torque * median_size(motion_.speed), 1e-9)),
         mean_(torque.size()) {
     const std::size_t w = half_width_;
     for (std::size_t k = w; k + w < torque.size(); ++k)
@@ -43,7 +45,7 @@ class TorqueJudge {
       given.push_back(mean_[k]);
       asked.push_back(needed[k]);
     }
-    if (given.size() < 100 || median_size(given) == 0.0 || median_size(asked) == 0.0) return {};
+    if (given.size() < rules::fewest_for_torque || median_size(given) == 0.0 || median_size(asked) == 0.0) return {};
     return {median_size(left) / median_size(given), rms(left) / rms(given), median_size(given) / median_size(asked)};
   }
 

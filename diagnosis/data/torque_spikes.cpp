@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rules/recordings.hpp"
 #include "statistics/robust.hpp"
 
 namespace wormdrive {
 
 std::vector<TorqueSpike> torque_spikes(const Recording& recording) {
   const std::vector<double>& u = recording.motor_torque;
-  constexpr std::size_t reach = 3;  // seven samples have a median that three do not move
+  constexpr std::size_t reach = rules::spike_reach;
   if (u.size() <= 2 * reach) return {};
   std::vector<double> instead(u), apart(u.size());
   for (std::size_t k = reach; k + reach < u.size(); ++k) {
@@ -19,14 +20,13 @@ std::vector<TorqueSpike> torque_spikes(const Recording& recording) {
   }
   // As for torques that no motor can have given: noise, however it is distributed, does not come so far. And what is
   // small beside the torques that the drive needs anyway moves it little.
-  constexpr double robust_deviations = 20.0, least_share = 0.5;
-  const double far = std::max(robust_deviations * robust_deviation(apart), least_share * robust_deviation(u));
+  const double far =
+      std::max(rules::impossible_deviations * robust_deviation(apart), rules::least_spike * robust_deviation(u));
   if (far == 0.0) return {};
   std::vector<TorqueSpike> spikes;
   for (std::size_t k = 0; k < u.size(); ++k)
     if (std::abs(apart[k]) > far) spikes.push_back({k, instead[k]});
-  constexpr std::size_t one_in = 100;
-  if (spikes.size() > u.size() / one_in) spikes.clear();
+  if (spikes.size() > u.size() / rules::rarest_spike) spikes.clear();
   return spikes;
 }
 

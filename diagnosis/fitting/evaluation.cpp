@@ -6,6 +6,7 @@
 #include "description/build.hpp"
 #include "diagnosis/faults/mended_recording.hpp"
 #include "diagnosis/predictor/predictor.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
@@ -58,7 +59,7 @@ std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& 
     return std::nullopt;
   }
   for (const double x : e)
-    if (!(std::abs(x) < 1e6)) return std::nullopt;
+    if (!(std::abs(x) < rules::lost)) return std::nullopt;
   return e;
 }
 

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "diagnosis/fitting/stepwise.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -41,8 +43,7 @@ void follow_slopes(const Evaluation& evaluation, Hypothesis& h, int rounds, doub
     bool better = false;
     for (int attempt = 0; attempt < 4 && !better; ++attempt) {
       const Eigen::VectorXd step = solve_normal(A, b, damping);
-      constexpr double nothing = 0.03;  // of what makes a round worth another one
-      if (0.5 * b.dot(step) < nothing * least_gain) return;
+      if (0.5 * b.dot(step) < rules::nothing_to_gain * least_gain) return;
       Hypothesis trial = h;
       for (std::size_t k = 0; k < n; ++k) {
         constexpr double longest = 20.0;  // scales
@@ -66,15 +67,16 @@ void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_g
 }
 
 void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
-  constexpr double least = 1e-5, most = 3.0, least_gain = 0.05;
   for (double ProcessNoise::*kind : {&ProcessNoise::white, &ProcessNoise::coloured})
     for (const double factor : {2.0, 0.5}) {
       bool any = false;
       for (int k = 0; k < depth; ++k) {
         Hypothesis trial = h;
         trial.noise.*kind *= factor;
-        if (trial.noise.white < least || trial.noise.white > most || trial.noise.coloured > most) break;
-        if (!evaluate(evaluation, trial) || trial.objective >= h.objective - least_gain) break;
+        if (trial.noise.white < rules::least_process_noise || trial.noise.white > rules::most_process_noise ||
+            trial.noise.coloured > rules::most_process_noise)
+          break;
+        if (!evaluate(evaluation, trial) || trial.objective >= h.objective - rules::least_noise_gain) break;
         h = std::move(trial);
         any = true;
       }

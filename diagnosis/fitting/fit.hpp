@@ -3,6 +3,7 @@
 
 #include "diagnosis/fitting/hypothesis.hpp"
 #include "diagnosis/fitting/normal_equations.hpp"
+#include "diagnosis/rules/evidence.hpp"
 
 namespace wormdrive {
 
@@ -11,7 +12,7 @@ inline constexpr double derivative_step = 0.02;
 
 /// Fits the free coordinates by Levenberg and Marquardt on Student's t, whose scales and whitening are estimated anew
 /// at every trial. Stops after so many rounds, or when one gains less than so many nats.
-void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_gain = 0.3);
+void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_gain = rules::least_round_gain);
 
 /// Doubles or halves the two kinds of process noise, up to `depth` times, as long as that gains.
 void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth);

@@ -10,6 +10,7 @@
 #include "core/elastic/impact.hpp"
 #include "description/build.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -50,10 +51,9 @@ class GapSearch {
   }
   void take_best() {
     parallel_for(trials_.size(), evaluation_.threads(), [&](std::size_t k) { evaluate(evaluation_, trials_[k]); });
-    constexpr double least_gain = 2.0;
     const auto best = std::min_element(trials_.begin(), trials_.end(),
                                        [](const auto& a, const auto& b) { return a.objective < b.objective; });
-    if (best->objective <= h_.objective - least_gain) {
+    if (best->objective <= h_.objective - rules::least_gap_gain) {
       h_ = std::move(*best);
       fit(evaluation_, h_, 4, 0.5);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/build.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
@@ -92,10 +93,9 @@ namespace {
 
 std::vector<double> whitened_and_clipped(const Evaluation& evaluation, const Hypothesis& h,
                                          std::vector<double> change) {
-  constexpr double most = 30.0;  // scales; what goes beyond tells of another motion, not of a slope
   change = whitened(evaluation.layout(), change, h.noise_model);
   for (std::size_t k = 0; k < change.size(); ++k) {
-    const double limit = most * h.noise_model.groups[evaluation.layout().group[k]].scale;
+    const double limit = rules::largest_change * h.noise_model.groups[evaluation.layout().group[k]].scale;
     change[k] = std::clamp(change[k], -limit, limit);
   }
   return change;

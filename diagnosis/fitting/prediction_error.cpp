@@ -6,6 +6,7 @@
 
 #include "description/build.hpp"
 #include "description/keys.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
@@ -19,10 +20,11 @@ struct Stretch {
 };
 
 double mean_square(const std::vector<double>& errors) {
-  constexpr double most = 1.0;  // [rad^2]: a motion that was missed altogether, or not to its end, counts no more
   double sum = 0.0;
   for (const double e : errors) sum += e * e;
-  return sum <= most * static_cast<double>(errors.size()) ? sum / static_cast<double>(errors.size()) : most;
+  return sum <= rules::largest_square_error * static_cast<double>(errors.size())
+             ? sum / static_cast<double>(errors.size())
+             : rules::largest_square_error;
 }
 
 /// Samples of a recording from which predictions are judged.
@@ -181,7 +183,7 @@ std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, con
   for (std::uint64_t k = 0; k < draws; ++k)
     noises.push_back(drawn_innovations(evaluation.layout(), after.residuals, after.noise_model, seed + k));
   const Forecast forecast_before(evaluation, before), forecast_after(evaluation, after);
-  for (const double horizon : horizons) {
+  for (const double horizon : rules::horizons) {
     PredictionError e;
     e.unit = spellings("angle", e.unit, evaluation.scenario().axis).front().unit;
     e.horizon = horizon;
@@ -203,7 +205,7 @@ std::vector<PredictionExample> prediction_examples(const Evaluation& evaluation,
                                                    const Hypothesis& after) {
   std::vector<PredictionExample> examples;
   const Forecast forecast_before(evaluation, before), forecast_after(evaluation, after);
-  for (const double horizon : horizons) {
+  for (const double horizon : rules::horizons) {
     const std::vector<Stretch> then = forecast_before.of_data(horizon), now = forecast_after.of_data(horizon);
     if (then.empty() || then.size() != now.size()) continue;
     std::vector<std::size_t> order(then.size());

@@ -7,11 +7,6 @@
 
 namespace wormdrive {
 
-/// How far ahead predictions are judged [s].
-inline constexpr double horizons[] = {0.1, 0.25, 1.0};
-/// The one that the sentence of a diagnosis tells of [s].
-inline constexpr double reported_horizon = 0.25;
-
 /// Error of predicting the gear angle that far ahead from samples that were held out, rms [rad].
 double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double horizon);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -41,7 +42,7 @@ class Trial {
     const double promised = b.dot(step), price = added_terms();
     // where a spring is slack shows only once it has a stiffness: then a step does not promise all that there is
     const bool promises_all = !candidate_.finite && (A.diagonal().tail(fresh).array() > 0.0).all();
-    if (constexpr double little = 0.5; promises_all && promised < little * price) {
+    if (promises_all && promised < rules::least_promise * price) {
       result_.model = moved(step, 1.0);  // a prediction would say no more
       result_.gain = promised - price;
       return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -21,8 +22,8 @@ Hypothesis best_fit(const Evaluation& evaluation, const std::vector<Candidate>& 
   });
   Hypothesis best = *std::min_element(trials.begin(), trials.end(),
                                       [](const Hypothesis& x, const Hypothesis& y) { return x.bic < y.bic; });
-  constexpr int turns = 2;  // far from what is stated noise and model are found by turns
-  for (int turn = 0; turn < turns && base.bic - best.bic > AcceptanceRules{}.least_bic; ++turn) {
+  // far from what is stated noise and model are found by turns
+  for (int turn = 0; turn < rules::turns_alone && base.bic - best.bic > rules::least_bic; ++turn) {
     restart_noise(evaluation, best);
     adjust_noise(evaluation, best, 3);
     fit(evaluation, best, 4);
@@ -37,7 +38,7 @@ void try_alone(const Evaluation& evaluation, const std::vector<Candidate>& all, 
     if (!all[c].alone) continue;
     Hypothesis with = best_fit(evaluation, all, c, found.base);
     Hypothesis without = found.base;
-    if (found.base.bic - with.bic > AcceptanceRules{}.least_bic) {  // a better mixture of noise is no merit of it
+    if (found.base.bic - with.bic > rules::least_bic) {  // a better mixture of noise is no merit of it
       without.noise = with.noise;
       fit(evaluation, without, 5);
     }

@@ -35,7 +35,7 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
     e.without_best = e.held_out - best;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    const double most = AcceptanceRules{}.clip * *middle;
+    const double most = rules::clip * *middle;
     for (const double g : gains) e.clipped += std::clamp(g, -most, most);
   }
   e.beside_gap = !candidate.impacts && gap_of(with);
@@ -61,47 +61,44 @@ bool is_removed(const Hypothesis& h, const Candidate& candidate) {
 namespace {
 
 /// Whether what was held out bears a candidate out.
-bool holds(const Evidence& e, const Candidate& candidate, const AcceptanceRules& rules) {
-  const bool gains = e.held_out > rules.least_held_out;
+bool holds(const Evidence& e, const Candidate& candidate) {
+  const bool gains = e.held_out > rules::least_held_out;
   const bool steady = gains && e.without_best > 0.0;
-  const bool broad = e.clipped > rules.least_held_out && e.positive_share >= rules.positive_share;
+  const bool broad = e.clipped > rules::least_held_out && e.positive_share >= rules::positive_share;
   // teeth that bounce throw single blocks about, by more than many causes are worth
   if (e.beside_gap) return steady && broad;
   // a number that is free within its tolerance without being named has gained most of it already
-  if (candidate.toleranced) return e.held_out > -std::max(rules.least_held_out, rules.loss_share * e.delta_bic);
+  if (candidate.toleranced) return e.held_out > -std::max(rules::least_held_out, rules::held_out_loss * e.delta_bic);
   const bool has_steps = std::any_of(candidate.coordinates.begin(), candidate.coordinates.end(),
                                      [](const Coordinate& c) { return !has_slope(c); });
-  return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules.least_bic);
+  return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules::least_bic);
 }
 
 /// The first rule that is broken, empty if none is.
-std::string broken_rule(const Evidence& e, const Candidate& candidate, const AcceptanceRules& rules) {
+std::string broken_rule(const Evidence& e, const Candidate& candidate) {
   if (e.at_bound) return "its parameter stands at a bound";
-  if (candidate.toleranced && e.delta_bic <= rules.least_bic_toleranced)
+  if (candidate.toleranced && e.delta_bic <= rules::least_bic_toleranced)
     return "no evidence beyond the stated tolerance";
-  if (candidate.toleranced && e.tolerances <= rules.least_tolerances) return "within what its tolerance leaves open";
-  if (!candidate.toleranced && e.delta_bic <= rules.least_bic)
+  if (candidate.toleranced && e.tolerances <= rules::least_tolerances) return "within what its tolerance leaves open";
+  if (!candidate.toleranced && e.delta_bic <= rules::least_bic)
     return e.delta_bic > 0.0 ? "too little evidence" : "no evidence";
-  return holds(e, candidate, rules) ? "" : "does not predict the data that were held out";
+  return holds(e, candidate) ? "" : "does not predict the data that were held out";
 }
 
 }  // namespace
 
-bool accepted(const Evidence& evidence, const Candidate& candidate, const AcceptanceRules& rules) {
-  return broken_rule(evidence, candidate, rules).empty();
-}
+bool accepted(const Evidence& evidence, const Candidate& candidate) { return broken_rule(evidence, candidate).empty(); }
 
 bool indistinguishable_from(const Hypothesis& h, const Candidate& candidate, const Candidate& other) {
   if (candidate.limiting_case.empty() || candidate.limiting_case != other.effect) return false;
-  constexpr double little_more = 2.0;
   const int k = index_of(h, candidate.coordinates[1]);
   if (k < 0) return false;
   const auto speed = static_cast<std::size_t>(k);
-  return h.values[speed] < little_more * h.free[speed].low;
+  return h.values[speed] < rules::fall_like_rest * h.free[speed].low;
 }
 
-std::string outcome(const Evidence& evidence, const Candidate& candidate, const AcceptanceRules& rules) {
-  const std::string rule = broken_rule(evidence, candidate, rules);
+std::string outcome(const Evidence& evidence, const Candidate& candidate) {
+  const std::string rule = broken_rule(evidence, candidate);
   return rule.empty() ? "named" : rule;
 }
 

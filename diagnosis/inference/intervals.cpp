@@ -9,6 +9,8 @@
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -35,7 +37,7 @@ std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hyp
       for (std::size_t r = 0; r < layout.size; ++r) J[k][r] += 0.5 * side[r];
     }
   });
-  constexpr double nu = tail_freedom;
+  constexpr double nu = rules::tail_freedom;
   std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
   std::vector<std::uint8_t> used(layout.blocks, 0);
   Eigen::VectorXd row(n);
@@ -76,9 +78,8 @@ Eigen::MatrixXd sandwich(const Evaluation& evaluation, const Hypothesis& h, cons
   Eigen::MatrixXd scatter = W.transpose() * tolerances * W;
   for (const BlockSlopes& b : blocks) {
     // what a block says is judged without what it has itself done to the fit
-    constexpr double most = 0.9;
     const Eigendecomposition own(Eigen::MatrixXd(W.transpose() * b.curvature * W));
-    const Eigen::ArrayXd left = 1.0 - own.eigenvalues().array().max(0.0).min(most);
+    const Eigen::ArrayXd left = 1.0 - own.eigenvalues().array().max(0.0).min(rules::most_own_curvature);
     const Eigen::VectorXd y = own.eigenvectors().transpose() * (W.transpose() * (b.slope - mean));
     const Eigen::VectorXd alone = own.eigenvectors() * (y.array() / left).matrix();
     scatter += alone * alone.transpose();

@@ -5,6 +5,7 @@
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/comparison.hpp"
+#include "diagnosis/rules/evidence.hpp"
 
 namespace wormdrive {
 
@@ -31,8 +32,7 @@ class Promise {
     add_tolerances(tolerances, A, g);
     double unknown = 0.0;
     for (const StartColumns* e : together) unknown += static_cast<double>(all_[e->candidate].coordinates.size());
-    constexpr double per_unknown = 10.0;  // about ln N
-    return g.dot(solve_normal(A, g, 1e-6)) - per_unknown * unknown;
+    return g.dot(solve_normal(A, g, 1e-6)) - rules::price_of_unknown * unknown;
   }
 
   /// Of candidates together, each from the start that does best alone.
@@ -55,10 +55,7 @@ class Promise {
 
 }  // namespace
 
-double clear_margin(double gain) {
-  constexpr double least_share = 0.05;
-  return std::max(AcceptanceRules{}.least_bic, least_share * gain);
-}
+double clear_margin(double gain) { return std::max(rules::least_bic, rules::clear_share * gain); }
 
 std::vector<MaskedPair> masked_pairs(const LinearSystem& linear, const Hypothesis& base,
                                      const std::vector<Candidate>& all, const std::vector<std::size_t>& causes,

@@ -7,6 +7,7 @@
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/masked_pairs.hpp"
 #include "diagnosis/inference/selection.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "statistics/parallel.hpp"
 
 // What a search does with causes once it has them: it drops, simplifies and exchanges them.
@@ -84,8 +85,7 @@ void CauseSearch::simplify() {
     const std::vector<std::size_t> causes = exchanged(s_.causes, found.candidate, index);
     if (causes.empty()) continue;
     Hypothesis simpler = fit_causes(causes, &s_.model, 6);
-    constexpr double nearly = 6.0;
-    if (simpler.bic >= s_.model.bic + nearly) continue;
+    if (simpler.bic >= s_.model.bic + rules::as_good) continue;
     s_.model = std::move(simpler);
     found = {index, {}};
   }
@@ -94,9 +94,9 @@ void CauseSearch::simplify() {
 void CauseSearch::try_pairs() {
   tell("trying pairs");
   const double have = s_.base.bic - s_.model.bic;
-  constexpr std::size_t most = 6;
   const double margin = clear_margin(have);
-  const std::vector<MaskedPair> pairs = masked_pairs(s_.linear, s_.base, all_, candidates_of(s_.causes), most);
+  const std::vector<MaskedPair> pairs =
+      masked_pairs(s_.linear, s_.base, all_, candidates_of(s_.causes), rules::most_pairs);
   std::vector<Hypothesis> fitted(pairs.size());
   parallel_for(pairs.size(), evaluation_.threads(), [&](std::size_t k) {
     Hypothesis& h = fitted[k];
@@ -186,9 +186,8 @@ void CauseSearch::name_far_numbers() {
       const Coordinate& c = all_[k].coordinates[0];
       const int at = index_of(s_.model, c);
       // its tolerance draws a number back, from where it would be far off without it
-      constexpr double suspicious = 0.7;
       if (at < 0 || std::abs(s_.model.values[static_cast<std::size_t>(at)] - c.centre) <
-                        suspicious * AcceptanceRules{}.least_tolerances * c.tolerance)
+                        rules::suspicious * rules::least_tolerances * c.tolerance)
         continue;
       Tried t{k, s_.model, {}};
       add_candidate(t.model, all_, k, 0);
@@ -223,7 +222,7 @@ void CauseSearch::judge_freed_numbers() {
       const Estimate now =
           estimated(s_.model, covariance(evaluation_, s_.model, 1), number.effect, number.coordinates).parameters[0];
       moved = std::abs(now.value - stated.centre) >
-              AcceptanceRules{}.least_tolerances * std::hypot(stated.tolerance, now.standard_error);
+              rules::least_tolerances * std::hypot(stated.tolerance, now.standard_error);
     }
     if (!moved && known != s_.causes.end()) s_.causes.erase(known);
     if (moved && known == s_.causes.end()) s_.causes.push_back({k, {}});

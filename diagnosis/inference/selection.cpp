@@ -10,6 +10,8 @@
 #include "diagnosis/fitting/laws.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -72,20 +74,19 @@ Selection CauseSearch::confirmed() {
 
 /// The best starts of the candidates that promise most.
 std::vector<Screened> CauseSearch::worth_fitting(const std::vector<Screened>& found) const {
-  constexpr std::size_t most_candidates = 6, most = 12;
   std::vector<Screened> worth;
   std::vector<std::size_t> seen;
   const double best = found.empty() ? 0.0 : found.front().gain;
   for (const Screened& s : found) {
-    if (worth.size() >= most || std::isinf(s.gain)) break;
+    if (worth.size() >= rules::most_starts || std::isinf(s.gain)) break;
     const auto starts = std::count(seen.begin(), seen.end(), s.candidate);
     const auto candidates = std::count_if(seen.begin(), seen.end(), [&](std::size_t c) { return c != s.candidate; });
     if (starts >= 2) continue;
     if (starts == 1) {
       const auto known =
           std::find_if(worth.begin(), worth.end(), [&](const auto& w) { return w.candidate == s.candidate; });
-      if (s.gain < 0.5 * known->gain || s.gain < 0.3 * best) continue;
-    } else if (static_cast<std::size_t>(candidates) >= most_candidates && s.gain < 0.4 * best) {
+      if (s.gain < rules::second_start * known->gain || s.gain < rules::second_start_of_best * best) continue;
+    } else if (static_cast<std::size_t>(candidates) >= rules::most_fitted && s.gain < rules::late_candidate * best) {
       continue;
     }
     seen.push_back(s.candidate);
@@ -116,8 +117,8 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
     for (Tried& t : try_from(*other, current)) keep(t.candidate, std::move(t.model));
   const auto by_bic = [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; };
   std::stable_sort(tried.begin(), tried.end(), by_bic);
-  const std::size_t polished = std::min<std::size_t>(3, tried.size());
-  const double worth_refining = equivalence_share * (s_.base.bic - current.bic);
+  const std::size_t polished = std::min(rules::most_refined, tried.size());
+  const double worth_refining = rules::equivalence_share * (s_.base.bic - current.bic);
   for (std::size_t k = 0; k < polished; ++k) {  // one after the other: each takes all threads itself
     Hypothesis& h = tried[k].model;
     const double gain = current.bic - h.bic;
@@ -125,7 +126,7 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
       find_gap(evaluation_, h);
     else if (gain > worth_refining)
       refine_gap(evaluation_, h);
-    if (gain <= AcceptanceRules{}.least_bic) continue;
+    if (gain <= rules::least_bic) continue;
     try_other_laws(evaluation_, h, all_[tried[k].candidate]);
     for (const Found& found : s_.causes)  // a law that stood in for a number it frees may not be the best beside it
       if (all_[found.candidate].frees == all_[tried[k].candidate].effect)
@@ -135,9 +136,8 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
     Hypothesis& h = tried[k].model;
     if (h.bic >= current.bic) return;
     // far from what is stated noise and model are found by turns: each hides what the other one lacks
-    constexpr int most_turns = 5;
     double before = std::numeric_limits<double>::infinity();
-    for (int turn = 0; turn < most_turns && before - h.objective > AcceptanceRules{}.least_bic; ++turn) {
+    for (int turn = 0; turn < rules::most_turns && before - h.objective > rules::least_bic; ++turn) {
       before = h.objective;
       restart_noise(evaluation_, h);
       adjust_noise(evaluation_, h, 3);
@@ -151,11 +151,9 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
 
 /// The candidates that do best at another start, with the noise model of the current hypothesis.
 std::vector<Tried> CauseSearch::try_from(const Start& other, const Hypothesis& current) const {
-  constexpr std::size_t most = 3;
-  constexpr double least_gain = 10.0;
   std::vector<Tried> tried;
   for (const Screened& s : other.screening.found) {
-    if (tried.size() >= most || s.gain < least_gain) break;
+    if (tried.size() >= rules::most_from_other || s.gain < rules::least_from_other) break;
     if (std::none_of(tried.begin(), tried.end(), [&](const Tried& t) { return t.candidate == s.candidate; }))
       tried.push_back({s.candidate, s.model, {}});
   }
@@ -189,11 +187,10 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
 /// Long data find traces of what is of no account. A further cause has to lower the error ahead as well, or to gain
 /// more than all before it: how teeth bounce over a wide gap nobody can predict.
 bool CauseSearch::improves_prediction(const Tried& with) const {
-  constexpr double least_share = 0.01;
   // a stated number lowers it without being named, within its tolerance
   return s_.causes.empty() || all_[with.candidate].toleranced || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
-         error_ahead(evaluation_, with.model, reported_horizon) <
-             (1.0 - least_share) * error_ahead(evaluation_, s_.model, reported_horizon);
+         error_ahead(evaluation_, with.model, rules::reported_horizon) <
+             (1.0 - rules::least_improvement) * error_ahead(evaluation_, s_.model, rules::reported_horizon);
 }
 
 /// Whether the data bear a cause out beside others. What the law of an impact, or of a fall over the speed, gets wrong
@@ -204,7 +201,7 @@ bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, co
     return other.falls && index_of(with, other.coordinates.front()) >= 0;
   });
   if (!evidence.beside_gap && !beside_fall) return true;
-  if (evidence.delta_bic <= equivalence_share * (s_.base.bic - with.bic)) return false;
+  if (evidence.delta_bic <= rules::equivalence_share * (s_.base.bic - with.bic)) return false;
   if (!evidence.beside_gap) return true;
   const EstimatedEffect found =
       estimated(with, covariance(evaluation_, with, 1), candidate.effect, candidate.coordinates);
@@ -220,18 +217,17 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
   double best_within = 0.0;
   for (const Tried& t : tried)
     if (!t.evidence.at_bound) best_within = std::max(best_within, t.evidence.delta_bic);
-  if (first_of_all.at_bound && first_of_all.held_out > AcceptanceRules{}.least_held_out &&
-      first_of_all.delta_bic > AcceptanceRules{}.least_bic + 2.0 * best_within) {
+  if (first_of_all.at_bound && first_of_all.held_out > rules::least_held_out &&
+      first_of_all.delta_bic > rules::least_bic + rules::far_beyond * best_within) {
     s_.beyond_bound = tried.front().candidate;
     return false;
   }
   std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
   const double best = tried.front().evidence.delta_bic;
   // Among equals the one with the fewest parameters comes first.
-  constexpr double as_good = 6.0;
   auto first = tried.begin();
   for (auto t = tried.begin(); t != tried.end(); ++t)
-    if (!t->evidence.at_bound && best - t->evidence.delta_bic < as_good &&
+    if (!t->evidence.at_bound && best - t->evidence.delta_bic < rules::as_good &&
         t->model.free.size() < first->model.free.size())
       first = t;
   std::rotate(tried.begin(), first, first + 1);
@@ -240,8 +236,7 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     Tried& t = tried[k];
     if (best - t.evidence.delta_bic > equivalence_margin(best)) break;
     const Candidate& candidate = all_[t.candidate];
-    if (t.evidence.delta_bic > (candidate.toleranced ? 0.0 : AcceptanceRules{}.least_bic))
-      compare_fairly(t, first_round);
+    if (t.evidence.delta_bic > (candidate.toleranced ? 0.0 : rules::least_bic)) compare_fairly(t, first_round);
     if (first_round)
       for (Tried& kept : s_.tried)
         if (kept.candidate == t.candidate) kept.evidence = t.evidence;

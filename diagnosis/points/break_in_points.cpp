@@ -10,12 +10,11 @@
 #include "description/build.hpp"
 #include "description/diagnostics.hpp"
 #include "diagnosis/data/recorded_table.hpp"
+#include "diagnosis/rules/points.hpp"
 #include "statistics/student_t.hpp"
 
 namespace wormdrive {
 namespace {
-
-constexpr std::size_t fewest = 6;
 
 /// A scenario whose load takes these values one after another, from t = k on the k-th: so one drive serves all.
 Scenario under_loads(Scenario scenario, const std::vector<double>& loads) {
@@ -78,8 +77,9 @@ std::vector<BreakIn> read_break_in_table(const std::string& path, const Scenario
                        motors = recorded_values(file, "motor_torque", scenario, true);
   require_equal_lengths(file, loads.name, loads.values.size(), motors.name, motors.values.size());
   const std::vector<double>&load = loads.values, &motor = motors.values;
-  if (load.size() < fewest)
-    reject({path}, fmt::format("{} break-in torques; at least {} are needed, in both directions", load.size(), fewest));
+  if (load.size() < rules::points::fewest)
+    reject({path}, fmt::format("{} break-in torques; at least {} are needed, in both directions", load.size(),
+                               rules::points::fewest));
   std::vector<BreakIn> table;
   for (std::size_t k = 0; k < load.size(); ++k) table.push_back({load[k], motor[k]});
   return table;

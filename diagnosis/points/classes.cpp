@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "diagnosis/fitting/signature.hpp"
+#include "diagnosis/rules/points.hpp"
 
 namespace wormdrive {
 namespace {
@@ -37,7 +38,7 @@ void join_exchangeable(const PointComparison& comparison, const FittedModel& mod
       const PointCandidate& other = comparison.candidates()[k];
       if (model.model.holds(other.effect) || !comparison.fits_beside(other, without->model)) continue;
       const auto instead = comparison.extended(*without, other);
-      if (instead && instead->bic - model.bic <= comparison.limits().alike && comparison.doubt(*instead).empty())
+      if (instead && instead->bic - model.bic <= rules::points::equally_good && comparison.doubt(*instead).empty())
         groups.join(k, place);
     }
   }
@@ -59,7 +60,7 @@ void join_imitated(const PointComparison& comparison, const FittedModel& model, 
   };
   const auto imitable = [&](std::string_view effect, const std::vector<std::string_view>& others) {
     for (const std::vector<double>& own : columns({effect}))
-      if (imitation(own, columns(others)) < comparison.limits().imitated) return false;
+      if (imitation(own, columns(others)) < rules::points::imitated) return false;
     return true;
   };
   const std::vector<std::string_view>& causes = model.model.causes;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/rules/points.hpp"
 #include "statistics/student_t.hpp"
 
 namespace wormdrive {
@@ -104,12 +105,13 @@ std::string PointComparison::doubt(const FittedModel& model) const {
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Coordinate& c = model.model.coordinates[k];
     if (!model.model.holds(c.effect)) continue;
-    if (std::abs(values[k] - c.low) < 1e-4 * c.scale || std::abs(values[k] - c.high) < 1e-4 * c.scale)
+    if (std::abs(values[k] - c.low) < rules::points::near_bound * c.scale ||
+        std::abs(values[k] - c.high) < rules::points::near_bound * c.scale)
       return fmt::format("{} comes to lie at the bound of what it can be", c.effect);
     const PointCandidate& one = candidate(c.effect);
     if (!one.tolerated) continue;
     const double tolerances = std::abs(values[k] - c.centre) / one.coordinates.front().tolerance;
-    if (tolerances < limits_.tolerances)
+    if (tolerances < rules::points::least_tolerances)
       return fmt::format("within its tolerance: {:.1f} standard deviations from what is stated", tolerances);
   }
   return "";

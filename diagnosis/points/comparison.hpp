@@ -7,19 +7,6 @@
 
 namespace wormdrive {
 
-/// Thresholds of a selection over torque points.
-struct PointThresholds {
-  double delta_bic = 6.0;      ///< evidence for an effect
-  double held_out_gain = 3.0;  ///< [nats] on points that the fit did not see, both ways together
-  double tolerances = 3.5;     ///< how far outside its tolerance a stated parameter has to lie
-  double alike = 4.6;          ///< difference of BIC up to which two models are equally good: odds of ten to one
-  double imitated = 0.95;      ///< share of an effect's signature above which the other named ones can imitate it
-  std::size_t causes = 6;      ///< at most
-  std::size_t together = 2;    ///< effects that are looked for at once; further ones are added one by one
-  std::size_t unstated = 5;    ///< the same among those that concern no stated parameter
-  std::size_t models = 10;     ///< that are followed at each number of effects
-};
-
 /// A model with its fits.
 struct FittedModel {
   PointModel model;
@@ -34,13 +21,11 @@ struct FittedModel {
 /// Fits models and compares them: what selection and classes have in common.
 class PointComparison {
  public:
-  PointComparison(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
-                  const PointThresholds& thresholds)
-      : fitter_(fitter), candidates_(candidates), limits_(thresholds) {}
+  PointComparison(const PointFitter& fitter, const std::vector<PointCandidate>& candidates)
+      : fitter_(fitter), candidates_(candidates) {}
 
   const PointFitter& fitter() const { return fitter_; }
   const std::vector<PointCandidate>& candidates() const { return candidates_; }
-  const PointThresholds& limits() const { return limits_; }
   std::size_t index_of(std::string_view effect) const;
   const PointCandidate& candidate(std::string_view effect) const { return candidates_[index_of(effect)]; }
 
@@ -66,7 +51,6 @@ class PointComparison {
 
   const PointFitter& fitter_;
   const std::vector<PointCandidate>& candidates_;
-  const PointThresholds& limits_;
 };
 
 }  // namespace wormdrive

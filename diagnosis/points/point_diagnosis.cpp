@@ -114,7 +114,7 @@ Diagnosis diagnose(const Scenario& scenario, const TorquePoints& points, const s
   const PointFitter fitter(scenario, points);
   const std::vector<PointCandidate> candidates = point_candidates(scenario, points);
   tell("trying effects");
-  const PointSelection found = select(fitter, candidates, PointThresholds{}, settings.threads);
+  const PointSelection found = select(fitter, candidates, settings.threads);
 
   Diagnosis d;
   d.seed = settings.seed;

@@ -11,6 +11,7 @@
 
 #include "description/keys.hpp"
 #include "diagnosis/fitting/signature.hpp"
+#include "diagnosis/rules/points.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 #include "statistics/student_t.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Squared size of a signature, in units of the noise, that a selection names: its threshold of BIC and ln N of a
 /// parameter.
-double needed(std::size_t data) { return PointThresholds{}.delta_bic + std::log(static_cast<double>(data)); }
+double needed(std::size_t data) { return rules::points::least_bic + std::log(static_cast<double>(data)); }
 
 /// Slopes of one candidate's coordinates at a model, in units of the noise per scale.
 std::vector<std::vector<double>> signatures(const PointFitter& fitter, const PointModel& model,
@@ -94,7 +95,8 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
     }
     seen.likeness = left > 0.0 ? 1.0 - nearest / left : 1.0;
     seen.nameable = nearest > 1e-9 * left ? size.scale * std::sqrt(limit / nearest) : infinity;
-    if (candidates[k].tolerated) seen.nameable = std::max(seen.nameable, PointThresholds{}.tolerances * size.tolerance);
+    if (candidates[k].tolerated)
+      seen.nameable = std::max(seen.nameable, rules::points::least_tolerances * size.tolerance);
     list.push_back(std::move(seen));
   }
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
@@ -112,7 +114,6 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
 }
 
 std::vector<Remainder> point_remainders(const TorquePoints& points, const std::vector<double>& errors) {
-  constexpr double flagged = 3.0;
   const bool moving =
       std::any_of(points.worm_speed.begin(), points.worm_speed.end(), [](double w) { return w != 0.0; });
   const std::vector<double>& axis = moving ? points.worm_speed : points.load_torque;
@@ -133,7 +134,7 @@ std::vector<Remainder> point_remainders(const TorquePoints& points, const std::v
   if (squares <= 0.0 || pairs <= 0.0) return {};
   const double correlation = products / pairs / (squares / static_cast<double>(errors.size()));
   const double evidence = correlation * std::sqrt(pairs);
-  if (evidence < flagged) return {};
+  if (evidence < rules::points::left_evidence) return {};
   double sum = 0.0;
   for (const double e : errors) sum += e * e;
   const double share = std::min(1.0, correlation);
@@ -161,8 +162,7 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     d.sentence += left;
     return;
   }
-  constexpr double most_of_the_work = 3.0;
-  if (!d.remainders.empty() && error.before < most_of_the_work * error.after) {
+  if (!d.remainders.empty() && error.before < rules::points::most_of_the_work * error.after) {
     d.verdict = Verdict::unexplained;
     d.sentence = "The simulation lacks something that no effect of the catalogue explains." + left;
     for (RankedCandidate& c : d.ranking)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/points/classes.hpp"
+#include "diagnosis/rules/points.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -72,7 +73,7 @@ class Selector {
     std::vector<FittedModel> models = glances(pairs);
     std::erase_if(models, [&](const FittedModel& m) { return !comparison_.doubt(m).empty(); });
     std::sort(models.begin(), models.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
-    if (models.size() > comparison_.limits().models) models.resize(comparison_.limits().models);
+    if (models.size() > rules::points::most_models) models.resize(rules::points::most_models);
     return models;
   }
 
@@ -80,11 +81,10 @@ class Selector {
   /// that nobody has stated, one among all. Of the two, the one with more causes needs decisive evidence for each of
   /// them.
   FittedModel search(const FittedModel& nominal) const {
-    const FittedModel unstated = improved(best_of_sizes(nominal, comparison_.limits().unstated, false));
-    const FittedModel all = improved(best_of_sizes(nominal, comparison_.limits().together, true));
-    constexpr double decisive = 20.0;  // of BIC
+    const FittedModel unstated = improved(best_of_sizes(nominal, rules::points::together_unstated, false));
+    const FittedModel all = improved(best_of_sizes(nominal, rules::points::together, true));
     const auto dear = [](const FittedModel& m) {
-      return m.rank() + decisive * static_cast<double>(m.model.causes.size());
+      return m.rank() + rules::points::decisive_bic * static_cast<double>(m.model.causes.size());
     };
     return dear(unstated) < dear(all) ? unstated : all;
   }
@@ -96,14 +96,14 @@ class Selector {
       models = grown(models, stated_too);
       std::optional<FittedModel> best;  // of those that are equally likely the one that predicts best
       for (const FittedModel& model : models) {
-        if (model.rank() > models.front().rank() + 2.0) break;
+        if (model.rank() > models.front().rank() + rules::points::equally_likely) break;
         const auto judged = comparison_.fitted(model.model, {model.all.values});
         if (judged && (!best || judged->held_out < best->held_out)) best = judged;
       }
       if (!best) break;
       const auto steps = static_cast<double>(size - chosen.model.causes.size());
-      if (chosen.rank() - best->rank() > steps * comparison_.limits().delta_bic &&
-          chosen.held_out - best->held_out > comparison_.limits().held_out_gain)
+      if (chosen.rank() - best->rank() > steps * rules::points::least_bic &&
+          chosen.held_out - best->held_out > rules::points::least_held_out)
         chosen = *best;
     }
     return chosen;
@@ -111,7 +111,7 @@ class Selector {
 
   FittedModel improved(FittedModel chosen) const {
     drop_superfluous(chosen);
-    while (chosen.model.causes.size() < comparison_.limits().causes && (add(chosen) || exchange(chosen)))
+    while (chosen.model.causes.size() < rules::points::most_causes && (add(chosen) || exchange(chosen)))
       drop_superfluous(chosen);
     return chosen;
   }
@@ -119,9 +119,8 @@ class Selector {
   /// Takes of models that a glance found promising the best one that predicts better; false if none is better by this
   /// much.
   bool take_best(FittedModel& chosen, std::vector<FittedModel> promising, double held_out_gain, double gain) const {
-    constexpr std::size_t looked_at = 3;
     std::sort(promising.begin(), promising.end(), [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
-    if (promising.size() > looked_at) promising.resize(looked_at);
+    if (promising.size() > rules::points::most_looked_at) promising.resize(rules::points::most_looked_at);
     const FittedModel before = chosen;
     for (const FittedModel& glance : promising) {
       const auto model = comparison_.fitted(glance.model, {glance.all.values});
@@ -138,7 +137,7 @@ class Selector {
     std::vector<Beside> pairs;
     for (const PointCandidate& one : comparison_.candidates())
       if (comparison_.fits_beside(one, chosen.model)) pairs.push_back({&chosen, &one});
-    return take_best(chosen, glances(pairs), comparison_.limits().held_out_gain, comparison_.limits().delta_bic);
+    return take_best(chosen, glances(pairs), rules::points::least_held_out, rules::points::least_bic);
   }
 
   /// Puts another effect in the place of one, if that is clearly better.
@@ -152,7 +151,7 @@ class Selector {
       for (const PointCandidate& one : comparison_.candidates())
         if (!chosen.model.holds(one.effect) && comparison_.fits_beside(one, without.model))
           pairs.push_back({&without, &one});
-    return take_best(chosen, glances(pairs), 0.0, 0.5);
+    return take_best(chosen, glances(pairs), 0.0, rules::points::least_exchange);
   }
 
   void drop_superfluous(FittedModel& model) const {
@@ -160,7 +159,7 @@ class Selector {
       dropped = false;
       for (const std::string_view effect : std::vector<std::string_view>(model.model.causes)) {
         const auto without = comparison_.reduced(model, comparison_.candidate(effect));
-        if (!without || without->rank() - model.rank() > comparison_.limits().delta_bic) continue;
+        if (!without || without->rank() - model.rank() > rules::points::least_bic) continue;
         model = *without;
         dropped = true;
         break;
@@ -185,9 +184,9 @@ class Selector {
       }
       judgement.outcome = comparison_.doubt(judgement.with);
       if (!judgement.outcome.empty()) continue;
-      if (judgement.delta_bic <= comparison_.limits().delta_bic)
-        judgement.outcome = fmt::format("explains too little: dBIC at most {:g}", comparison_.limits().delta_bic);
-      else if (judgement.held_out_gain <= comparison_.limits().held_out_gain)
+      if (judgement.delta_bic <= rules::points::least_bic)
+        judgement.outcome = fmt::format("explains too little: dBIC at most {:g}", rules::points::least_bic);
+      else if (judgement.held_out_gain <= rules::points::least_held_out)
         judgement.outcome = "does not predict data that the fit did not see";
       else
         judgement.outcome = fmt::format("adds too little to what is named: dBIC {:.1f}", added(model, one));
@@ -214,9 +213,8 @@ class Selector {
 
 }  // namespace
 
-PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
-                      const PointThresholds& thresholds, int threads) {
-  const PointComparison comparison(fitter, candidates, thresholds);
+PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates, int threads) {
+  const PointComparison comparison(fitter, candidates);
   return Selector(comparison, threads).run();
 }
 

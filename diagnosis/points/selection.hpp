@@ -26,7 +26,6 @@ struct PointSelection {
 /// drops what others made superfluous, and looks for the effects that could stand in the place of a named one. Throws
 /// std::invalid_argument if the scenario has no torque at the points. The result does not depend on the number of
 /// threads.
-PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates,
-                      const PointThresholds& thresholds, int threads);
+PointSelection select(const PointFitter& fitter, const std::vector<PointCandidate>& candidates, int threads);
 
 }  // namespace wormdrive

@@ -7,6 +7,7 @@
 #include "core/worm_drive.hpp"
 #include "diagnosis/predictor/flight.hpp"
 #include "diagnosis/predictor/restitution.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "events/rest.hpp"
 #include "events/short_step_solver.hpp"
 #include "events/simulate.hpp"
@@ -87,7 +88,7 @@ class DriveWithBacklash {
     for (double knot = drive_.next_knot(s.now.t);;) {
       const double stop = std::min({end, knot, s.parts_at});
       if (!already_there(s.now.t, stop) && advance(s, stop)) {
-        if (++events > most_events) throw SolverFault("too many events within one sample");
+        if (++events > rules::most_events_of_a_sample) throw SolverFault("too many events within one sample");
         continue;
       }
       s.now.t = stop;
@@ -101,8 +102,6 @@ class DriveWithBacklash {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  /// More mode changes than this within a sample are no mechanics.
-  static constexpr int most_events = 60;
 
   bool flies(const State& s) const { return half_ > 0.0 && s.contact == Flank::none; }
 
@@ -196,11 +195,10 @@ class DriveWithBacklash {
   /// The teeth of a flank meet and move on together, until they part again unless what presses them together
   /// [rad/s^2] makes the next bounce a short one.
   void meet(State& s, const Impact& impact, double pressing) const {
-    constexpr double shortest = 5e-4;  // [s]
     const double parting = bounce_.restitution * impact.speed;
     push(s, impact.flank, -sign(impact.flank) * impact.speed);
     s.contact = impact.flank;
-    if (2.0 * parting >= shortest * pressing) {
+    if (2.0 * parting >= rules::shortest_bounce * pressing) {
       s.parting = parting;
       s.parts_at = s.now.t + bounce_.duration;
     }

@@ -4,9 +4,6 @@
 
 namespace wormdrive {
 
-/// How long what was commanded is on its way at most [s].
-inline constexpr double remembered_time = 0.1;
-
 /// The state by which the predictor met each sample, for maps and predictions further ahead.
 struct FilteredStates {
   std::vector<double> angle, speed, torque;    ///< of the gear [rad, rad/s]; the coloured torque [N m]

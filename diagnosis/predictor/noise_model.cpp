@@ -11,8 +11,8 @@ namespace wormdrive {
 
 namespace {
 
-constexpr std::size_t terms = whitening_times.size();
-constexpr double nu = tail_freedom;
+constexpr std::size_t terms = rules::whitening_times.size();
+constexpr double nu = rules::tail_freedom;
 using Vector = Eigen::Matrix<double, terms, 1>;
 using Matrix = Eigen::Matrix<double, terms, terms>;
 
@@ -21,7 +21,7 @@ class Means {
  public:
   explicit Means(double period) {
     for (std::size_t j = 0; j < terms; ++j)
-      keep_[j] = whitening_times[j] > 0.0 ? std::exp(-period / whitening_times[j]) : 0.0;
+      keep_[j] = rules::whitening_times[j] > 0.0 ? std::exp(-period / rules::whitening_times[j]) : 0.0;
   }
   const std::array<double, terms>& values() const { return z_; }
   void add(double e) {
@@ -40,9 +40,8 @@ double predicted(const WhiteningWeights& weights, const double* z) {
 
 /// The smallest scale that a group may have: a sensor of finite resolution has the noise of rounding at least.
 double least_scale(const PreparedRecording& recording, double resolution, bool moving) {
-  constexpr double standing_share = 0.29;  // standard deviation of rounding to one step
-  constexpr double moving_share = 0.1;     // while moving, what is rounded is predicted in part
-  return std::max(1e-9 * std::max(1e-3, recording.rms_speed), (moving ? moving_share : standing_share) * resolution);
+  return std::max(1e-9 * std::max(1e-3, recording.rms_speed),
+                  (moving ? rules::rounding_moving : rules::rounding_at_rest) * resolution);
 }
 
 /// Median of magnitudes as a scale of Student's t.
@@ -122,10 +121,9 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
         if (mine(k)) members.push_back(k);
       rest.clear();
       for (std::size_t q = 0; q < members.size(); q += 5) rest.push_back(std::abs(e[members[q]]));
-      group.scale = std::max(least, rest.size() > 20 ? robust_scale(rest) : 0.0);
+      group.scale = std::max(least, rest.size() > rules::fewest_for_scale ? robust_scale(rest) : 0.0);
       if (members.empty()) continue;
-      constexpr std::size_t fewest_for_weights = 300;
-      const int rounds = whitens && members.size() >= fewest_for_weights ? 2 : 0;
+      const int rounds = whitens && members.size() >= rules::fewest_for_weights ? 2 : 0;
       for (int round = 0; round <= rounds; ++round) {
         if (round > 0) {
           Matrix A = Matrix::Zero();
@@ -155,10 +153,9 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
 }
 
 bool hides_what_is_slow(const NoiseModel& noise) {
-  constexpr double much = 0.5;
   for (std::size_t g = 1; g < noise.groups.size(); g += 2) {
     const WhiteningWeights& weights = noise.groups[g].weights;
-    if (std::accumulate(weights.begin(), weights.end(), 0.0) >= much) return true;
+    if (std::accumulate(weights.begin(), weights.end(), 0.0) >= rules::hides_what_is_slow) return true;
   }
   return false;
 }
@@ -201,8 +198,7 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
       e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
       // weights that keep most of what is steady tell of slow structure, and would let noise grow
       const WhiteningWeights& weights = noise.groups[layout.group[k]].weights;
-      constexpr double most_kept = 0.5;
-      if (noise.whitens && std::accumulate(weights.begin(), weights.end(), 0.0) < most_kept)
+      if (noise.whitens && std::accumulate(weights.begin(), weights.end(), 0.0) < rules::hides_what_is_slow)
         e[k] += predicted(weights, z.values().data());
       z.add(e[k]);
     }

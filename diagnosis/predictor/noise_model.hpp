@@ -6,15 +6,11 @@
 #include <vector>
 
 #include "diagnosis/data/prepared_recording.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
-/// Degrees of freedom of Student's t, whose heavy tails keep single samples from deciding.
-inline constexpr double tail_freedom = 4.0;
-
-/// Time constants of the exponential means that whiten innovations [s]; the first is one sample.
-inline constexpr std::array<double, 6> whitening_times{0.0, 0.003, 0.008, 0.02, 0.05, 0.12};
-using WhiteningWeights = std::array<double, whitening_times.size()>;
+using WhiteningWeights = std::array<double, rules::whitening_times.size()>;
 
 /// Noise of samples of one kind: of one recording, standing or moving.
 struct NoiseGroup {

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include "diagnosis/data/sample_times.hpp"
+#include "diagnosis/rules/noise.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 
@@ -39,7 +41,7 @@ struct Propagation {
 bool is_steady(const Recording& r) {
   if (!r.restarts.empty() || std::find(r.valid.begin(), r.valid.end(), 0) != r.valid.end()) return false;
   for (std::size_t k = 1; k < r.times.size(); ++k)
-    if (std::abs(r.times[k] - r.times[k - 1] - r.period) > even_enough * r.period) return false;
+    if (std::abs(r.times[k] - r.times[k - 1] - r.period) > rules::even_enough * r.period) return false;
   return true;
 }
 
@@ -48,7 +50,7 @@ bool is_steady(const Recording& r) {
 ProcessNoise ProcessNoise::over(double other) const {
   ProcessNoise noise = *this;
   noise.period = other;
-  if (period == 0.0 || std::abs(other - period) <= even_enough * period) return noise;
+  if (period == 0.0 || std::abs(other - period) <= rules::even_enough * period) return noise;
   const double longer = other / period;
   noise.white *= longer * std::sqrt(longer);
   noise.coloured *= longer * longer;
@@ -57,7 +59,7 @@ ProcessNoise ProcessNoise::over(double other) const {
 
 ObserverGains observer_gains(const ProcessNoise& stated, double period) {
   const ProcessNoise noise = stated.over(period);
-  const double a = std::exp(-period / colouring_time);
+  const double a = std::exp(-period / rules::colouring_time);
   if (noise.coloured <= 0.0) return alpha_beta(noise.white, a);
   const Propagation step(noise, 1.0, a);
   Eigen::Matrix3d P = Eigen::Vector3d(1.0, 0.1, noise.coloured * noise.coloured).asDiagonal();
@@ -86,7 +88,7 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Reco
       P = at_start;
       continue;
     }
-    const double step = recording.time(k) - recording.time(k - 1), keep = std::exp(-step / colouring_time);
+    const double step = recording.time(k) - recording.time(k - 1), keep = std::exp(-step / rules::colouring_time);
     P = Propagation(noise, step / recording.period, keep).ahead(P);
     Eigen::Vector3d K = Eigen::Vector3d::Zero();
     if (recording.valid.empty() || recording.valid[k]) K = P.col(0) / (P(0, 0) + 1.0);

@@ -27,9 +27,6 @@ struct ObserverGains {
   double keep{};    ///< share of the coloured torque that is left after one period
 };
 
-/// Time constant of the coloured torque [s].
-inline constexpr double colouring_time = 0.05;
-
 /// Gains of the steady Kalman filter for a double integrator that is driven by white and coloured noise and whose angle
 /// is measured [Kalman 1960]; the states are scaled to the sensor's noise and to the period [s].
 ObserverGains observer_gains(const ProcessNoise& noise, double period);

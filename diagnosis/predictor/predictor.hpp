@@ -10,6 +10,7 @@
 #include "diagnosis/predictor/drive_with_backlash.hpp"
 #include "diagnosis/predictor/filtered_states.hpp"
 #include "diagnosis/predictor/observer_gains.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
 
@@ -70,8 +71,7 @@ class Predictor {
         correct(now, w, k + 1, of_worm[k + 1]);
       }
       of_gear[k + 1] = data.gear_angle[k + 1] - model_.measured_angle(now);
-      constexpr double lost = 1e3;  // [rad], from where on steps grow ever shorter
-      if (!(std::abs(of_gear[k + 1]) < lost)) throw SolverFault("the prediction has left the motion");
+      if (!(std::abs(of_gear[k + 1]) < rules::lost)) throw SolverFault("the prediction has left the motion");
       if (of_worm.empty()) correct(now, w, k + 1, of_gear[k + 1]);
     }
     if (!of_worm.empty()) align(of_gear);
@@ -121,7 +121,7 @@ class Predictor {
   void rewind(std::size_t k) {
     drive().rewind();
     const std::size_t memory =
-        std::min<std::size_t>(k, static_cast<std::size_t>(remembered_time / recording_.data.period));
+        std::min<std::size_t>(k, static_cast<std::size_t>(rules::remembered_time / recording_.data.period));
     drive().enter(time(k - memory));
     for (std::size_t j = k - memory; j < k; ++j) {
       const double t = time(j), end = time(j + 1);

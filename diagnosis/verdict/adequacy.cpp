@@ -8,6 +8,9 @@
 
 #include "description/build.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/noise.hpp"
+#include "diagnosis/rules/recordings.hpp"
+#include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
 #include "statistics/parallel.hpp"
 
@@ -93,7 +96,8 @@ class Scores {
     for (double& w : weight_) w = std::sqrt(w);
     J_.resize(static_cast<Eigen::Index>(layout.size), free_);
     parallel_for(h.free.size(), evaluation.threads(), [&](std::size_t k) {
-      J_.col(static_cast<Eigen::Index>(k)) = weighted(sensitivity(evaluation, h, k, derivative_step), 30.0);
+      J_.col(static_cast<Eigen::Index>(k)) =
+          weighted(sensitivity(evaluation, h, k, derivative_step), rules::largest_change);
     });
     residual_ = weighted(h.residuals, 1e9);
   }
@@ -112,7 +116,7 @@ class Scores {
         torque[k] = torque_ * hat(q % tents, k) * axis.factors[q / tents](k) * moving[k];
       const auto e = evaluation_.innovations(extended(h_), h_.noise, torque);
       V.col(free_ + static_cast<Eigen::Index>(q)) =
-          e ? weighted(difference(evaluation_, h_, *e), 10.0) : Eigen::VectorXd::Zero(J_.rows());
+          e ? weighted(difference(evaluation_, h_, *e), rules::clip_of_test) : Eigen::VectorXd::Zero(J_.rows());
     });
     if (axis.one_place) keep_strongest(V, torques);
     ScoreTest test;
@@ -149,7 +153,7 @@ class Scores {
     }
     return w;
   }
-  static bool is_held_out(std::size_t block) { return block % 3 == 2; }
+  static bool is_held_out(std::size_t block) { return block % rules::held_out_every == rules::held_out_every - 1; }
 
   Solved solve(const Eigen::MatrixXd& V, Eigen::Index columns, bool less_held_out) const {
     Eigen::MatrixXd A;
@@ -167,8 +171,7 @@ class Scores {
       b = -some.transpose() * residual_(rows);
     }
     add_tolerances(h_, A, b);
-    constexpr double shrink = 0.3;  // a hat without data is nothing
-    for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += shrink;
+    for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += rules::precision_of_hat;
     const Eigen::VectorXd x = columns > 0 ? solve_normal(A, b, 1e-6) : Eigen::VectorXd(0);
     return {x, columns > 0 ? x.dot(b) : 0.0};
   }
@@ -212,46 +215,43 @@ class Scores {
 
 }  // namespace
 
-std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
-                                   const AdequacyRules& rules) {
+std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
   const Abscissae a = abscissae(evaluation, h, sizes);
   const auto factor = [](const std::vector<double>& values) { return [&values](std::size_t k) { return values[k]; }; };
   const auto one = [](std::size_t) { return 1.0; };
   const auto loaded_side = [&a](std::size_t k) { return std::abs(a.load[k]) * a.direction[k]; };
-  std::vector<Axis1D> axes{{"angle and direction", &a.angle, 8, {one, factor(a.direction)}},
-                           {"speed", &a.speed, 10, {one}}};
-  constexpr int spots = 24;  // friction of one place is a matter of a tenth of a turn or less
+  std::vector<Axis1D> axes{{"angle and direction", &a.angle, rules::hats_over_angle, {one, factor(a.direction)}},
+                           {"speed", &a.speed, rules::hats_over_speed, {one}}};
   if (sizes.load_torque > 0.0) {
-    axes.push_back({"time", &a.time, 6, {one, factor(a.load), loaded_side}});
-    axes.push_back({"speed and load", &a.speed, 6, {factor(a.load), loaded_side}});
-    axes.push_back({"one angle", &a.angle, spots, {loaded_side}, true});
+    axes.push_back({"time", &a.time, rules::hats_over_time, {one, factor(a.load), loaded_side}});
+    axes.push_back({"speed and load", &a.speed, rules::hats_over_time, {factor(a.load), loaded_side}});
+    axes.push_back({"one angle", &a.angle, rules::spots, {loaded_side}, true});
   } else {
-    axes.push_back({"time", &a.time, 6, {one, factor(a.direction)}});
-    axes.push_back({"one angle", &a.angle, spots, {factor(a.direction)}, true});
+    axes.push_back({"time", &a.time, rules::hats_over_time, {one, factor(a.direction)}});
+    axes.push_back({"one angle", &a.angle, rules::spots, {factor(a.direction)}, true});
   }
   const Scores scores(evaluation, h, 0.005 * sizes.torque);
   std::vector<ScoreTest> all;
   const double least_torque =
-      sizes.torque * (sizes.has_worm_encoder ? rules.least_share_of_two_encoders : rules.least_share);
+      sizes.torque * (sizes.has_worm_encoder ? rules::left_torque_of_two_encoders : rules::left_torque);
   for (const Axis1D& axis : axes) {
     all.push_back(scores(axis, a.moving));
     ScoreTest& test = all.back();
-    test.found = test.what.evidence > (axis.one_place ? rules.most_place : rules.most_deviations) &&
-                 test.held_out > (axis.one_place ? rules.most_gain_of_a_place : rules.most_gain) &&
+    test.found = test.what.evidence > (axis.one_place ? rules::left_place : rules::left_deviations) &&
+                 test.held_out > (axis.one_place ? rules::left_gain_of_a_place : rules::left_gain) &&
                  test.what.torque > least_torque;
   }
   for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r)
     for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {
       all.push_back(spectral_line(evaluation, h, r, demodulated, demodulated ? "a line by flank" : "a line"));
-      all.back().found = all.back().what.evidence > rules.most_line && all.back().ahead > rules.least_ahead;
+      all.back().found = all.back().what.evidence > rules::left_line && all.back().ahead > rules::left_ahead;
     }
   return all;
 }
 
-std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
-                                  const AdequacyRules& rules) {
+std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
   std::vector<Remainder> found;
-  for (const ScoreTest& test : score_tests(evaluation, h, sizes, rules))
+  for (const ScoreTest& test : score_tests(evaluation, h, sizes))
     if (test.found) found.push_back(test.what);
   std::stable_sort(found.begin(), found.end(),
                    [](const Remainder& x, const Remainder& y) { return x.evidence > y.evidence; });

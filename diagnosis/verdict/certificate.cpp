@@ -9,20 +9,14 @@
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/comparison.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/verdict.hpp"
 
 namespace wormdrive {
 
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Squared length of a signature in standard deviations that a search can find: twice least BIC and ln N together, for
-/// noise may be against it, and an estimate of the noise takes a share of what is small for its own.
-constexpr double least_length = 60.0;
-/// Share of that which the nearest other candidate has to leave. Evidence grows less than squared length where an
-/// effect is strong, so the share of it that keeps candidates in one class comes to about a third here.
-constexpr double least_share = equivalence_share / 3.0;
-/// Share of a signature below which its shape, and not its length, decides whether it can be named.
-constexpr double much_alike = 0.1;
 
 using Columns = std::vector<Eigen::Index>;
 
@@ -107,7 +101,9 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
       v.chosen = fmt::format("{} = {:g}", f.field, f.value);
   v.unit = field_of({}, c.effect, c.field).unit;
   const double alone = signatures.length(mine, nullptr);
-  const auto size = [&](double length) { return length > 1e-9 ? mine.size * std::sqrt(least_length / length) : never; };
+  const auto size = [&](double length) {
+    return length > 1e-9 ? mine.size * std::sqrt(rules::findable_length / length) : never;
+  };
   v.detectable = size(alone);
   double least = alone;
   for (const Signature& other : signatures.list()) {
@@ -120,12 +116,12 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
   const double share = alone > 0.0 ? least / alone : 1.0;
   v.likeness = 1.0 - std::min(1.0, share);
   v.nameable = size(least);
-  if (is_shaped(candidate) && share < much_alike)
-    v.nameable = std::max(v.nameable, mine.size * std::sqrt(least_share / std::max(share, 1e-12)));
-  else if (share < least_share)
+  if (is_shaped(candidate) && share < rules::much_alike)
+    v.nameable = std::max(v.nameable, mine.size * std::sqrt(rules::nameable_share / std::max(share, 1e-12)));
+  else if (share < rules::nameable_share)
     v.nameable = never;
   if (candidate.toleranced) {
-    const double least_size = AcceptanceRules{}.least_tolerances * c.tolerance;
+    const double least_size = rules::least_tolerances * c.tolerance;
     v.detectable = std::max(v.detectable, least_size);
     v.nameable = std::max(v.nameable, least_size);
   }
@@ -147,7 +143,7 @@ Visibility of_limit(const Signatures& signatures, std::size_t candidate, const s
   v.detectable = v.nameable = never;
   v.observable = false;
   for (const Signature& s : signatures.list())
-    if (s.candidate == candidate && signatures.length(s, nullptr) > least_length) {
+    if (s.candidate == candidate && signatures.length(s, nullptr) > rules::findable_length) {
       v.detectable = v.nameable = v.observable ? std::max(v.detectable, s.size) : s.size;
       v.observable = true;
     }

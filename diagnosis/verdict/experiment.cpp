@@ -11,6 +11,7 @@
 #include "description/build_control.hpp"
 #include "description/rejection.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "events/simulation_failure.hpp"
 #include "simulation/run_scenario.hpp"
@@ -87,9 +88,8 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
                                 double excursion, int threads) {
   Experiment best;
   double best_margin = 1.0;  // sizes that could be named
-  constexpr double ample_margin = 5.0;
   for (const Variant& v : variants) {
-    if (best_margin >= ample_margin) break;
+    if (best_margin >= rules::ample_margin) break;
     Scenario run = extended, told = stated;
     if (!multiply_payload(run, v.payload) || !multiply_payload(told, v.payload)) continue;
     const double angle = sizes.load_turns ? quarter_turn_and_more : excursion;
@@ -105,7 +105,7 @@ Experiment splitting_experiment(const Scenario& extended, const Scenario& stated
     if (why_it_cannot_run(told) || why_it_cannot_run(run)) continue;
     try {
       // signatures are those about what is stated
-      const PreparedRecording recording = prepared(simulated(told), {}, 0);
+      const PreparedRecording recording = prepared(simulated(told), 0);
       const Evaluation evaluation(told, InnovationLayout({recording}), threads);
       Hypothesis h = stated_hypothesis(told.effects, toleranced);
       if (!evaluate(evaluation, h)) continue;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/rules/verdict.hpp"
+
 namespace wormdrive {
 
 std::optional<std::string> other_ratio(const Diagnosis& d, const Scenario& scenario, bool has_worm_encoder) {
@@ -12,8 +14,7 @@ std::optional<std::string> other_ratio(const Diagnosis& d, const Scenario& scena
   for (const EstimatedEffect& cause : d.causes) {
     if (cause.effect != WormInertia<double>::id) continue;
     const double ratio = mesh->i * (1.0 + cause.parameters.front().value / mesh->Jw);
-    constexpr double least = 0.5;  // of wheels with one start; those with more are seldom stated by less than a turn
-    if (std::abs(ratio - mesh->i) < least) continue;
+    if (std::abs(ratio - mesh->i) < rules::least_other_ratio) continue;
     return fmt::format(
         "a ratio of {:.3g} in place of {:g} would do the same as this inertia of the worm: count how "
         "often the worm turns for one turn of the gear",

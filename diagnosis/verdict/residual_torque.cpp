@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "description/build.hpp"
+#include "diagnosis/rules/verdict.hpp"
 
 namespace wormdrive {
 
@@ -12,7 +13,6 @@ namespace {
 
 /// Residual torques of every sample of one recording after the other [N m].
 std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hypothesis& h) {
-  constexpr double most_scales = 6.0;
   std::vector<FilteredStates> states;
   const bool goes_on = evaluation.innovations(extended(h), h.noise, {}, &states).has_value();
   std::vector<std::vector<double>> all;
@@ -23,7 +23,7 @@ std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hyp
     std::vector<double>& torque = all.emplace_back(r.samples(), 0.0);
     for (std::size_t k = 0; goes_on && k < torque.size(); ++k) {
       const std::size_t q = evaluation.layout().leading(recording).begin + k;
-      const double limit = most_scales * h.noise_model.groups[evaluation.layout().group[q]].scale;
+      const double limit = rules::clip_of_torque * h.noise_model.groups[evaluation.layout().group[q]].scale;
       const double e = std::clamp(h.innovations[q], -limit, limit);
       torque[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
     }
@@ -34,7 +34,6 @@ std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hyp
 }  // namespace
 
 ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
-  constexpr double mean_over = 0.025;  // [s]
   ResidualTorque map;
   const std::vector<std::vector<double>> all_then = torques(evaluation, before), all_now = torques(evaluation, after);
   for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
@@ -42,7 +41,7 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
     const std::vector<double>&then = all_then[r], &now = all_now[r];
     Scenario loaded = evaluation.scenario();
     if (recording.data.load) loaded.load = *recording.data.load;
-    const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(mean_over / recording.data.period)));
+    const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(rules::torque_bin / recording.data.period)));
     with_drive(loaded, [&](auto& drive) {
       for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
         double sum_then = 0.0, sum_now = 0.0, readings = 0.0;

@@ -12,6 +12,8 @@
 #include <unsupported/Eigen/FFT>
 
 #include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/rules/noise.hpp"
+#include "diagnosis/rules/verdict.hpp"
 
 namespace wormdrive {
 
@@ -20,29 +22,28 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
   const InnovationLayout& layout = evaluation.layout();
   const PreparedRecording& r = layout.recordings[recording];
   const std::size_t begin = layout.leading(recording).begin;
-  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(0.005 / r.data.period)));
+  const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(rules::spectrum_bin / r.data.period)));
   const std::size_t n = r.samples() / bin;
   std::vector<double> w(n, 0.0);
   for (std::size_t k = 0; k < n * bin; ++k) {
     if (!r.used[k] || !r.moving[k]) continue;
     const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
-    w[k / bin] += z / (1.0 + z * z / tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
+    w[k / bin] += z / (1.0 + z * z / rules::tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
   }
   Eigen::FFT<double> transform;
   std::vector<std::complex<double>> spectrum;
   transform.fwd(spectrum, w);
-  constexpr double lowest = 1.0, highest = 50.0;  // [Hz]; what is slower is a matter of angle and time
-  const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(highest * r.duration()));
+  const std::size_t lines = std::min(n / 2, static_cast<std::size_t>(rules::highest_line * r.duration()));
   std::vector<double> power(lines);
   std::transform(spectrum.begin(), spectrum.begin() + static_cast<std::ptrdiff_t>(lines), power.begin(),
                  [](std::complex<double> x) { return std::norm(x); });
   ScoreTest test;
-  constexpr std::size_t around = 25;
+  constexpr std::size_t around = rules::lines_around;
   // the median of m exponential variates is known as well as the mean of 0.48 m of them
   constexpr double variates = 0.48 * (2 * around + 1);
   double strongest = 0.0, frequency = 0.0;
   std::size_t at = 0;
-  for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(lowest * r.duration())); f < lines; ++f) {
+  for (auto f = std::max<std::size_t>(3, static_cast<std::size_t>(rules::lowest_line * r.duration())); f < lines; ++f) {
     std::vector<double> near(power.begin() + static_cast<std::ptrdiff_t>(f > around ? f - around : 1),
                              power.begin() + static_cast<std::ptrdiff_t>(std::min(lines, f + around + 1)));
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
@@ -60,7 +61,8 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
   const double white = others * 0.5 * static_cast<double>(n) / static_cast<double>(lines);  // up to half the rate
   const double line = power[at] / std::max(white, std::numeric_limits<double>::min());
   const double interval = static_cast<double>(bin) * r.data.period, turn = 2.0 * std::numbers::pi * frequency;
-  const double adds_up = std::min(2.0 / (turn * turn * interval * reported_horizon), reported_horizon / interval);
+  const double adds_up =
+      std::min(2.0 / (turn * turn * interval * rules::reported_horizon), rules::reported_horizon / interval);
   test.ahead = line * adds_up;
   test.what.axis = fmt::format("{} at {:.5} Hz", name, fmt::format("{:f}", frequency));
   test.what.evidence =

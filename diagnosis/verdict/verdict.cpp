@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "description/keys.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/rules/noise.hpp"
+#include "diagnosis/rules/verdict.hpp"
 
 namespace wormdrive {
 
@@ -45,9 +49,9 @@ std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
 
 /// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
 /// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
-constexpr double most_noise = 1.0 / 3.0;
-
-bool noise_dominated(const Diagnosis& d, double torque) { return !impacts(d) && d.noise_torque > most_noise * torque; }
+bool noise_dominated(const Diagnosis& d, double torque) {
+  return !impacts(d) && d.noise_torque > rules::most_noise * torque;
+}
 
 std::string remainder_sentence(const Diagnosis& d, const Magnitudes& sizes) {
   const double torque = sizes.torque;
@@ -94,18 +98,28 @@ std::string in_words(std::string id) {
 
 const PredictionError* reported_error(const Diagnosis& d) {
   for (const PredictionError& e : d.prediction)
-    if (e.horizon == reported_horizon) return &e;
+    if (e.horizon == rules::reported_horizon) return &e;
   return nullptr;
 }
 
 bool calibration_matters(const Diagnosis& d) {
-  constexpr double no_account = 0.05;  // of the error, as for anything that is said to be missing
   const PredictionError* e = reported_error(d);
-  return e && e->after < (1.0 - no_account) * e->before;
+  return e && e->after < (1.0 - rules::of_no_account) * e->before;
 }
 
 bool impacts(const Diagnosis& d) {
   return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return has_impacts(c.effect); });
+}
+
+std::optional<Remainder> error_above_noise(const Diagnosis& d) {
+  const PredictionError* e = reported_error(d);
+  if (!e || e->after <= rules::above_noise * e->floor) return std::nullopt;
+  const double ratio = e->after / e->floor;
+  // what bounces leave does not speak against a gap
+  const double gain =
+      impacts(d) && ratio <= rules::above_noise_of_impacts ? 0.0 : std::numeric_limits<double>::infinity();
+  return Remainder{fmt::format("an error {} s ahead that is {:.2g} times that of noise", e->horizon, ratio), ratio, 0.0,
+                   gain};
 }
 
 const std::vector<std::string>* class_of(const Diagnosis& d, std::string_view effect) {
@@ -156,13 +170,13 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of the error
   // ahead, of which little but noise is left, or of all that the data show.
   // A shock is followed no better than its law, which leaves more behind.
-  constexpr double most_of_the_error = 3.0, little_but_noise = 2.0;
-  const double most_of_the_evidence = impacts(d) ? 10.0 : 30.0;
+  const double most_of_the_evidence = impacts(d) ? rules::most_of_the_evidence_of_impacts : rules::most_of_the_evidence;
   const PredictionError* e = reported_error(d);
   double left = 0.0;
   for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
   const double explained = 0.5 * (selection.base.bic - selection.model.bic);
-  const bool predicts = e && e->before >= most_of_the_error * e->after && e->after <= little_but_noise * e->floor;
+  const bool predicts =
+      e && e->before >= rules::most_of_the_error * e->after && e->after <= rules::little_but_noise * e->floor;
   const bool most_done = predicts || explained >= most_of_the_evidence * left;
   if (noise_dominated(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
     const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };

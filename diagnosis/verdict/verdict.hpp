@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/inference/selection.hpp"
@@ -12,6 +14,9 @@ void judge(Diagnosis& diagnosis, const Selection& selection, const std::vector<C
 
 /// The error ahead that the sentence tells of, null if there is none.
 const PredictionError* reported_error(const Diagnosis& diagnosis);
+
+/// What no test of the residuals saw, for it took it for outliers, but the error ahead shows; nothing if that is noise.
+std::optional<Remainder> error_above_noise(const Diagnosis& diagnosis);
 
 /// Whether stated numbers that move within their tolerances lower the error ahead by more than is of no account.
 bool calibration_matters(const Diagnosis& diagnosis);

@@ -54,7 +54,7 @@ std::string said(const Sheet& sheet) {
 double rms_innovation(const Recording& recording) {
   Scenario scenario;
   scenario.mesh = SingleInertia<double>{0.01};
-  const Evaluation evaluation(scenario, InnovationLayout({prepared(recording, {}, 0)}), 1);
+  const Evaluation evaluation(scenario, InnovationLayout({prepared(recording, 0)}), 1);
   Hypothesis h;
   REQUIRE(evaluate(evaluation, h));
   double sum = 0.0;

@@ -84,7 +84,7 @@ TEST_CASE("commands that are seldom exceeded are known") {
     r.gear_angle.push_back(1e-3 * k);
   }
   r.valid.assign(r.samples(), 1);
-  const Magnitudes m = magnitudes(recovery::data_sheet(recovery::conditions("ideal")), {prepared(r, {}, 0, 60.0)});
+  const Magnitudes m = magnitudes(recovery::data_sheet(recovery::conditions("ideal")), {prepared(r, 0, 60.0)});
   CHECK(m.largest_torque == 0.999);
   CHECK(std::abs(m.rare_torques[0] - 0.995) < 1e-12);
   CHECK(std::abs(m.rare_torques[1] - 0.984) < 1e-12);

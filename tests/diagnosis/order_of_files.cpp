@@ -26,7 +26,7 @@ NoiseSizes noise_of(std::vector<Recording> recordings) {
   std::vector<PreparedRecording> all;
   std::size_t blocks = 0;
   for (const Recording& r : recordings) {
-    all.push_back(prepared(r, {}, blocks, 60.0));
+    all.push_back(prepared(r, blocks, 60.0));
     blocks += all.back().blocks();
   }
   const Evaluation evaluation(nominal_arm(), InnovationLayout(std::move(all)), 1);

@@ -14,7 +14,7 @@ namespace wormdrive::test::diagnosis_predictor {
 namespace {
 
 Evaluation evaluation_of(const Scenario& scenario, const Recording& recording) {
-  return {scenario, InnovationLayout({prepared(recording, {}, 0)}), 1};
+  return {scenario, InnovationLayout({prepared(recording, 0)}), 1};
 }
 
 /// Correlation of a series with itself some samples later.

@@ -42,7 +42,7 @@ Recording wheel(double period = 1e-3) {
 std::vector<double> innovations(const Recording& recording) {
   Scenario scenario;
   scenario.mesh = SingleInertia<double>{0.01};
-  const Evaluation evaluation(scenario, InnovationLayout({prepared(recording, {}, 0)}), 1);
+  const Evaluation evaluation(scenario, InnovationLayout({prepared(recording, 0)}), 1);
   Hypothesis h;
   REQUIRE(evaluate(evaluation, h));
   return h.innovations;
@@ -85,7 +85,7 @@ TEST_CASE("rows that a logger has lost are put in where they were, and count for
   CHECK(std::count(r.valid.begin(), r.valid.end(), 0) == 4);
   CHECK(r.gear_angle[5001] == sound().number(5001, y));
   CHECK(std::abs(r.motor_torque[5000] - 0.5 * (sound().number(4999, u) + sound().number(5001, u))) < 1e-12);
-  const PreparedRecording p = prepared(r, {}, 0);
+  const PreparedRecording p = prepared(r, 0);
   CHECK(p.used[1999] == 1);
   CHECK(p.used[2001] == 0);
   CHECK(p.used[2003] == 1);
@@ -107,7 +107,7 @@ TEST_CASE("after a pause, whose torque nobody knows, the recording starts anew, 
   CHECK(r.restarts == std::vector<std::size_t>{2000});
   CHECK(std::abs(r.time(1999) - 1.999) < 1e-9);
   CHECK(std::abs(r.time(2000) - 2.12) < 1e-9);
-  const PreparedRecording p = prepared(r, {}, 0);
+  const PreparedRecording p = prepared(r, 0);
   CHECK(p.used[1999] == 1);
   CHECK(p.used[2000] == 0);
   CHECK(p.used[2024] == 0);

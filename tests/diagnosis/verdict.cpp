@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive::test::diagnosis_verdict {
 
@@ -12,7 +13,7 @@ Diagnosis named(const char* effect, double before, double after) {
   Diagnosis d;
   d.causes = {{effect, {}}};
   PredictionError e;
-  e.horizon = reported_horizon;
+  e.horizon = rules::reported_horizon;
   e.before = before;
   e.after = after;
   e.floor = 1e-3;

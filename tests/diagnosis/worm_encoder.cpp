@@ -30,7 +30,7 @@ Bench bench(const char* effect, double amount, double zero = 0.0) {
   recovery::Bench recorded = recovery::record(drawn);
   for (double& angle : recorded.recording.worm_angle) angle += zero;
   const Scenario sheet = recovery::data_sheet(conditions);
-  std::vector<PreparedRecording> prepared_one{prepared(recorded.recording, {}, 0, truth::Geometry{}.ratio)};
+  std::vector<PreparedRecording> prepared_one{prepared(recorded.recording, 0, truth::Geometry{}.ratio)};
   const Magnitudes sizes = magnitudes(sheet, prepared_one);
   return {std::move(recorded),
           sheet,

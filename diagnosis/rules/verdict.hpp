@@ -1,0 +1,61 @@
+#pragma once
+#include <cstddef>
+
+#include "diagnosis/rules/evidence.hpp"
+
+/// What a verdict turns on; the form is that of recordings.hpp.
+namespace wormdrive::rules {
+
+// Adequacy: whether anything is left.
+
+/// deviations | set | of a score above what noise gives
+inline constexpr double left_deviations = 1.5;
+/// nats | set | gain of data that a torque was not fitted to; of one place, which those data need not pass, less
+inline constexpr double left_gain = 4.0, left_gain_of_a_place = 1.0;
+/// share of the rms torque | set | what is smaller is of no account; with two encoders more, for the worm's rounds
+inline constexpr double left_torque = 5e-4, left_torque_of_two_encoders = 0.005;
+/// nats | set | -log of the chance that noise makes a line as strong
+inline constexpr double left_line = 8.0;
+/// share of the square of the error ahead | derived | of a line: a twentieth of the error
+inline constexpr double left_ahead = 0.1;
+/// nats | set | of one angle, as of a line; coloured noise makes eight
+inline constexpr double left_place = 12.0;
+/// scales of the noise | set | beyond which a residual counts no more: of a test torque, of a residual torque
+inline constexpr double clip_of_test = 10.0, clip_of_torque = 6.0;
+/// hat functions | set | over angle, speed, time or load, and spots of a tenth of a turn or less
+inline constexpr int hats_over_angle = 8, hats_over_speed = 10, hats_over_time = 6, spots = 24;
+/// precision | set | of a hat without data, which is nothing
+inline constexpr double precision_of_hat = 0.3;
+/// Hz | set | spectral lines between these: what is slower is a matter of angle and time
+inline constexpr double lowest_line = 1.0, highest_line = 50.0;
+/// lines on either side | set | that tell the level of noise
+inline constexpr std::size_t lines_around = 25;
+/// s | set | innovations are summed over this before their spectrum, residual torques averaged over that
+inline constexpr double spectrum_bin = 0.005, torque_bin = 0.025;
+
+// Verdict.
+
+/// share of the rms torque | set | noise of more is no noise: such a model does not know the motion
+inline constexpr double most_noise = 1.0 / 3.0;
+/// share of the error ahead | set | a change of less is of no account
+inline constexpr double of_no_account = 0.05;
+/// times the error after | set | causes that lower it by more do most of the work
+inline constexpr double most_of_the_error = 3.0;
+/// times the noise floor | set | an error that is smaller is little but noise
+inline constexpr double little_but_noise = 2.0;
+/// times what is left | set | evidence of more is most of all; beside impacts, which are followed less well, of less
+inline constexpr double most_of_the_evidence = 30.0, most_of_the_evidence_of_impacts = 10.0;
+/// times the noise floor | set | a larger error ahead is structure that the tests took for outliers; beside impacts
+inline constexpr double above_noise = 3.0, above_noise_of_impacts = 10.0;
+/// squared deviations | derived | twice least_bic and ln N: length of a signature that a search finds
+inline constexpr double findable_length = 60.0;
+/// share | derived | evidence grows less than squared length, so a third of equivalence_share is left here
+inline constexpr double nameable_share = equivalence_share / 3.0;
+/// share | set | of a signature below which its shape, not its length, decides whether it can be named
+inline constexpr double much_alike = 0.1;
+/// margin | set | an experiment that could name an effect so many times smaller is good enough
+inline constexpr double ample_margin = 5.0;
+/// ratio | derived | a wheel with one start is seldom stated wrongly by less than half a tooth
+inline constexpr double least_other_ratio = 0.5;
+
+}  // namespace wormdrive::rules
