@@ -14,6 +14,14 @@ inline double largest_growth(const Eigen::Matrix2d& J) {  // of rows (0, 1) and 
   return root > 0.0 ? half + std::sqrt(root) : half;
 }
 
+/// The largest magnitude of the eigenvalues of a Jacobian [1/s]: an explicit method has to follow it.
+double fastest_rate(const Eigen::Matrix4d& J);
+double fastest_rate(const Eigen::Matrix3d& J);
+inline double fastest_rate(const Eigen::Matrix2d& J) {
+  const double half = 0.5 * J(1, 1), root = half * half + J(1, 0);
+  return root > 0.0 ? std::abs(half) + std::sqrt(root) : std::sqrt(-J(1, 0));
+}
+
 /// How fast the motion departs from one beside it [1/s].
 template <class System>
 double growth(const System& system, const typename System::Instant& now) {

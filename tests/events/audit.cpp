@@ -1,6 +1,7 @@
 #include "events/audit.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "catch.hpp"
@@ -112,6 +113,33 @@ TEST_CASE("the audit counts every time that a guard came and went without an eve
   };
   const Trace trace{{{{0.25, {0.0, start}, mode, {}}, 0}, {{5.25, {0.0, start}, mode, {}}, 100}}};
   REQUIRE(Audit(system).examine(trace).missed() == 5);
+}
+
+TEST_CASE("the audit follows a gear that settles in a small share of the solver's steps") {
+  for (const double rate : {1.0, 1e2, 1e4, 1e5, 1e6, 1e7}) {  // [1/s]
+    constexpr double J = 0.02, amplitude = 3.0, frequency = 1.0;
+    WormDrive system(GearMesh<double>::without_teeth(J), make_load(constant(0.0)),
+                     effects(GearViscous<double>{J * rate}), Signal{{Sinusoid{amplitude, frequency}}});
+    using System = decltype(system);
+    CvodeSolver<System> solver(system, tight(bdf, 1e-10));
+    AuditTrail<System, CvodeSolver<System>> trail{solver};
+    simulate(system, solver, Timetable(0, 2, 0.01), {}, trail);
+    const AuditReport report = Audit<System>(system).examine(trail);
+    CAPTURE(rate, solver.statistics().steps);
+    CHECK(report.events == 4);
+    CHECK(report.findings.empty());
+    const double swing = amplitude / (J * rate) / (2.0 * std::numbers::pi * frequency);
+    CHECK(report.largest_angle_error <= 1e-8 * swing + 1e-10);
+  }
+}
+
+TEST_CASE("an audit whose own integration comes to no number confirms nothing") {
+  Fig9 run;
+  run.trail.entries[run.behind_event(1)].now.x[1] = std::numeric_limits<double>::quiet_NaN();
+  const AuditReport report = run.report();
+  CHECK(report.events < 12);
+  CHECK(std::isinf(report.largest_angle_error));
+  CHECK(std::isinf(report.largest_speed_error));
 }
 
 }  // namespace wormdrive::test::events_audit
