@@ -65,18 +65,23 @@ struct StudyFolder : Folder {
     words.insert(words.begin(), {"sweep", "study.toml"});
     return run(words);
   }
-  /// A sweep that gets a signal as soon as it has some trials.
+  /// A sweep that gets a signal as soon as it has some trials. What can be caught has to leave some, however slow the
+  /// machine is.
   Outcome interrupted(std::vector<std::string> words, int signal) const {
     words.insert(words.begin(), {WORMDRIVE_PROGRAM, "sweep", "study.toml"});
-    Process process(words, path());
-    const auto has_part = [this] {
-      const auto all = names();
-      return std::any_of(all.begin(), all.end(), [](const std::string& name) { return name.ends_with(".h5.part"); });
+    const auto part = [this] {
+      for (const std::string& name : names())
+        if (name.ends_with(".h5.part")) return name;
+      return std::string();
     };
-    while (!has_part()) usleep(1000);
-    usleep(50'000);
-    process.kill(signal);
-    return process.wait();
+    for (useconds_t wait = 50'000;; wait *= 2) {
+      Process process(words, path());
+      while (part().empty()) usleep(1000);
+      usleep(wait);
+      process.kill(signal);
+      const Outcome outcome = process.wait();
+      if (signal == SIGKILL || outcome.exit != 128 + signal || present(part()) > 0) return outcome;
+    }
   }
   /// The table of trials byte for byte.
   std::map<std::string, std::vector<char>> rows(const std::string& file) const {
