@@ -17,8 +17,6 @@ enum class AntiWindup {
   conditional,       ///< the integral waits while it would ask for more of what the limit takes away
   model_recovery     ///< the law sees the drive as it would move without the limit, see ModelRecovery
 };
-inline constexpr std::array<std::string_view, 4> anti_windup_methods{"none", "back_calculation", "conditional",
-                                                                     "model_recovery"};
 
 struct AntiWindupSettings {
   AntiWindup method = AntiWindup::none;
@@ -29,6 +27,11 @@ struct AntiWindupSettings {
                             "time constant of back_calculation and model_recovery; of pid sqrt(Kd/Ki), of sliding "
                             "1/bandwidth, if not stated",
                             Presence::optional}};
+  }
+  static constexpr auto choices() {
+    constexpr std::array<std::string_view, 4> methods{"none", "back_calculation", "conditional", "model_recovery"};
+    return std::tuple{Choice{&AntiWindupSettings::method, "anti_windup", methods,
+                             "what keeps the integral from winding up while the torque is limited"}};
   }
   /// Whether a method has a time constant.
   static bool tracks(AntiWindup method) {

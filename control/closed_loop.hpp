@@ -27,7 +27,8 @@ struct SamplingSettings {
     return std::tuple{
         Field{&P::period, "sample_time", unit::second, bounds::positive, "time between two samples"},
         Field{&P::offset, "sample_offset", unit::second, bounds::not_negative, "time of the first sample", o},
-        Field{&P::delay, "delay_samples", unit::none, bounds::between(0, 1), "computation time in samples, 0 or 1", o}};
+        Field{&P::delay, "delay_samples", unit::whole, bounds::between(0, 1), "computation time in samples, 0 or 1",
+              o}};
   }
   bool operator==(const SamplingSettings&) const = default;
 };

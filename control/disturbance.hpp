@@ -22,7 +22,7 @@ struct DisturbanceSettings {
     return std::tuple{
         Field{&P::deviation, "deviation", unit::newton_metre, bounds::not_negative, "standard deviation"},
         Field{&P::time_constant, "time_constant", unit::second, bounds::not_negative, "colouring; 0 is white", o},
-        Field{&P::seed, "seed", unit::none, seeds, "seed of the random torque", o}};
+        Field{&P::seed, "seed", unit::whole, seeds, "seed of the random torque", o}};
   }
 };
 

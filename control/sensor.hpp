@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 #include <tuple>
 
 #include "core/field.hpp"
@@ -22,13 +24,19 @@ struct SensorSettings {
   static constexpr auto fields() {
     using P = SensorSettings;
     constexpr Presence o = Presence::optional;
-    return std::tuple{Field{&P::counts, "counts", unit::none, bounds::not_negative,
+    return std::tuple{Field{&P::counts, "counts", unit::whole, bounds::not_negative,
                             "encoder counts per turn of its shaft; 0 is exact", o},
                       Field{&P::noise, "noise", unit::radian, bounds::not_negative,
                             "standard deviation of the angle of the encoder's shaft", o},
-                      Field{&P::seed, "seed", unit::none, seeds, "seed of the noise", o},
+                      Field{&P::seed, "seed", unit::whole, seeds, "seed of the noise", o},
                       Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
                             "cut-off of the speed's low-pass; 0 is none", o}};
+  }
+  static constexpr auto choices() {
+    using P = SensorSettings;
+    using Words = std::array<std::string_view, 2>;
+    return std::tuple{Choice{&P::on_worm, "shaft", Words{"gear", "worm"}, "where the encoder sits"},
+                      Choice{&P::exact_speed, "speed", Words{"difference", "exact"}, "how the speed is obtained"}};
   }
 };
 

@@ -33,7 +33,7 @@ struct DataSheet {
         Field{&D::i, "ratio", unit::none, bounds::positive, "transmission ratio, worm angle over gear angle"},
         Field{&D::phi_n, "pressure_angle", unit::degrees, Bounds{0.0, half, false, true}, "normal pressure angle"},
         Field{&D::a, "centre_distance", unit::metre, bounds::positive, "distance of the axes of worm and gear"},
-        Field{&D::starts, "starts", unit::none, bounds::positive, "threads of the worm", o},
+        Field{&D::starts, "starts", unit::whole, bounds::positive, "threads of the worm", o},
         Field{&D::module, "module", unit::metre, bounds::positive, "pitch diameter of the gear over its teeth", o},
         Field{&D::mu, "friction", unit::none, bounds::not_negative, "coefficient of friction between the teeth", o},
         Field{&D::forward, "forward_efficiency", unit::none, share, "power out over power in, worm driving", o},

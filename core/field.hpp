@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string_view>
@@ -45,6 +46,26 @@ struct Field {
 template <class Owner, class Value>
 Field(Value Owner::*, std::string_view, Unit, Bounds, std::string_view, Presence = {}) -> Field<Owner, Value>;
 
+/// One of several words: a flag or an enum whose values stand in the order of the words. The first word holds where
+/// none is stated.
+template <class Owner, class Value, std::size_t n>
+struct Choice {
+  Value Owner::*member;
+  std::string_view key;
+  std::array<std::string_view, n> words;
+  std::string_view meaning;
+
+  std::string_view word(const Owner& of) const { return words[static_cast<std::size_t>(of.*member)]; }
+  /// The value of one of the words; of any other text that of the last.
+  void set(Owner& of, std::string_view word) const {
+    std::size_t k = 0;
+    while (k + 1 < n && words[k] != word) ++k;
+    of.*member = static_cast<Value>(k);
+  }
+};
+template <class Owner, class Value, std::size_t n>
+Choice(Value Owner::*, std::string_view, std::array<std::string_view, n>, std::string_view) -> Choice<Owner, Value, n>;
+
 /// Calls visit(element) for every element of a tuple; std::apply does the same and takes the compiler far longer.
 template <class Tuple, class Visit>
 constexpr void for_each_in(Tuple& tuple, Visit& visit) {
@@ -57,6 +78,15 @@ template <class Owner, class Visit>
 constexpr void for_each_field(Visit&& visit) {
   const auto fields = Owner::fields();
   for_each_in(fields, visit);
+}
+
+/// Calls visit(choice) for every choice of a parameter struct, in the order of its list; many have none.
+template <class Owner, class Visit>
+constexpr void for_each_choice(Visit&& visit) {
+  if constexpr (requires { Owner::choices(); }) {
+    const auto choices = Owner::choices();
+    for_each_in(choices, visit);
+  }
 }
 
 }  // namespace wormdrive

@@ -62,7 +62,7 @@ void for_each_table(const RigidDrive<Load>& drive, Visit&& visit) {
 /// Whether a state can have a derivative by a field: not by a number of things, an order or a choice.
 template <class Owner, class Value>
 constexpr bool continuous(const Field<Owner, Value>& field) {
-  return field.name != "exponent" && field.name != "tail";
+  return !field.unit.whole;
 }
 
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are

@@ -9,12 +9,14 @@ struct Unit {
   std::string_view suffix;  ///< end of a TOML key or CSV column, "Nm" in torque_Nm; empty for pure numbers
   std::string_view symbol;  ///< as printed, "N m"
   double si = 1.0;          ///< one of this unit in SI
+  bool whole = false;       ///< takes whole numbers only
 };
 
 namespace unit {
 inline constexpr double degree = std::numbers::pi / 180.0;
 
 inline constexpr Unit none{"", "1"};
+inline constexpr Unit whole{"", "1", 1.0, true};  ///< how many, which of several, an order
 inline constexpr Unit percent{"percent", "%", 0.01};
 inline constexpr Unit share{"share", "1"};
 inline constexpr Unit second{"s", "s"};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "core/statics.hpp"
 #include "description/build_control.hpp"
 #include "description/keys.hpp"
+#include "description/tables.hpp"
 
 namespace wormdrive {
 namespace {
@@ -38,61 +40,26 @@ TeethNumbers teeth_numbers(const Scenario& scenario) {
 
 std::vector<Quantity> parameters(const Scenario& scenario) {
   std::vector<Quantity> list;
-  const auto fields = [&](const auto& p, const std::string& path) { list_fields(p, path, scenario.axis, list); };
-  const auto terms = [&](const auto& sum, const std::string& path) {
-    for (std::size_t k = 0; k < sum.terms.size(); ++k)
-      std::visit(
-          [&](const auto& term) {
-            const std::string name = sum.terms.size() == 1 ? path : fmt::format("{}[{}]", path, k);
-            if constexpr (requires { term.times; })
-              list.push_back({name, "1", "samples", static_cast<double>(term.times.size())});
-            else if constexpr (requires { term.angles; })
-              list.push_back({name, "1", "points of the table", static_cast<double>(term.angles.size())});
-            else if constexpr (requires { term.table; })
-              list.push_back({name, "1", "points of the table", static_cast<double>(term.table.points().size())});
-            else
-              fields(term, name);
-          },
-          sum.terms[k]);
-  };
-  std::visit([&](const auto& mesh) { fields(mesh, "mesh"); }, scenario.mesh);
-  terms(scenario.motor, "motor.torque");
-  std::visit(
-      [&](const auto& load) {
-        if constexpr (requires { load.terms; })
-          terms(load, "load");
-        else if constexpr (requires { load.fields(); })
-          fields(load, "load");
-        else
-          list.push_back({"load", "1", "points of the table", static_cast<double>(load.angles.size())});
-      },
-      scenario.load);
-  scenario.effects.for_each([&](const auto& effect) {
-    if (effect) fields(*effect, fmt::format("effect.{}", effect->id));
+  for_each_table(scenario, [&]<class Parameters>(const TablePlace& place, const Parameters& p) {
+    const auto points = [&](std::size_t count, std::string meaning) {
+      list.push_back({place.path(), "1", std::move(meaning), static_cast<double>(count)});
+    };
+    if constexpr (std::is_same_v<Parameters, NominalSettings>) {
+      const NominalModel n = make_nominal(scenario);
+      list_fields(NominalSettings{n.C1, n.C2, n.Jw_i, n.Jg, n.load_torque, n.load_angle_offset, n.load_constant},
+                  place.path(), scenario.axis, list);
+    } else if constexpr (std::is_same_v<Parameters, DisturbanceSettings>) {
+      if (p.deviation > 0.0) list_fields(p, place.path(), scenario.axis, list);
+    } else if constexpr (requires { p.fields(); }) {
+      list_fields(p, place.path(), scenario.axis, list);
+    } else if constexpr (requires { p.times; }) {
+      points(p.times.size(), "samples");
+    } else if constexpr (requires { p.angles; }) {
+      points(p.angles.size(), "points of the table");
+    } else if constexpr (requires { p.table; }) {
+      points(p.table.points().size(), "points of the table");
+    }
   });
-  fields(scenario.initial, "initial");
-  if (scenario.run.duration > 0.0) fields(scenario.run, "run");
-  if (scenario.tolerance) fields(*scenario.tolerance, "tolerance");
-  if (!scenario.control) return list;
-  const ControlScenario& control = *scenario.control;
-  fields(control.sampling, "controller");
-  if (winds_up(control.law)) fields(control.anti_windup, "controller");
-  std::visit(
-      [&](const auto& law) {
-        if constexpr (requires { law.fields(); })
-          fields(law, "controller");
-        else
-          terms(law.torque, "controller.torque");
-      },
-      control.law);
-  const NominalModel n = make_nominal(scenario);
-  fields(NominalSettings{n.C1, n.C2, n.Jw_i, n.Jg, n.load_torque, n.load_angle_offset, n.load_constant},
-         "controller.nominal");
-  fields(control.variations, "controller.variation");
-  terms(control.reference, "reference");
-  fields(control.sensor, "sensor");
-  if (control.disturbance.deviation > 0.0) fields(control.disturbance, "disturbance");
-  fields(control.window, "metrics");
   return list;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -43,6 +44,13 @@ struct RunSettings {
             Presence::optional},
         Field{&P::max_step, "max_step", unit::second, bounds::positive, "longest step of the solver",
               Presence::optional}};
+  }
+  static constexpr auto choices() {
+    using P = RunSettings;
+    using Words = std::array<std::string_view, 2>;
+    return std::tuple{
+        Choice{&P::solver, "solver", Words{"cvode", "taylor"}, "taylor is fast but supports rigid teeth only"},
+        Choice{&P::method, "method", Words{"bdf", "adams"}, "integration method of cvode"}};
   }
 
   double rows_every() const { return report_interval.value_or(duration / 1000.0); }

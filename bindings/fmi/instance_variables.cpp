@@ -88,7 +88,7 @@ void FmuInstance::reject_unsettable(unsigned reference, double value) {
   }
   const auto reject_value = [&](const auto& field, const std::string& path, double) {
     const bool fits = std::isfinite(value) && field.bounds.contain(value);
-    if (!fits || (is_whole(field) && value != std::floor(value)))
+    if (!fits || (field.unit.whole && value != std::floor(value)))
       throw std::invalid_argument(
           fmt::format("{}.{} = {} is not an allowed value", path, si_spelling(field, model_.scenario.axis).key, value));
   };

@@ -24,16 +24,30 @@ std::pair<Spelling, std::optional<double>> stated(const Field& field) {
   return {s, *value / s.unit.si};
 }
 
-bool bounded(const Bounds& bounds) { return std::isfinite(bounds.low) || std::isfinite(bounds.high); }
+/// "must be at least 1 and at most 4, a whole number"; empty where everything is allowed.
+std::string limits(const Bounds& bounds, const Unit& unit) {
+  std::string text = std::isfinite(bounds.low) || std::isfinite(bounds.high) ? rule(bounds, unit) : "";
+  if (unit.whole) text += text.empty() ? "a whole number" : ", a whole number";
+  return text;
+}
+
+/// The words among which a key chooses, first that which holds where none is stated.
+template <class Parameters>
+void print_choices() {
+  for_each_choice<Parameters>([](const auto& one) {
+    fmt::print("      {:<28} {}: \"{}\"\n", one.key, one.meaning, fmt::join(one.words, "\", \""));
+  });
+}
 
 template <class Parameters>
 void print_fields() {
+  print_choices<Parameters>();
   for_each_field<Parameters>([](const auto& field) {
     const auto [s, value] = stated<Parameters>(field);
     std::string note = field.presence == Presence::required ? ", required" : "";
     if (value) note = fmt::format(", default {:g}", *value);
-    fmt::print("      {:<28} {}{}{}\n", s.key, field.meaning, note,
-               bounded(field.bounds) ? "; " + rule(field.bounds, s.unit) : "");
+    const std::string limit = limits(field.bounds, s.unit);
+    fmt::print("      {:<28} {}{}{}{}\n", s.key, field.meaning, note, limit.empty() ? "" : "; ", limit);
   });
 }
 
@@ -43,10 +57,12 @@ void print_kind(std::string_view kind, std::string_view meaning) { fmt::print(" 
 template <class Kind>
 void print_kind(std::string_view otherwise) {
   print_kind(Kind::kind, Kind::meaning);
-  if constexpr (requires { Kind::fields(); })
+  if constexpr (requires { Kind::fields(); }) {
     print_fields<Kind>();
-  else
+  } else {
     fmt::print("      {}\n", otherwise);
+    print_choices<Kind>();
+  }
 }
 
 /// Prints every alternative of a variant.
@@ -84,7 +100,7 @@ void list_effects_as_markdown() {
       const auto [s, value] = stated<Effect>(field);
       const std::string absent = field.presence == Presence::required ? "required" : "none";
       fmt::print("| `{}` | {} | {} | {} | {} |\n", s.key, s.unit.symbol, value ? fmt::format("{:g}", *value) : absent,
-                 bounded(field.bounds) ? rule(field.bounds, s.unit) : "", field.meaning);
+                 limits(field.bounds, s.unit), field.meaning);
     });
     fmt::print("\n");
   });
@@ -92,8 +108,7 @@ void list_effects_as_markdown() {
 
 void list_torques() {
   fmt::print("torques: [motor.torque] kind = \"...\", or several as [[motor.torque]], which add up\n");
-  print_kinds<SignalTerm>(
-      "file (with x_column, y_column), or times_s and torques_Nm; interpolation = \"hold\" or \"linear\"");
+  print_kinds<SignalTerm>("file (with x_column, y_column), or times_s and torques_Nm");
 }
 
 void list_loads() {
@@ -107,14 +122,13 @@ void list_controllers() {
   fmt::print("controllers: [controller] kind = \"...\", with any kind\n");
   print_fields<SamplingSettings>();
   print_kinds<ControllerParameters>("torque: [[controller.torque]], any torque over time (wormdrive list torques)");
-  fmt::print(
-      "of sliding and pid: anti_windup = \"none\", \"back_calculation\", \"conditional\" or \"model_recovery\"\n");
+  fmt::print("of sliding and pid:\n");
   print_fields<AntiWindupSettings>();
   fmt::print("its model of the drive: [controller.nominal]\n");
   print_fields<NominalSettings>();
   fmt::print("variations that it must withstand: [controller.variation]\n");
   print_fields<Variations>();
-  fmt::print("what it measures: [sensor] shaft = \"gear\" or \"worm\", speed = \"difference\" or \"exact\"\n");
+  fmt::print("what it measures: [sensor]\n");
   print_fields<SensorSettings>();
   fmt::print("a random torque on the worm: [disturbance]\n");
   print_fields<DisturbanceSettings>();

@@ -25,7 +25,7 @@ Json function_of_time(Axis axis) {
   SchemaTable table = kind_table<Kind>(axis);
   if constexpr (requires { Kind::interpolation; }) {
     table.pairs("times", unit::second, "torques", unit::newton_metre);
-    table.with("interpolation", choice({"hold", "linear"}, "between the times"));
+    table.template choices<Kind>();
   } else if constexpr (requires { Kind::table; }) {
     table.pairs("times", unit::second, "angles", unit::radian);
   }
@@ -104,11 +104,7 @@ Json controller() {
   const auto add = [&]<class Law>() {
     SchemaTable table = kind_table<Law>(axis);
     table.fields<SamplingSettings>();
-    if (winds_up(Law{})) {
-      const std::vector<std::string> methods(anti_windup_methods.begin(), anti_windup_methods.end());
-      table.with("anti_windup", choice(methods, "what keeps the integral from winding up while the torque is limited"));
-      table.fields<AntiWindupSettings>();
-    }
+    if (winds_up(Law{})) table.fields<AntiWindupSettings>();
     table.with("nominal", SchemaTable(axis, "the controller's model of the drive").fields<NominalSettings>().json());
     table.with("variation",
                SchemaTable(axis, "variations that the controller must withstand").fields<Variations>().json());
@@ -130,21 +126,13 @@ Json tables(Axis axis) {
   root.with("motor", SchemaTable(axis, "motor torque in open loop").with("torque", torque(axis)).json());
   root.with("load", load(axis)).with("effect", effects(axis));
   root.with("initial", SchemaTable(axis, "where the run starts").fields<InitialState<double>>().json());
-  root.with("run", SchemaTable(axis, "duration and accuracy")
-                       .fields<RunSettings>()
-                       .with("solver", choice({"cvode", "taylor"}, "taylor is fast but supports rigid teeth only"))
-                       .with("method", choice({"bdf", "adams"}, "integration method of cvode"))
-                       .json());
+  root.with("run", SchemaTable(axis, "duration and accuracy").fields<RunSettings>().json());
   root.with("tolerance", SchemaTable(axis, "standard deviations of stated numbers").fields<Tolerances>().json());
   root.with("data", recorded_names(axis));
   if (axis == Axis::rotary) {
     root.with("controller", controller());
     root.with("reference", one_or_several(any_kind<ReferenceTerm>(axis)));
-    root.with("sensor", SchemaTable(axis, "what the controller measures")
-                            .with("shaft", choice({"gear", "worm"}, "where the encoder sits"))
-                            .with("speed", choice({"difference", "exact"}, "how the speed is obtained"))
-                            .fields<SensorSettings>()
-                            .json());
+    root.with("sensor", SchemaTable(axis, "what the controller measures").fields<SensorSettings>().json());
     root.with("disturbance", SchemaTable(axis, "a random torque on the worm").fields<DisturbanceSettings>().json());
     root.with("metrics", SchemaTable(axis, "time window of the metrics").fields<MetricsWindow>().json());
   }

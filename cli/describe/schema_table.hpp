@@ -48,12 +48,20 @@ class SchemaTable {
   /// Every field of a parameter struct, in each of its spellings, with its bounds in that unit.
   template <class Parameters>
   SchemaTable& fields() {
+    choices<Parameters>();
     const Parameters defaults{};
     for_each_field<Parameters>([&](const auto& field) {
       const std::optional<double> value = defaults.*field.member;
       const std::vector<Spelling> all = spellings(field.name, field.unit, axis_);
       for (const Spelling& s : all) with(s.key, number(field, s, value));
       if (field.presence == Presence::required) required(all);
+    });
+    return *this;
+  }
+  template <class Parameters>
+  SchemaTable& choices() {
+    for_each_choice<Parameters>([&](const auto& one) {
+      with(std::string(one.key), choice({one.words.begin(), one.words.end()}, std::string(one.meaning)));
     });
     return *this;
   }
@@ -75,6 +83,7 @@ class SchemaTable {
     std::string description = in_words_of(axis_, field.meaning);
     if (!s.unit.suffix.empty()) description += fmt::format(" [{}]", s.unit.symbol);
     Json one{{"type", "number"}, {"description", description}};
+    if (s.unit.whole) one["multipleOf"] = 1;  // 2.0 is as good as 2
     const auto bound = [&](double si, bool exclusive, const std::string& inclusive_key, const std::string& key) {
       if (std::isfinite(si)) one[exclusive ? key : inclusive_key] = si / s.unit.si;
     };

@@ -23,7 +23,7 @@ struct MultisineReference {
         Field{&P::amplitude, "amplitude", unit::radian, bounds::any, "amplitude of each sine"},
         Field{&P::lowest_frequency, "lowest_frequency", unit::hertz, bounds::positive, "lowest frequency"},
         Field{&P::highest_frequency, "highest_frequency", unit::hertz, bounds::positive, "highest frequency"},
-        Field{&P::count, "count", unit::none, bounds::between(1, 1000), "number of sines", Presence::optional}};
+        Field{&P::count, "count", unit::whole, bounds::between(1, 1000), "number of sines", Presence::optional}};
   }
   bool operator==(const MultisineReference&) const = default;
   ReferencePoint at(double t) const {

@@ -23,7 +23,7 @@ struct RandomStepsReference {
     using P = RandomStepsReference;
     return std::tuple{Field{&P::amplitude, "amplitude", unit::radian, bounds::any, "largest angle, either sign"},
                       Field{&P::interval, "interval", unit::second, bounds::positive, "time between two steps"},
-                      Field{&P::seed, "seed", unit::none, seeds, "seed of the random angles", Presence::optional}};
+                      Field{&P::seed, "seed", unit::whole, seeds, "seed of the random angles", Presence::optional}};
   }
   bool operator==(const RandomStepsReference&) const = default;
   ReferencePoint at(double t) const {

@@ -35,10 +35,10 @@ struct Stribeck {
         Field{&Stribeck::drop, "drop", unit::none, bounds::any, "friction at rest less friction at high speed"},
         Field{&Stribeck::speed, "speed", unit::metre_per_second, bounds::positive,
               "sliding speed by which 63 % of the drop are reached, 50 % with tail = 1"},
-        Field{&Stribeck::exponent, "exponent", unit::none, bounds::between(1, 4),
-              "shape of the fall, 1 pointed, 2 a bell; a whole number", Presence::optional},
-        Field{&Stribeck::tail, "tail", unit::none, bounds::between(0, 1),
-              "end of the fall, 0 exponential, 1 as 1/(1 + x); a whole number", Presence::optional}};
+        Field{&Stribeck::exponent, "exponent", unit::whole, bounds::between(1, 4),
+              "shape of the fall, 1 pointed, 2 a bell", Presence::optional},
+        Field{&Stribeck::tail, "tail", unit::whole, bounds::between(0, 1),
+              "end of the fall, 0 exponential, 1 as 1/(1 + x)", Presence::optional}};
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>

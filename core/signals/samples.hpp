@@ -1,10 +1,13 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "core/field.hpp"
 #include "core/piece.hpp"
 
 namespace wormdrive {
@@ -19,6 +22,10 @@ struct Samples {
   std::vector<double> values;  ///< [N m], as many as times
   Interpolation interpolation = Interpolation::hold;
 
+  static constexpr auto choices() {
+    return std::tuple{Choice{&Samples::interpolation, "interpolation",
+                             std::array<std::string_view, 2>{"hold", "linear"}, "between the times"}};
+  }
   void add_to(Piece& piece, double t) const {
     const std::size_t passed = samples_passed(t);
     if (passed == 0 || passed == times.size()) {

@@ -12,7 +12,6 @@
 #include "description/toml/read_control.hpp"
 #include "description/toml/read_effects.hpp"
 #include "description/toml/read_load.hpp"
-#include "description/toml/read_reference.hpp"
 #include "description/toml/read_signal.hpp"
 #include "description/toml/table_reader.hpp"
 
@@ -80,7 +79,6 @@ class ScenarioReader {
     DataSheet sheet;
     mesh.read_fields(sheet);
     if (!faults_.empty() || !(sheet.i > 0.0 && sheet.a > 0.0)) return;  // told already, or by finish()
-    if (sheet.starts) require_whole(mesh, "starts", *sheet.starts);
     scenario_.mesh = mesh_of(sheet, [&](const std::string& key, const std::string& what) { mesh.fault(key, what); });
   }
 
@@ -96,8 +94,6 @@ class ScenarioReader {
     if (purpose != Purpose::run && !root_.has("run")) return;
     root_.section("run", [&](TableReader& run) {
       run.read_fields(scenario_.run);
-      if (run.choice("solver", {"cvode", "taylor"}, Presence::optional) == "taylor")
-        scenario_.run.solver = SolverKind::taylor;
       if (purpose != Purpose::show && scenario_.run.solver == SolverKind::taylor &&
           has_elastic_teeth(scenario_.effects))
         run.fault(
@@ -107,8 +103,6 @@ class ScenarioReader {
       if (const auto id = scenario_.effects.first_with_states();
           purpose != Purpose::show && scenario_.run.solver == SolverKind::taylor && !id.empty())
         run.fault("solver", taylor_without_states(id));
-      scenario_.run.method =
-          run.choice("method", {"bdf", "adams"}, Presence::optional) == "adams" ? Method::adams : Method::bdf;
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
       if (duration > 0.0 && every > duration)
         run.fault("report_interval_s",

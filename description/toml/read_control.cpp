@@ -33,27 +33,19 @@ class ControlReader {
     root_.section("controller", [&](TableReader& controller) { read_controller(controller, control); });
     control.reference = read_reference(root_, folder_);
     root_.section("sensor", [&](TableReader& sensor) {
-      control.sensor.on_worm = sensor.choice("shaft", {"gear", "worm"}, Presence::optional) == "worm";
+      sensor.read_fields(control.sensor);
       if (control.sensor.on_worm && std::holds_alternative<SingleInertia<double>>(scenario_.mesh))
         sensor.fault("shaft", "sensor.shaft = \"worm\" needs a worm, but mesh.kind is \"none\"");
-      control.sensor.exact_speed = sensor.choice("speed", {"difference", "exact"}, Presence::optional) == "exact";
-      sensor.read_fields(control.sensor);
-      require_whole(sensor, "counts", control.sensor.counts);
-      require_whole(sensor, "seed", control.sensor.seed);
       for (const ControllerRejection& refusal : sensor_rejections(scenario_)) sensor.fault(refusal.key, refusal.what);
     });
     if (root_.has("disturbance"))
-      root_.section("disturbance", [&](TableReader& disturbance) {
-        disturbance.read_fields(control.disturbance);
-        require_whole(disturbance, "seed", control.disturbance.seed);
-      });
+      root_.section("disturbance", [&](TableReader& table) { table.read_fields(control.disturbance); });
     root_.section("metrics", [&](TableReader& metrics) { read_window(metrics, control.window); });
   }
 
  private:
   void read_controller(TableReader& table, ControlScenario& control) {
     table.read_fields(control.sampling);
-    require_whole(table, "delay_samples", control.sampling.delay);
     for (const ControllerRejection& refusal : sampling_rejections(scenario_)) table.fault(refusal.key, refusal.what);
     table.section("nominal", [&](TableReader& nominal) { nominal.read_fields(control.nominal); });
     table.section("variation", [&](TableReader& variation) {
@@ -80,17 +72,14 @@ class ControlReader {
   }
 
   static void read_anti_windup(TableReader& table, ControlScenario& control) {
-    const std::vector<std::string> methods(anti_windup_methods.begin(), anti_windup_methods.end());
     AntiWindupSettings& settings = control.anti_windup;
-    const auto method = table.choice("anti_windup", methods, Presence::optional);
     table.read_fields(settings);
-    if (!method) return;
-    settings.method = static_cast<AntiWindup>(std::find(methods.begin(), methods.end(), *method) - methods.begin());
+    const std::string method = table.peek("anti_windup").value_or("none");
     if (settings.tracking_time && !AntiWindupSettings::tracks(settings.method))
       table.fault("tracking_time_s",
                   fmt::format("controller.tracking_time_s has no effect with anti_windup = \"{}\"; remove it, or use "
                               "\"back_calculation\" or \"model_recovery\"",
-                              *method));
+                              method));
   }
 
   void read_window(TableReader& metrics, MetricsWindow& window) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "description/rejection.hpp"
-#include "description/toml/read_reference.hpp"
+#include "description/toml/table_reader.hpp"
 
 namespace wormdrive {
 void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
@@ -15,8 +15,6 @@ void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
       const bool on = reader.truth("on").value_or(true);
       Effect parameters;
       reader.read_fields(parameters);
-      if constexpr (requires { parameters.exponent; }) require_whole(reader, "exponent", parameters.exponent);
-      if constexpr (requires { parameters.tail; }) require_whole(reader, "tail", parameters.tail);
       reader.finish();
       if (on) effect = parameters;
     });

@@ -12,8 +12,9 @@ Samples read_samples(TableReader& table, std::string_view y_column, const std::s
                                   {y_column, unit::newton_metre},
                                   2},
                                  folder);
-  const auto interpolation = table.choice("interpolation", {"hold", "linear"}, Presence::optional);
-  return {pairs.x, pairs.y, interpolation == "linear" ? Interpolation::linear : Interpolation::hold};
+  Samples samples{pairs.x, pairs.y};
+  table.read_choices(samples);
+  return samples;
 }
 
 Signal read_signal(const std::vector<const toml::table*>& tables, const std::string& path, TableReader& parent,

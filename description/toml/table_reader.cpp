@@ -103,6 +103,8 @@ std::optional<double> TableReader::number(const Spelling& spelling, const Bounds
   } else if (!bounds.contain(*value * spelling.unit.si)) {
     fault(spelling.key, fmt::format("{} = {} {}", path, with_unit(fmt::format("{}", *value), spelling.unit),
                                     rule(bounds, spelling.unit)));
+  } else if (spelling.unit.whole && *value != std::floor(*value)) {
+    fault(spelling.key, fmt::format("{} = {} {}", path, *value, must_be_whole));
   } else {
     return *value * spelling.unit.si;
   }

@@ -24,12 +24,21 @@ class TableReader {
   /// From here on keys are spelled for this axis.
   void set_axis(Axis axis) { axis_ = axis; }
 
-  /// Reads all fields of a parameter struct; missing ones keep their value, faulty ones too.
+  /// Reads all fields and choices of a parameter struct; missing ones keep their value, faulty ones too.
   template <class Parameters>
   void read_fields(Parameters& parameters) {
+    read_choices(parameters);
     for_each_field<Parameters>([&](const auto& field) {
       if (const auto value = number(field.name, field.unit, field.bounds, field.presence, field.meaning))
         parameters.*field.member = *value;
+    });
+  }
+
+  template <class Parameters>
+  void read_choices(Parameters& parameters) {
+    for_each_choice<Parameters>([&](const auto& one) {
+      if (const auto word = choice(std::string(one.key), {one.words.begin(), one.words.end()}, Presence::optional))
+        one.set(parameters, *word);
     });
   }
 
@@ -105,6 +114,7 @@ class TableReader {
   std::vector<Missing> missing_;
 };
 
+inline constexpr std::string_view must_be_whole = "must be a whole number";
 /// "must be greater than 0 kg m^2": the rule that a field's bounds state, in its unit.
 std::string rule(const Bounds& bounds, const Unit& unit);
 /// "0.25 N m", a pure number without its unit.

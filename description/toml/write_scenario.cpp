@@ -3,12 +3,14 @@
 #include <cmath>
 #include <locale>
 #include <sstream>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "description/keys.hpp"
 #include "description/number_text.hpp"
+#include "description/tables.hpp"
 
 namespace wormdrive {
 namespace {
@@ -37,7 +39,12 @@ class Writer {
  public:
   explicit Writer(Axis axis) : axis_(axis) {}
 
-  void table(const std::string& header) { text_ += fmt::format("\n{}\n", header); }
+  /// Begins a table, unless it is that of the last call.
+  void table(const TablePlace& place) {
+    if (place.of == 1 && place.header == header_) return;
+    header_ = place.header;
+    text_ += place.of == 1 ? fmt::format("\n[{}]\n", header_) : fmt::format("\n[[{}]]\n", header_);
+  }
   void text(const std::string& key, const std::string& value) {
     std::ostringstream quoted;  // toml++ knows how to quote
     quoted.imbue(std::locale::classic());
@@ -46,7 +53,13 @@ class Writer {
   }
   template <class Parameters>
   void fields(const Parameters& parameters) {
+    choices(parameters);
     for_each_field<Parameters>([&](const auto& field) { value(field.name, field.unit, parameters.*field.member); });
+  }
+  template <class Parameters>
+  void choices(const Parameters& parameters) {
+    for_each_choice<Parameters>(
+        [&](const auto& one) { text(std::string(one.key), std::string(one.word(parameters))); });
   }
   void value(std::string_view name, const Unit& unit, const std::optional<double>& si) {
     if (!si || !std::isfinite(*si)) return;  // an infinite default is stated by absence
@@ -63,11 +76,11 @@ class Writer {
 
  private:
   Axis axis_;
-  std::string text_;
+  std::string text_, header_;
 };
 
 void write_parameters(Writer& out, const Samples& samples) {
-  out.text("interpolation", samples.interpolation == Interpolation::linear ? "linear" : "hold");
+  out.choices(samples);
   out.values("times", unit::second, samples.times);
   out.values("torques", unit::newton_metre, samples.values);
 }
@@ -79,63 +92,10 @@ void write_parameters(Writer& out, const TableReference& reference) {
   out.values("times", unit::second, reference.table.points());
   out.values("angles", unit::radian, reference.table.values());
 }
+void write_parameters(Writer&, const OpenLoopParameters&) {}  // whose torques are tables of their own
 template <class Parameters>
 void write_parameters(Writer& out, const Parameters& parameters) {
   out.fields(parameters);
-}
-
-template <class Kind>
-void write_kind(Writer& out, const std::string& header, const Kind& kind) {
-  out.table(header);
-  out.text("kind", std::string(Kind::kind));
-  write_parameters(out, kind);
-}
-
-/// Every term of a sum as a table of its own.
-template <class Sum>
-void write_terms(Writer& out, const std::string& path, const Sum& sum) {
-  for (const auto& term : sum.terms)
-    std::visit([&](const auto& t) { write_kind(out, fmt::format("[[{}]]", path), t); }, term);
-}
-
-template <class Load>
-void write_load(Writer& out, const Load& load) {
-  if constexpr (requires { load.terms; })
-    write_terms(out, "load", load);
-  else
-    write_kind(out, "[load]", load);
-}
-
-void write_control(Writer& out, const ControlScenario& control) {
-  out.table("[controller]");
-  std::visit(
-      [&](const auto& law) {
-        out.text("kind", std::string(law.kind));
-        out.fields(control.sampling);
-        if (winds_up(control.law)) {
-          out.text("anti_windup",
-                   std::string(anti_windup_methods[static_cast<std::size_t>(control.anti_windup.method)]));
-          out.fields(control.anti_windup);
-        }
-        if constexpr (requires { law.fields(); })
-          out.fields(law);
-        else
-          write_terms(out, "controller.torque", law.torque);
-      },
-      control.law);
-  out.table("[controller.nominal]");
-  out.fields(control.nominal);
-  out.table("[controller.variation]");
-  out.fields(control.variations);
-  write_terms(out, "reference", control.reference);
-  out.table("[sensor]");
-  out.text("shaft", control.sensor.on_worm ? "worm" : "gear");
-  out.text("speed", control.sensor.exact_speed ? "exact" : "difference");
-  out.fields(control.sensor);
-  out.table("[disturbance]");
-  out.fields(control.disturbance);
-  out.table("[metrics]");
-  out.fields(control.window);
 }
 
 }  // namespace
@@ -143,32 +103,17 @@ void write_control(Writer& out, const ControlScenario& control) {
 std::string to_toml(const Scenario& scenario) {
   Writer out(scenario.axis);
   out.text("title", scenario.title);
-  out.table("[mesh]");
-  const bool worm = std::holds_alternative<MeshParameters<double>>(scenario.mesh);
-  out.text("kind", worm ? "worm" : "none");
-  if (!worm) out.text("axis", scenario.axis == Axis::linear ? "linear" : "rotary");
-  std::visit([&](const auto& parameters) { out.fields(parameters); }, scenario.mesh);
-  write_terms(out, "motor.torque", scenario.motor);
-  std::visit([&](const auto& load) { write_load(out, load); }, scenario.load);
-  scenario.effects.for_each([&](const auto& effect) {
-    if (!effect) return;
-    out.table(fmt::format("[effect.{}]", effect->id));
-    out.fields(*effect);
+  for_each_table(scenario, [&]<class Parameters>(const TablePlace& place, const Parameters& parameters) {
+    out.table(place);
+    if constexpr (std::is_same_v<Parameters, MeshParameters<double>>) out.text("kind", "worm");
+    if constexpr (std::is_same_v<Parameters, SingleInertia<double>>) {
+      out.text("kind", "none");
+      out.text("axis", scenario.axis == Axis::linear ? "linear" : "rotary");
+    }
+    if constexpr (requires { Parameters::kind; }) out.text("kind", std::string(Parameters::kind));
+    write_parameters(out, parameters);
   });
-  out.table("[initial]");
-  out.fields(scenario.initial);
-  if (scenario.run.duration > 0.0) {  // else it was stated for statics or a diagnosis, without a [run]
-    out.table("[run]");
-    out.text("solver", scenario.run.solver == SolverKind::taylor ? "taylor" : "cvode");
-    out.text("method", scenario.run.method == Method::adams ? "adams" : "bdf");
-    out.fields(scenario.run);
-  }
-  if (scenario.control) write_control(out, *scenario.control);
-  if (scenario.tolerance) {
-    out.table("[tolerance]");
-    out.fields(*scenario.tolerance);
-  }
-  if (!scenario.columns.empty()) out.table("[data]");
+  if (!scenario.columns.empty()) out.table({"data"});
   for (const auto& [usual, called] : scenario.columns) out.text(usual, called);
   return out.take();
 }

@@ -12,7 +12,7 @@
 
 #include "description/one_line.hpp"
 #include "description/toml/document.hpp"
-#include "description/toml/read_reference.hpp"
+#include "description/toml/table_reader.hpp"
 #include "output/resource.hpp"
 #include "simulation/load_scenario.hpp"
 #include "sweep/study/read_design.hpp"
@@ -94,24 +94,16 @@ class StudyReader {
           faults_.add(stated_[k].where,
                       fmt::format("'{}' is the same number as '{}'; keep one of them", parameter.path, path));
       taken.emplace_back(found->place, parameter.path);
-      reject_broken_numbers(source, stated_[k]);
+      if (found->spelling.unit.whole) reject_broken_numbers(stated_[k]);
     }
     faults_.raise();
   }
 
-  /// Some numbers have to be whole: they are refused when they are moved by a hair.
-  void reject_broken_numbers(const ScenarioSource& source, const StatedParameter& stated) {
+  void reject_broken_numbers(const StatedParameter& stated) {
     if (only_whole_numbers(stated.parameter.distribution)) return;
-    std::vector<Setting> settings = settings_;
-    settings.push_back(setting(stated, quantile(stated.parameter.distribution, 0.5) * (1.0 + 0x1p-30) + 0x1p-40));
-    try {
-      source(settings);
-    } catch (const InputFault& fault) {
-      for (const Fault& f : fault.faults)
-        if (f.what.ends_with(must_be_whole))  // else a rule for several numbers at once, which trials are asked for
-          faults_.add(f.where, f.what + (in_table_ ? "; the column of the table must hold whole values"
-                                                   : "; use \"discrete\" with whole values"));
-    }
+    faults_.add(stated.where, fmt::format("{} {}; {}", stated.parameter.path, must_be_whole,
+                                          in_table_ ? "the column of the table must hold whole values"
+                                                    : "use \"discrete\" with whole values"));
   }
 
   void read_metrics() {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "description/toml/read_reference.hpp"
+#include "description/toml/table_reader.hpp"
 #include "description/variant_kinds.hpp"
 #include "statistics/random.hpp"
 
@@ -15,9 +15,7 @@ namespace {
 constexpr double most_trials = 1e12;  ///< whoever asks for more has slipped
 
 std::uint64_t whole(TableReader& table, const std::string& key, const Bounds& bounds, std::string_view meaning) {
-  const double value = table.number(key, unit::none, bounds, Presence::required, meaning).value_or(1.0);
-  require_whole(table, key, value);
-  return static_cast<std::uint64_t>(value);
+  return static_cast<std::uint64_t>(table.number(key, unit::whole, bounds, Presence::required, meaning).value_or(1.0));
 }
 
 class DesignReader {
@@ -66,8 +64,7 @@ class DesignReader {
   template <class Levelled>
   void read_levels(Levelled& design) {
     const Bounds range = bounds::between(1, 1e6);
-    const auto common = table_.number("levels", unit::none, range, Presence::optional, "levels of each parameter");
-    require_whole(table_, "levels", common.value_or(1.0));
+    const auto common = table_.number("levels", unit::whole, range, Presence::optional, "levels of each parameter");
     double combinations = 1.0;
     for (std::size_t k = 0; k < stated_.size(); ++k) {
       UncertainParameter& parameter = study_.parameters[k];
@@ -112,11 +109,9 @@ void read_kept(TableReader& table, Study& study) {
     table.fault("keep", fmt::format("sweep.keep names trial {}, which does not exist; the trials are 0 to {}", trial,
                                     study.trials() - 1));
   }
-  const double worst =
-      table.number("keep_worst", unit::none, bounds::between(0, 1e4), Presence::optional, "worst trials to be kept")
-          .value_or(0.0);
-  require_whole(table, "keep_worst", worst);
-  study.kept.worst = static_cast<std::uint64_t>(worst);
+  study.kept.worst = static_cast<std::uint64_t>(
+      table.number("keep_worst", unit::whole, bounds::between(0, 1e4), Presence::optional, "worst trials to be kept")
+          .value_or(0.0));
   study.kept.worst_by = table.text("keep_worst_by").value_or("");
 }
 
@@ -124,8 +119,7 @@ void read_kept(TableReader& table, Study& study) {
 
 void read_design(TableReader& table, Study& study, const std::vector<StatedParameter>& stated, DataColumns& data) {
   study.seed = static_cast<std::uint64_t>(
-      table.number("seed", unit::none, seeds, Presence::optional, "seed of all draws").value_or(0.0));
-  require_whole(table, "seed", static_cast<double>(study.seed));
+      table.number("seed", unit::whole, seeds, Presence::optional, "seed of all draws").value_or(0.0));
   study.common_random_numbers = table.truth("common_random_numbers").value_or(false);
   const auto kind = table.choice("design", kinds_of<DesignSettings>(), Presence::required);
   if (!kind) return table.ignore_unknown();  // which keys it may have hangs on its kind

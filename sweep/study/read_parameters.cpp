@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "description/toml/document.hpp"
-#include "description/toml/read_reference.hpp"
+#include "description/toml/table_reader.hpp"
 #include "description/variant_kinds.hpp"
 
 namespace wormdrive {
@@ -52,8 +52,7 @@ StatedParameter read_parameter(TableReader& table, const std::string& name, Data
     table.finish();
     return stated;
   }
-  stated.levels = table.number("levels", unit::none, bounds::between(1, 1e6), Presence::optional, "levels of a grid");
-  require_whole(table, "levels", stated.levels.value_or(1.0));
+  stated.levels = table.number("levels", unit::whole, bounds::between(1, 1e6), Presence::optional, "levels of a grid");
   const auto kind = table.choice("distribution", kinds_of<Distribution>(), Presence::required);
   if (!kind) {
     table.ignore_unknown();  // which keys it may have hangs on its kind

@@ -65,6 +65,7 @@ std::string broken(const json& schema, const json& value, const std::string& at)
                                            "minLength",
                                            "minimum",
                                            "maximum",
+                                           "multipleOf",
                                            "exclusiveMinimum",
                                            "exclusiveMaximum",
                                            "oneOf",
@@ -87,6 +88,8 @@ std::string broken(const json& schema, const json& value, const std::string& at)
       const double x = value;
       if ((key == "minimum" && x < rule) || (key == "maximum" && x > rule) ||
           (key == "exclusiveMinimum" && x <= rule) || (key == "exclusiveMaximum" && x >= rule))
+        return fmt::format("{} = {} breaks {}", at, x, key);
+      if (key == "multipleOf" && std::remainder(x, rule.get<double>()) != 0.0)
         return fmt::format("{} = {} breaks {}", at, x, key);
     }
     if (value.is_string() && key == "minLength" && value.get<std::string>().size() < rule) return at + " is too short";
@@ -137,7 +140,7 @@ std::string every_field(const std::string& header, Axis axis) {
     const Spelling s = spellings(field.name, field.unit, axis).front();
     const Bounds& b = field.bounds;
     const double low = std::max(b.low, -1.0), high = std::min(b.high, low + 2.0);
-    const bool whole = field.name == "exponent" || field.name == "tail" || field.name == "periods";
+    const bool whole = field.unit.whole;
     text += fmt::format("{} = {}\n", s.key, whole ? 2.0 : (low + 0.25 * (high - low)) / s.unit.si);
   });
   return text;

@@ -153,7 +153,8 @@ TEST_CASE(
 TEST_CASE("lanes: the same where a motor's limit is reached, whatever keeps the integral from winding up") {
   std::mt19937_64 random(16);
   std::vector<Scenario> scenarios;
-  for (const std::string_view method : anti_windup_methods)
+  const auto [anti_windup] = AntiWindupSettings::choices();
+  for (const std::string_view method : anti_windup.words)
     for (const char* law : {"fig10_sliding_014rad_bare.toml", "fig10_pid_014rad_bare.toml"})
       scenarios.push_back(
           varied(load_scenario(shipped(law),

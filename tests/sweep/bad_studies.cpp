@@ -96,6 +96,7 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
        "study.toml:15:8: error: 'mesh.friction' is the same number as 'mesh.friction'; keep one of them"},
       {"trials = 200", "trials = 0", "study.toml:6:10: error: sweep.trials = 0 must be at least 1 and at most 1e+12"},
       {"trials = 200", "trials = 2.5", "study.toml:6:10: error: sweep.trials = 2.5 must be a whole number"},
+      {"seed = 3", "seed = 1.5", "study.toml:7:8: error: sweep.seed = 1.5 must be a whole number"},
       {"design = \"monte_carlo\"", "design = \"random\"",
        "study.toml:5:10: error: sweep.design = \"random\" must be one of \"monte_carlo\", \"latin_hypercube\", "
        "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\", \"morris\""},
@@ -180,7 +181,7 @@ high = 2000
   const Outcome outcome = folder.sweep({});
   CHECK(outcome.exit == 2);
   CHECK(outcome.err ==
-        "study.toml:6:8: error: sensor.counts = 1500.0000013969848 must be a whole number; use \"discrete\" with "
+        "study.toml:6:8: error: sensor.counts must be a whole number; use \"discrete\" with "
         "whole values\n");
 }
 

@@ -48,9 +48,6 @@ Json control_to_json(const ControlScenario& control, Axis axis) {
     json[key] = Json::object();
     transfer(Writer{axis}, json[key], parameters);
   });
-  json["anti_windup"]["method"] = static_cast<int>(control.anti_windup.method);
-  json["sensor"]["exact_speed"] = control.sensor.exact_speed;
-  json["sensor"]["on_worm"] = control.sensor.on_worm;
   json["law"] = std::visit(
       [&](const auto& law) {
         Json at = kind_to_json(law, axis);
@@ -67,9 +64,6 @@ ControlScenario control_from_json(Json& json, Axis axis) {
   ControlScenario control;
   for_each_plain_table(control,
                        [&](const char* key, auto& parameters) { transfer(Reader{axis}, json.at(key), parameters); });
-  control.anti_windup.method = static_cast<AntiWindup>(json.at("anti_windup").at("method").get<int>());
-  json.at("sensor").at("exact_speed").get_to(control.sensor.exact_speed);
-  json.at("sensor").at("on_worm").get_to(control.sensor.on_worm);
   Json& stated = json.at("law");
   control.law = make_kind<ControllerParameters>(stated.at("kind").get<std::string>());
   std::visit(

@@ -43,16 +43,18 @@ struct Reader {
 template <class Direction, class Parameters>
 void transfer(const Direction& pass, Json& at, Parameters& parameters) {
   using P = std::remove_const_t<Parameters>;
+  for_each_choice<P>([&](const auto& one) {
+    if constexpr (Direction::reads)
+      one.set(parameters, at.at(one.key).template get<std::string>());
+    else
+      at[std::string(one.key)] = one.word(parameters);
+  });
   if constexpr (requires { P::fields(); }) {
     for_each_field<P>(
         [&](const auto& field) { pass(at, si_spelling(field, pass.axis).key, parameters.*field.member); });
-  } else if constexpr (requires { parameters.interpolation; }) {
+  } else if constexpr (requires { parameters.times; }) {
     pass(at, "times", parameters.times);
     pass(at, "values", parameters.values);
-    if constexpr (Direction::reads)
-      parameters.interpolation = at.at("linear").template get<bool>() ? Interpolation::linear : Interpolation::hold;
-    else
-      at["linear"] = parameters.interpolation == Interpolation::linear;
   } else if constexpr (requires { parameters.torques; }) {
     pass(at, "angles", parameters.angles);
     pass(at, "torques", parameters.torques);
