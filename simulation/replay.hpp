@@ -24,8 +24,8 @@ class Replay : public Drive {
       issued_ = 0;
     }
     // a torque that lags or is delayed hangs on everything that came before it
-    for (double next = next_knot(entered_); next < t; next = next_knot(next)) fold_into_parameters(next);
-    fold_into_parameters(t);
+    for (double next = next_knot(entered_); next < t; next = next_knot(next)) enter_piece(next);
+    enter_piece(t);
   }
   double next_knot(double t) const {
     const auto next = after(t);
@@ -33,7 +33,7 @@ class Replay : public Drive {
   }
 
  private:
-  void fold_into_parameters(double t) {
+  void enter_piece(double t) {
     Drive::enter(t);
     for (; issued_ < held_.size() && held_[issued_].t <= t; ++issued_) {
       Drive::disturb(held_[issued_].disturbance);

@@ -116,7 +116,7 @@ TEST_CASE("the audit counts every time that a guard came and went without an eve
 }
 
 TEST_CASE("the audit follows a gear that settles in a small share of the solver's steps") {
-  for (const double rate : {1.0, 1e2, 1e4, 1e5, 1e6, 1e7}) {  // [1/s]
+  for (const double rate : {1.0, 1e3, 1e5, 1e6}) {  // [1/s]
     constexpr double J = 0.02, amplitude = 3.0, frequency = 1.0;
     WormDrive system(GearMesh<double>::without_teeth(J), make_load(constant(0.0)),
                      effects(GearViscous<double>{J * rate}), Signal{{Sinusoid{amplitude, frequency}}});
