@@ -28,6 +28,7 @@
 #include "core/effects/position_friction.hpp"
 #include "core/effects/static_friction.hpp"
 #include "core/effects/stribeck.hpp"
+#include "core/effects/thread_friction.hpp"
 #include "core/effects/tooth_compliance.hpp"
 #include "core/effects/torque_gain.hpp"
 #include "core/effects/torque_offset.hpp"
@@ -55,11 +56,11 @@ template <class T>
 using EffectList =
     Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
              WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                                   // worm shaft
-             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, FrictionDrift, StaticFriction,  // mesh
-             TransmissionError, ToothCompliance, Backlash,                                                      // mesh
-             GearCoulomb, GearViscous, GearInertia,                 // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring,                  // load
-             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;  // sensor
+             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,         // mesh
+             FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,               // mesh
+             GearCoulomb, GearViscous, GearInertia,                                                     // gear shaft
+             LoadMagnitude, LoadAngle, LoadSpring,                                                      // load
+             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
 
 /// How many states all effects may have together.
 inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;

@@ -155,6 +155,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     if (!has_standard_friction(stated)) all.push_back(stribeck(m));
     all.push_back(linear("friction_asymmetry", "change", 0.04 * m.friction, -0.6 * m.friction, 0.6 * m.friction));
     all.push_back(periodic("position_friction", 0.05, 0.7));
+    all.push_back(periodic("thread_friction", 0.05, 0.7));
     all.push_back(linear("friction_drift", "share", 0.05, -0.7, 2.0));
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
     all.push_back(static_friction(m));
@@ -195,7 +196,7 @@ std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magni
     list.push_back({"encoder_offset", "nothing in the drive depends on where the zero of the angle is"});
   if (!m.has_teeth)
     for (const std::string_view effect :
-         {"stribeck", "friction_asymmetry", "position_friction", "friction_drift", "static_friction",
+         {"stribeck", "friction_asymmetry", "position_friction", "thread_friction", "friction_drift", "static_friction",
           "transmission_error", "mesh_friction", "backlash", "tooth_compliance"})
       list.push_back({effect, "the drive has no teeth"});
   if (!m.has_teeth)

@@ -114,6 +114,14 @@ TEST_CASE("position_friction: once per turn of the gear, greatest where angle an
   REQUIRE(std::abs(margin(eccentric, -mesh.C(0.25 * (1.0 + 0.2 * std::sin(0.8))) * 0.5, Motion::forward)) <= 1e-12);
 }
 
+TEST_CASE("thread_friction: once per turn of the worm, greatest where angle and phase are a quarter turn") {
+  const ThreadFriction<double> eccentric{.amplitude = 0.2, .phase = 0.5};
+  const double quarter = std::numbers::pi / 2;
+  REQUIRE(close(friction(eccentric, 0, (quarter - 0.5) / mesh.i, 1.0, Motion::forward), 0.25 * 1.2, 1e-15));
+  REQUIRE(close(friction(eccentric, 0, (-quarter - 0.5) / mesh.i, -1.0, Motion::backward), 0.25 * 0.8, 1e-15));
+  REQUIRE(close(friction(eccentric, 0, 0.7 / mesh.i, 0.0, Motion::stuck), 0.25 * (1.0 + 0.2 * std::sin(1.2)), 1e-15));
+}
+
 TEST_CASE("friction_drift: a share within a time, whatever moves") {
   const FrictionDrift<double> drift{.share = -0.4, .time = 8.0};
   REQUIRE(friction(drift, 0.0, 1.0, 1.0, Motion::forward) == 0.25);

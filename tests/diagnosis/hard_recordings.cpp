@@ -172,6 +172,14 @@ TEST_CASE("a spring is found though where it is slack shows only once it has a s
   CHECK(d.causes[0].effect == "load_spring");
 }
 
+TEST_CASE("friction that changes once per turn of the worm is named, stated numbers off within their tolerances too",
+          "[slow]") {
+  named_exactly(hard(2611, {{"thread_friction", 0.06}}));
+  const Diagnosis d = named_exactly(hard(2612, {{"thread_friction", 0.02}}, "realistic"));
+  REQUIRE(d.causes.size() == 1);
+  CHECK(std::abs(d.causes[0].parameters[0].value - 0.02) < 0.1 * 0.02);
+}
+
 TEST_CASE("less friction at one place of the gear is seen, and no name is claimed for it", "[slow]") {
   const auto [score, d] = answer(hard(76605843690817575U, {{"friction_spot", -0.2}}));
   CAPTURE(d.sentence);

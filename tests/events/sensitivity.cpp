@@ -62,7 +62,8 @@ Effects<double> one_of_each() {
                  Cogging<double>{0.001, 2.0, 0.3}, WormCoulomb<double>{0.006}, WormViscous<double>{4e-5},
                  BearingAsymmetry<double>{5e-4, 1e-5}, WormInertia<double>{2e-6}, Agma<double>{0.9},
                  MeshFriction<double>{0.01}, Stribeck<double>{0.03, 0.1, 1.0}, FrictionAsymmetry<double>{0.01},
-                 PositionFriction<double>{0.1, 0.4}, FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
+                 PositionFriction<double>{0.1, 0.4}, ThreadFriction<double>{0.05, 0.9},
+                 FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
                  GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},
                  LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
@@ -87,15 +88,16 @@ TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives b
 }
 
 TEST_CASE("they agree where the parameters are zero, as they are where a fit starts", "[slow]") {
-  const auto drive = lively(effects(
-      TorqueGain<double>{}, TorqueOffset<double>{}, Cogging<double>{0.0, 24.0, 0.3}, BearingAsymmetry<double>{},
-      WormInertia<double>{}, MeshFriction<double>{}, Stribeck<double>{0.0, 0.1, 2.0}, FrictionAsymmetry<double>{},
-      PositionFriction<double>{0.0, 0.4}, FrictionDrift<double>{0.0, 2.0}, GearViscous<double>{}, GearInertia<double>{},
-      LoadMagnitude<double>{}, LoadAngle<double>{}, LoadSpring<double>{0.0, 0.2}));
+  const auto drive = lively(effects(TorqueGain<double>{}, TorqueOffset<double>{}, Cogging<double>{0.0, 24.0, 0.3},
+                                    BearingAsymmetry<double>{}, WormInertia<double>{}, MeshFriction<double>{},
+                                    Stribeck<double>{0.0, 0.1, 2.0}, FrictionAsymmetry<double>{},
+                                    PositionFriction<double>{0.0, 0.4}, ThreadFriction<double>{0.0, 0.9},
+                                    FrictionDrift<double>{0.0, 2.0}, GearViscous<double>{}, GearInertia<double>{},
+                                    LoadMagnitude<double>{}, LoadAngle<double>{}, LoadSpring<double>{0.0, 0.2}));
   std::vector<Parameter> zero;
   for (const Parameter& p : continuous_parameters(drive))
     if (p.value == 0.0 && p.table != "initial") zero.push_back(p);
-  REQUIRE(zero.size() == 16);
+  REQUIRE(zero.size() == 17);
   const auto found = agreement(drive, zero, Timetable(0, duration, 0.0131));
   std::cout << "at zero: series against CVODES " << found.cvodes << ", against differences " << found.differences
             << "\n";

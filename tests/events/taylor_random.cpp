@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "events/audit.hpp"
+#include "simulation/replay.hpp"
 #include "support.hpp"
 
 // Random drives, loads, bearings and inputs: power series and CVODE tell the same story.
@@ -75,7 +76,8 @@ Comparison compare(const System& system, const typename System::Instant& start) 
   CvodeSolver<System> solver(again, tight(adams, 1e-8));
   AuditTrail<System, CvodeSolver<System>> trail{solver};
   simulate(again, solver, timetable, start, trail);
-  const AuditReport audit = Audit<System>(again).examine(trail);
+  Replay<System> replayed(again, {});  // a lag hangs on what was commanded before a segment
+  const AuditReport audit = Audit<Replay<System>>(replayed).examine(trail);
   double graze = std::numeric_limits<double>::infinity();
   for (const auto& [guard, closest] : audit.closest) graze = std::min(graze, closest.distance);
   double spacing = 1.0;
@@ -135,6 +137,7 @@ Effects<double> random_effects(Dice& dice) {
         Stribeck<double>{dice.between(0, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(3), 1.0 * dice.below(2)});
   maybe(dice, on, FrictionAsymmetry<double>{dice.between(-0.03, 0.03)});
   maybe(dice, on, PositionFriction<double>{dice.between(0, 0.3), dice.between(0, 6)});
+  maybe(dice, on, ThreadFriction<double>{dice.between(0, 0.3), dice.between(0, 6)});
   maybe(dice, on, FrictionDrift<double>{dice.between(-0.3, 0.3), duration});
   maybe(dice, on, StaticFriction<double>{dice.between(0, 0.05), dice.one_in(2) ? 0.0 : dice.between(0.05, 0.5)});
   maybe(dice, on, TransmissionError<double>{dice.between(-0.05, 0.05), dice.between(0, 6)});

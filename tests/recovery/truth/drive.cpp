@@ -109,6 +109,7 @@ class Machine {
     if (f.drop != 0.0) mu -= f.drop * fallen(f.fall, per_sliding_ * vw_ / f.fall_speed);
     if (f.asymmetry != 0.0 && vw_ != 0.0) mu += vw_ > 0.0 ? f.asymmetry : -f.asymmetry;
     if (f.wave != 0.0) mu *= 1.0 + f.wave * std::sin(y_ + f.wave_phase);
+    if (f.worm_wave != 0.0) mu *= 1.0 + f.worm_wave * std::sin(d_.geometry.ratio * y_ + f.worm_wave_phase);
     if (f.spot != 0.0) mu *= 1.0 + f.spot * std::exp(-std::pow((y_ - f.spot_angle) / f.spot_width, 2));
     mu *= 1.0 + f.drift * t / duration_;
     if (at_rest_) {

@@ -27,6 +27,7 @@ struct MeshFriction {
   Fall fall = Fall::gaussian;
   double asymmetry = 0.0;                                 ///< more forward, less backward
   double wave = 0.0, wave_phase = 0.0;                    ///< share over the gear angle
+  double worm_wave = 0.0, worm_wave_phase = 0.0;          ///< share over the worm angle
   double drift = 0.0;                                     ///< share gained until the end of the recording
   double rise = 0.0;                                      ///< of rest over motion, at once
   double dwell_rise = 0.0, dwell_time = 1.0;              ///< of rest, growing while it lasts

@@ -1,0 +1,41 @@
+#pragma once
+#include <cmath>
+#include <string_view>
+#include <tuple>
+
+#include "core/field.hpp"
+#include "core/numbers/portable.hpp"
+#include "core/place.hpp"
+#include "core/sliding_contact.hpp"
+
+namespace wormdrive {
+
+/// Friction changes once per turn of the worm: mu (1 + amplitude sin(theta_w + phase)).
+template <class T>
+struct ThreadFriction {
+  static constexpr std::string_view id = "thread_friction";
+  static constexpr Place place = Place::mesh;
+  static constexpr std::string_view cause = "the worm runs out of true, or its thread is worn over a part of the turn";
+  static constexpr std::string_view law = "mu (1 + amplitude sin(theta_w + phase))";
+  T amplitude{};
+  T phase{};
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&ThreadFriction::amplitude, "amplitude", unit::none, bounds::between(-1, 1),
+                            "largest change as a share of the friction"},
+                      Field{&ThreadFriction::phase, "phase", unit::degrees, bounds::any, "phase at worm angle zero"}};
+  }
+  double ripple(double i) const { return amplitude != T(0) ? i : 0.0; }
+  /// Coefficient of friction out of that without this effect.
+  template <class S>
+  S friction(const S& mu, const SlidingContact<S>& at) const {
+    using portable::sin;
+    return mu + mu * (amplitude * sin(at.theta_w + phase));
+  }
+  FrictionRange friction_range(const FrictionRange& mu, double) const {
+    const double share = std::abs(amplitude);
+    return {mu.low * (1.0 - share), mu.high * (1.0 + share)};
+  }
+};
+
+}  // namespace wormdrive
