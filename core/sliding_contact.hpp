@@ -13,6 +13,9 @@ struct SlidingContact : Moment<S> {
 /// Lowest and highest coefficient of friction that a drive may come to.
 struct FrictionRange {
   double low, high;
+
+  /// The same where friction rises and falls by a share of itself.
+  FrictionRange spread(double share) const { return {low * (1.0 - share), high * (1.0 + share)}; }
 };
 
 }  // namespace wormdrive

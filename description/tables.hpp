@@ -23,11 +23,14 @@ struct TablePlace {
   std::string indexed(std::size_t first = 0) const { return fmt::format("{}[{}]", header, k + first); }
 };
 
-/// Whether a table says how a drive is simulated or measured; every other one says what it is or how it is controlled.
+/// Whether a table holds single numbers that say what a drive is or how it is controlled, not how it is simulated or
+/// measured.
 template <class Parameters>
-inline constexpr bool is_about_a_run =
-    std::is_same_v<Parameters, RunSettings> || std::is_same_v<Parameters, Tolerances> ||
-    std::is_same_v<Parameters, MetricsWindow>;
+inline constexpr bool has_numbers_of_drive =
+    !std::is_same_v<Parameters, RunSettings> && !std::is_same_v<Parameters, Tolerances> &&
+    !std::is_same_v<Parameters, MetricsWindow> && requires {
+  Parameters::fields();
+};
 
 /// Calls visit(place, parameters) for every parameter struct that a scenario states, in the order of the file that
 /// to_toml() writes. A controller's law, sampling and anti-windup share one header. Structs without fields() are

@@ -134,7 +134,7 @@ class Audit {
     const double swing =
         std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
     steps = std::max(steps, std::lround(finer * swing * span / phase));
-    if constexpr (requires { system_.effects(); })  // a method without a Jacobian has to follow what settles fast
+    if constexpr (requires { system_.effects(); })  // advance() keeps them stable, this exact
       steps = std::max(steps, std::lround(finer * system_.effects().fastest_state() * span));
     const double h = span / static_cast<double>(steps);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -16,16 +17,17 @@ template <class ScenarioRef, class Visit>
 void for_each_plant_parameter(ScenarioRef& scenario, Visit&& visit) {
   for_each_table(scenario, [&]<class P>(const TablePlace& place, P& parameters) {
     using Parameters = std::remove_const_t<P>;
-    if constexpr (requires { Parameters::fields(); })
-      if constexpr (!is_about_a_run<Parameters>)
-        for_each_field<Parameters>([&](const auto& field) {
-          auto& value = parameters.*field.member;
-          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
-            if (std::isfinite(value)) visit(place.path(1), field, value);
-          } else if (value) {
-            visit(place.path(1), field, *value);
-          }
-        });
+    if constexpr (has_numbers_of_drive<Parameters>) {
+      const std::string path = place.path(1);
+      for_each_field<Parameters>([&](const auto& field) {
+        auto& value = parameters.*field.member;
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+          if (std::isfinite(value)) visit(path, field, value);
+        } else if (value) {
+          visit(path, field, *value);
+        }
+      });
+    }
   });
 }
 

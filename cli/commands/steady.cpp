@@ -143,7 +143,7 @@ void print_comparison(const Comparison& comparison, const std::string& data, con
       print_item("left out", fmt::format("{}: record {}: {} = {:g} is {:.0f} robust standard deviations "
                                          "from its record's median (limit {:.0f})",
                                          to_string({data, s.line}), record.name, torque, s.torque, s.deviations,
-                                         rules::implausible_deviations));
+                                         rules::impossible_deviations));
   print_item("compared",
              fmt::format("rms error {:.4f} mN m over {} mean torques of rms {:.4f} mN m", 1e3 * comparison.rms_error,
                          comparison.records.size(), 1e3 * comparison.rms_torque));

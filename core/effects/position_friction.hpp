@@ -32,10 +32,7 @@ struct PositionFriction {
     using portable::sin;
     return mu + mu * (amplitude * sin(at.theta_g + phase));
   }
-  FrictionRange friction_range(const FrictionRange& mu, double) const {
-    const double share = std::abs(amplitude);
-    return {mu.low * (1.0 - share), mu.high * (1.0 + share)};
-  }
+  FrictionRange friction_range(const FrictionRange& mu, double) const { return mu.spread(std::abs(amplitude)); }
 };
 
 }  // namespace wormdrive

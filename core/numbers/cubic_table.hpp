@@ -41,9 +41,8 @@ class CubicTable {
   template <class S>
   S operator()(const S& x) const {
     if constexpr (requires { look_up(*this, x); }) return look_up(*this, x);
-    if (x <= S(x_.front())) return S(y_.front());
+    if (!(x > S(x_.front()))) return x <= S(x_.front()) ? S(y_.front()) : x;  // or it is no number
     if (x >= S(x_.back())) return S(y_.back());
-    if (!(x > S(x_.front()))) return x;  // not a number
     const auto after = std::upper_bound(x_.begin(), x_.end(), x, [](const S& a, double b) { return a < S(b); });
     const Cubic c = cubic(static_cast<std::size_t>(after - x_.begin()) - 1);
     const S s = x - c.begin;

@@ -74,7 +74,9 @@ class ControlReader {
   static void read_anti_windup(TableReader& table, ControlScenario& control) {
     AntiWindupSettings& settings = control.anti_windup;
     table.read_fields(settings);
-    const std::string method = table.peek("anti_windup").value_or("none");
+    const auto [choice] = AntiWindupSettings::choices();
+    const std::string method(choice.word(settings)), key(choice.key);
+    if (table.has(key) && table.peek(key) != method) return;  // not one of its words, which was told
     if (settings.tracking_time && !AntiWindupSettings::tracks(settings.method))
       table.fault("tracking_time_s",
                   fmt::format("controller.tracking_time_s has no effect with anti_windup = \"{}\"; remove it, or use "

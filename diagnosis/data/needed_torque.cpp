@@ -4,8 +4,13 @@
 #include <cmath>
 
 #include "description/build.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
+
+std::size_t slope_half_width(double period) {
+  return static_cast<std::size_t>(std::max(rules::least_half_width, std::lround(rules::slope_half_width / period)));
+}
 
 MeasuredMotion measured_motion(const std::vector<double>& angle, double period, std::size_t half_width) {
   const auto n = static_cast<long>(angle.size()), w = static_cast<long>(half_width);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "description/scenario.hpp"
@@ -9,6 +10,9 @@ namespace wormdrive {
 struct MeasuredMotion {
   std::vector<double> angle, speed, acceleration;
 };
+
+/// Samples on either side from which a speed is taken; period [s].
+std::size_t slope_half_width(double period);
 
 /// Speed and acceleration out of an angle, by a parabola through `half_width` samples on either side.
 MeasuredMotion measured_motion(const std::vector<double>& angle, double period, std::size_t half_width);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
@@ -71,6 +72,8 @@ std::size_t telling_interval(const Recording& recording, const std::vector<std::
 
 }  // namespace
 
+bool is_held_out(std::size_t block) { return block % rules::held_out_every == rules::held_out_every - 1; }
+
 PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio) {
   PreparedRecording p;
   p.data = recording;
@@ -78,8 +81,7 @@ PreparedRecording prepared(const Recording& recording, std::size_t first_block, 
   const double Ts = recording.period;
   p.worm_angle = worm_at_gear(recording, ratio);
   p.worm_resolution = recording.worm_resolution / ratio;
-  const auto half_width =
-      static_cast<std::size_t>(std::max(rules::least_half_width, std::lround(rules::slope_half_width / Ts)));
+  const std::size_t half_width = slope_half_width(Ts);
   p.speed.resize(n);
   for (std::size_t k = 0, begin = 0; k <= recording.restarts.size(); ++k) {
     const std::size_t end = k < recording.restarts.size() ? recording.restarts[k] : n;
@@ -105,8 +107,7 @@ PreparedRecording prepared(const Recording& recording, std::size_t first_block, 
   }
   for (std::size_t k = 0; k < n; ++k) {
     p.used[k] = static_cast<double>(k) * Ts >= rules::burn_in && (p.data.valid.empty() || p.data.valid[k]);
-    const std::size_t block = first_block + k / p.block_length;
-    p.held_out[k] = block % rules::held_out_every == rules::held_out_every - 1;
+    p.held_out[k] = is_held_out(first_block + k / p.block_length);
   }
   // a prediction that starts anew has its speed from these samples, and is not to be judged by them
   for (const std::size_t restart : recording.restarts)

@@ -35,6 +35,9 @@ struct PreparedRecording {
   double duration() const { return static_cast<double>(samples()) * data.period; }
 };
 
+/// Whether a block is held out, counted through all recordings.
+bool is_held_out(std::size_t block);
+
 /// first_block: number of the recording's first block, counted through all recordings. ratio: worm angle over gear
 /// angle.
 PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio = 1.0);

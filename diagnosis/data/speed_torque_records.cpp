@@ -35,7 +35,7 @@ SpeedTorqueRecord summarise(const std::string& name, const std::vector<double>& 
   SpeedTorqueRecord record{name, 0.0, 0.0, 0, {}};
   std::vector<double> kept_speeds, kept_torques;
   for (std::size_t k = 0; k < torques.size(); ++k) {
-    if (distances[k] > rules::implausible_deviations * sigma) {
+    if (distances[k] > rules::impossible_deviations * sigma) {
       record.left_out.push_back({lines[k], torques[k], distances[k] / sigma});
     } else {
       kept_speeds.push_back(speeds[k]);

@@ -26,8 +26,7 @@ class TorqueJudge {
   TorqueJudge(const RecordedTable& table, const std::vector<double>& torque, const std::vector<double>& angle,
               double period)
       : table_(table),
-        half_width_(
-            static_cast<std::size_t>(std::max(rules::least_half_width, std::lround(rules::slope_half_width / period)))),
+        half_width_(slope_half_width(period)),
         motion_(measured_motion(angle, period, half_width_)),
         still_(std::max(rules::too_slow_for_torque * median_size(motion_.speed), 1e-9)),
         mean_(torque.size()) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/points.hpp"
 #include "statistics/student_t.hpp"
 
@@ -111,7 +112,7 @@ std::string PointComparison::doubt(const FittedModel& model) const {
     const PointCandidate& one = candidate(c.effect);
     if (!one.tolerated) continue;
     const double tolerances = std::abs(values[k] - c.centre) / one.coordinates.front().tolerance;
-    if (tolerances < rules::points::least_tolerances)
+    if (tolerances < rules::least_tolerances)
       return fmt::format("within its tolerance: {:.1f} standard deviations from what is stated", tolerances);
   }
   return "";

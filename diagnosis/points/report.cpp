@@ -11,7 +11,9 @@
 
 #include "description/keys.hpp"
 #include "diagnosis/fitting/signature.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/points.hpp"
+#include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 #include "statistics/student_t.hpp"
 
@@ -95,8 +97,7 @@ std::vector<Visibility> point_certificate(const PointFitter& fitter, const std::
     }
     seen.likeness = left > 0.0 ? 1.0 - nearest / left : 1.0;
     seen.nameable = nearest > 1e-9 * left ? size.scale * std::sqrt(limit / nearest) : infinity;
-    if (candidates[k].tolerated)
-      seen.nameable = std::max(seen.nameable, rules::points::least_tolerances * size.tolerance);
+    if (candidates[k].tolerated) seen.nameable = std::max(seen.nameable, rules::least_tolerances * size.tolerance);
     list.push_back(std::move(seen));
   }
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
@@ -162,7 +163,7 @@ void judge_points(Diagnosis& d, const PointSelection& selection, const std::vect
     d.sentence += left;
     return;
   }
-  if (!d.remainders.empty() && error.before < rules::points::most_of_the_work * error.after) {
+  if (!d.remainders.empty() && error.before < rules::most_of_the_error * error.after) {
     d.verdict = Verdict::unexplained;
     d.sentence = "The simulation lacks something that no effect of the catalogue explains." + left;
     for (RankedCandidate& c : d.ranking)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/points/classes.hpp"
+#include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/points.hpp"
 #include "statistics/parallel.hpp"
 
@@ -103,7 +104,7 @@ class Selector {
       if (!best) break;
       const auto steps = static_cast<double>(size - chosen.model.causes.size());
       if (chosen.rank() - best->rank() > steps * rules::points::least_bic &&
-          chosen.held_out - best->held_out > rules::points::least_held_out)
+          chosen.held_out - best->held_out > rules::least_held_out)
         chosen = *best;
     }
     return chosen;
@@ -137,7 +138,7 @@ class Selector {
     std::vector<Beside> pairs;
     for (const PointCandidate& one : comparison_.candidates())
       if (comparison_.fits_beside(one, chosen.model)) pairs.push_back({&chosen, &one});
-    return take_best(chosen, glances(pairs), rules::points::least_held_out, rules::points::least_bic);
+    return take_best(chosen, glances(pairs), rules::least_held_out, rules::points::least_bic);
   }
 
   /// Puts another effect in the place of one, if that is clearly better.
@@ -186,7 +187,7 @@ class Selector {
       if (!judgement.outcome.empty()) continue;
       if (judgement.delta_bic <= rules::points::least_bic)
         judgement.outcome = fmt::format("explains too little: dBIC at most {:g}", rules::points::least_bic);
-      else if (judgement.held_out_gain <= rules::points::least_held_out)
+      else if (judgement.held_out_gain <= rules::least_held_out)
         judgement.outcome = "does not predict data that the fit did not see";
       else
         judgement.outcome = fmt::format("adds too little to what is named: dBIC {:.1f}", added(model, one));

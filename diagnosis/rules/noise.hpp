@@ -38,10 +38,10 @@ inline constexpr double largest_change = 30.0;
 
 // Prediction error.
 
-/// s | set | how far ahead predictions are judged
-inline constexpr double horizons[] = {0.1, 0.25, 1.0};
 /// s | set | the horizon that the sentence of a diagnosis states
 inline constexpr double reported_horizon = 0.25;
+/// s | set | how far ahead predictions are judged
+inline constexpr double horizons[] = {0.1, reported_horizon, 1.0};
 /// rad^2 | derived | a motion that was missed altogether counts no more than by a radian
 inline constexpr double largest_square_error = 1.0;
 

@@ -1,17 +1,16 @@
 #pragma once
 #include <cstddef>
 
-/// When an effect is believed of records at constant speed and of break-in tables; the form is that of recordings.hpp.
+#include "diagnosis/rules/evidence.hpp"
+
+/// When an effect is believed of records at constant speed and of break-in tables, where that differs from recordings
+/// over time; the form is that of recordings.hpp.
 namespace wormdrive::rules::points {
 
 /// points | set | fewer show no law
 inline constexpr std::size_t fewest = 6;
 /// BIC | standard | strong evidence [Kass and Raftery 1995], for an effect
 inline constexpr double least_bic = 6.0;
-/// nats | standard | odds of twenty to one on points that the fit did not see, both ways together
-inline constexpr double least_held_out = 3.0;
-/// standard deviations | standard | as in a recording: how far off a stated number has to lie
-inline constexpr double least_tolerances = 3.5;
 /// BIC | derived | odds of ten to one: two models that differ by less are equally good
 inline constexpr double equally_good = 4.6;
 /// BIC | standard | hardly worth a mention [Kass and Raftery 1995]: of such models the one that predicts best
@@ -19,7 +18,7 @@ inline constexpr double equally_likely = 2.0;
 /// share of a signature | set | the other named effects can imitate an effect from here on
 inline constexpr double imitated = 0.95;
 /// BIC for each cause | standard | as in a recording: what a model with more causes has to gain
-inline constexpr double decisive_bic = 20.0;
+inline constexpr double decisive_bic = rules::least_bic;
 /// BIC | set | an effect that is exchanged for another has to gain more
 inline constexpr double least_exchange = 0.5;
 /// effects | set | at most, looked for at once, the same among those that nobody states
@@ -30,7 +29,5 @@ inline constexpr std::size_t most_models = 10, most_looked_at = 3;
 inline constexpr double near_bound = 1e-4;
 /// deviations | standard | one chance in seven hundred that neighbouring errors go together so
 inline constexpr double left_evidence = 3.0;
-/// times the error after | set | causes that lower it by more do most of the work
-inline constexpr double most_of_the_work = 3.0;
 
 }  // namespace wormdrive::rules::points

@@ -60,8 +60,6 @@ inline constexpr std::size_t spike_reach = 3;
 inline constexpr double least_spike = 0.5;
 /// samples | set | more spikes than one in so many are the torque itself
 inline constexpr std::size_t rarest_spike = 100;
-/// robust deviations | set | a sample of a record at constant speed that lies further off is left out
-inline constexpr double implausible_deviations = 20.0;
 
 // Recordings: the steps of an encoder, as its readings show them.
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "description/build.hpp"
+#include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/rules/noise.hpp"
-#include "diagnosis/rules/recordings.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
 #include "statistics/parallel.hpp"
@@ -153,7 +153,6 @@ class Scores {
     }
     return w;
   }
-  static bool is_held_out(std::size_t block) { return block % rules::held_out_every == rules::held_out_every - 1; }
 
   Solved solve(const Eigen::MatrixXd& V, Eigen::Index columns, bool less_held_out) const {
     Eigen::MatrixXd A;

@@ -23,11 +23,10 @@ void collect(const std::string& path, Parameters& parameters, Axis axis, std::ve
 std::vector<Variable> variables(Scenario& scenario) {
   std::vector<Variable> list;
   for_each_table(scenario, [&]<class Parameters>(const TablePlace& place, Parameters& parameters) {
-    if constexpr (requires { Parameters::fields(); })
-      if constexpr (!is_about_a_run<Parameters>) {
-        collect(place.path(), parameters, scenario.axis, list);
-        if (place.term && place.of == 1) collect(place.indexed(), parameters, scenario.axis, list);
-      }
+    if constexpr (has_numbers_of_drive<Parameters>) {
+      collect(place.path(), parameters, scenario.axis, list);
+      if (place.term && place.of == 1) collect(place.indexed(), parameters, scenario.axis, list);
+    }
   });
   return list;
 }

@@ -85,6 +85,8 @@ TEST_CASE("anti-windup that cannot be is reported") {
   check_rejected(Folder(), {
       {"an unknown method", but(eta, eta + "\nanti_windup = \"clamping\""),
        "s.toml:17:15: error: controller.anti_windup = \"clamping\" must be one of \"none\", \"back_calculation\", \"conditional\", \"model_recovery\""},
+      {"an unknown method with a time", but(eta, eta + "\nanti_windup = \"clamping\"\ntracking_time_s = 0.01"),
+       "s.toml:17:15: error: controller.anti_windup = \"clamping\" must be one of \"none\", \"back_calculation\", \"conditional\", \"model_recovery\""},
       {"a time that nothing tracks with", but(eta, eta + "\nanti_windup = \"conditional\"\ntracking_time_s = 0.01"),
        "s.toml:18:19: error: controller.tracking_time_s has no effect with anti_windup = \"conditional\"; remove it, or use \"back_calculation\" or "
        "\"model_recovery\""},

@@ -88,6 +88,13 @@ TEST_CASE("an angle table hits its points, holds its ends and is smooth everywhe
   }
 }
 
+TEST_CASE("a table gives back what is no number, and its end values beyond its points") {
+  const CubicTable table({0.0, 1.0, 2.0, 3.0}, {5.0, 6.0, 4.0, 7.0});
+  REQUIRE(std::isnan(table(std::numeric_limits<double>::quiet_NaN())));
+  for (const double x : {-std::numeric_limits<double>::infinity(), -1.0, 0.0}) REQUIRE(table(x) == 5.0);
+  for (const double x : {3.0, 4.0, std::numeric_limits<double>::infinity()}) REQUIRE(table(x) == 7.0);
+}
+
 TEST_CASE("an angle table is monotone between its points: a flat pair stays flat and no torque is overshot") {
   const auto load = make_load(AngleTable{.angles = {-1.0, -0.2, 0.1, 0.5, 2.0}, .torques = {0.4, 0.4, -0.3, 0.6, 0.1}});
   double lowest = 1.0, highest = -1.0, off_the_flat = 0.0;
