@@ -65,8 +65,7 @@ class ClosedLoop {
     const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
     if (!latched_.empty()) latched_.pop();
     const double limit = system.torque_limit();
-    const double angle =
-        on_worm_ ? encoder_(system.mesh().i * shown.angle, k_) / system.mesh().i : encoder_(shown.angle, k_);
+    const double angle = on_worm_ ? measured_on_worm(system, shown.angle) : encoder_(shown.angle, k_);
     if (k_ == 0) speed_.start(angle);
     const double difference = speed_(angle);
     const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired,
@@ -126,6 +125,13 @@ class ClosedLoop {
     angle[1] = on_worm_ ? at.omega_w / system.mesh().i : at.omega_g;
     const Series<double, 1> measured = system.effects().measured_angle(angle);
     return {measured[0], measured[1]};
+  }
+
+  /// Not inline: the compiler would divide at every sample, and the controller would wait for it.
+  template <class System>
+  [[gnu::noinline]] double measured_on_worm(const System& system, double angle) const {
+    const double i = system.mesh().i;
+    return encoder_(i * angle, k_) / i;
   }
 
   Control control_;
