@@ -98,7 +98,7 @@ MissingRows bridge_missing_rows(RecordedTable& table) {
     reject(table.where(), fmt::format("{} samples; a diagnosis needs at least {}", t.size(), rules::least_samples));
   refuse_disorder(table);
   MissingRows found{usual_step(t), {1}, {}};
-  if (found.step > rules::longest_period)
+  if (found.step > rules::longest_period * (1.0 + rules::even_enough))  // decimals of stamps round
     reject(table.where(), fmt::format("{} has steps of {:.3g} s; a diagnosis needs at most {} s (is {} in seconds?)",
                                       name, found.step, rules::longest_period, name));
   refuse_no_rate(table, found.step);

@@ -65,17 +65,26 @@ void refuse_rest(const RecordedTable& table, const RecordedValues& column, const
            fmt::format("{} is {:.6g} throughout: {}", column.name, column.in_file(values.front()), consequence));
 }
 
-/// A speed that is recorded beside the angle has to be its derivative.
+/// Where a speed leads to from 0.
+Values integral(const Values& speed, double period) {
+  Values angle(speed.size(), 0.0);
+  for (std::size_t k = 1; k < speed.size(); ++k) angle[k] = angle[k - 1] + 0.5 * period * (speed[k - 1] + speed[k]);
+  return angle;
+}
+
+/// A speed that is recorded beside the angle has to be its derivative. The slope of where it leads to is compared with
+/// that of the angle: both lose the same of what is fast for the log.
 void refuse_other_speed(const RecordedTable& table, double period, const Scenario& scenario) {
   if (table.speed.values.empty()) return;
-  constexpr std::size_t half_width = 12;
+  const std::size_t half_width = slope_half_width(period);
   const Values speed = measured_motion(table.angle.values, period, half_width).speed;
+  const Values recorded = measured_motion(integral(table.speed.values, period), period, half_width).speed;
   double product = 0.0, square = 0.0, other = 0.0;
   for (std::size_t k = 0; k < speed.size(); ++k) {
     if (table.crosses_pause(k, half_width)) continue;
-    product += speed[k] * table.speed.values[k];
+    product += speed[k] * recorded[k];
     square += speed[k] * speed[k];
-    other += table.speed.values[k] * table.speed.values[k];
+    other += recorded[k] * recorded[k];
   }
   if (square == 0.0 || other == 0.0) return;
   const double factor = product / square;
