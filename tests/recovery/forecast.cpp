@@ -40,11 +40,11 @@ frequency_Hz = 0.5
 from_s = 2
 )";
 
-/// The task for a drive, as TOML.
-std::string at_work(const wormdrive::Scenario& drive) {
-  return wormdrive::to_toml(wormdrive::parse_scenario(
-      wormdrive::to_toml(drive) + task, "task.toml",
-      {"run.solver=taylor", "run.duration_s=4", "run.report_interval_s=4"}, wormdrive::Purpose::run));
+/// A drive with the task.
+wormdrive::Scenario at_work(const wormdrive::Scenario& drive) {
+  return wormdrive::parse_scenario(wormdrive::to_toml(drive) + task, "task.toml",
+                                   {"run.solver=taylor", "run.duration_s=4", "run.report_interval_s=4"},
+                                   wormdrive::Purpose::run);
 }
 
 /// The data sheet with all in which the drive differs from it.
@@ -70,7 +70,7 @@ wormdrive::Study study_of(const std::string& stated, const wormdrive::Diagnosis&
   const std::string text =
       std::regex_replace(stated, std::regex("\ntrials = [0-9]+"), "\ntrials = " + std::to_string(trials));
   return wormdrive::parse_study("metrics = [\"error_rms\", \"error_max\", \"torque_peak\", \"torque_rms\"]\n" + text,
-                                at_work(median), "uncertainty.toml");
+                                wormdrive::to_toml(at_work(median)), "uncertainty.toml");
 }
 
 }  // namespace
@@ -88,8 +88,7 @@ std::vector<Forecast> forecast(const Case& drawn, const truth::Drive& drive, con
     for (std::size_t k = 0; k < trial.metrics.size(); ++k) possible_values[k].push_back(trial.metrics[k]);
   });
 
-  const wormdrive::Scenario truth =
-      wormdrive::parse_scenario(at_work(as_it_is(drawn, drive)), "truth.toml", {}, wormdrive::Purpose::run);
+  const wormdrive::Scenario truth = at_work(as_it_is(drawn, drive));
   const auto done = wormdrive::run_batch({&truth, 1}).front();
   if (const auto* const why = std::get_if<std::string>(&done))
     throw std::runtime_error("the true drive cannot do the task: " + *why);

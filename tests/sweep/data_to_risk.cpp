@@ -1,9 +1,10 @@
 #include <cmath>
 #include <numbers>
-#include <regex>
+#include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "cli/program.hpp"
 #include "description/toml/parse_scenario.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "diagnosis/report/uncertainty_study.hpp"
@@ -17,33 +18,11 @@ namespace {
 
 /// A motor that lifts a constant load with a constant torque, for a second.
 Scenario hoist() {
-  return parse_scenario(R"(title = "A hoist"
-[mesh]
-ratio = 60
-lead_angle_deg = 4
-pressure_angle_deg = 20
-worm_pitch_radius_m = 0.011
-gear_pitch_radius_m = 0.045
-friction = 0.25
-worm_inertia_kgm2 = 2.53e-5
-gear_inertia_kgm2 = 7.39e-4
-[motor.torque]
-kind = "constant"
-torque_Nm = 0.05
-[load]
-kind = "constant"
-torque_Nm = -0.2
-[effect.torque_offset]
-torque_Nm = 1e-3
-[effect.worm_coulomb]
-torque_Nm = 5e-3
-[effect.load_magnitude]
-share = 0.02
-[run]
-duration_s = 1
-solver = "taylor"
-)",
-                        "hoist.toml", {}, Purpose::run);
+  return parse_scenario(good_scenario, "hoist.toml",
+                        {"motor.torque.torque_Nm=0.05", "load.torque_Nm=-0.2", "effect.torque_offset.torque_Nm=1e-3",
+                         "effect.worm_coulomb.torque_Nm=5e-3", "effect.load_magnitude.share=0.02", "run.duration_s=1",
+                         "run.solver=taylor"},
+                        Purpose::run);
 }
 
 /// A diagnosis of it that leaves three numbers open, which depend on each other.
@@ -85,9 +64,8 @@ TEST_CASE("the risk that data leave is that of the closed form where all is line
   const double deviation = std::sqrt(variance);
 
   constexpr int trials = 20'000;
-  std::string text =
-      std::regex_replace(uncertainty_study(d), std::regex("\ntrials = 1000"), "\ntrials = " + std::to_string(trials));
-  text +=
+  const std::string text =
+      edited(uncertainty_study(d), "\ntrials = 1000", "\ntrials = " + std::to_string(trials)) +
       "\n[[threshold]]\nmetric = \"final_gear_speed\"\nbelow_rad_per_s = " + std::to_string(linear.speed - deviation) +
       "\n";
   const Study study = parse_study(text, to_toml(d.extended), "uncertainty.toml");
