@@ -82,7 +82,7 @@ std::vector<Addition> additions(const Scenario& with_pid) {
            table.angles.push_back(10.0 * k * degree);
            table.torques.push_back(0.0196 * x * std::cos(10.0 * k * degree));
          }
-         s.load = table;
+         s.load = LoadSum{{table}};
        }},
       {"load_spring",
        [](Scenario& s, double x) {

@@ -8,9 +8,9 @@
 
 namespace wormdrive {
 
-/// A load as it is stated. A function of time alone, an arm and a table alone are drives of their own, and everything
+/// A load as it is stated. A function of time alone and an arm alone are known to the formulas of solvers; everything
 /// else is a sum, if only of one.
-using LoadParameters = std::variant<Signal, GravityArm, AngleTable, LoadSum>;
+using LoadParameters = std::variant<Signal, GravityArm, LoadSum>;
 
 /// What loads that add up come to, each in its plainest form.
 inline LoadParameters load_of(std::vector<LoadTerm> terms) {
@@ -22,11 +22,19 @@ inline LoadParameters load_of(std::vector<LoadTerm> terms) {
         },
         term);
   if (over_time.terms.size() == terms.size()) return over_time;
-  if (terms.size() == 1) {
+  if (terms.size() == 1)
     if (const auto* const arm = std::get_if<GravityArm>(&terms.front())) return *arm;
-    if (const auto* const table = std::get_if<AngleTable>(&terms.front())) return *table;
-  }
   return LoadSum{std::move(terms)};
+}
+
+/// The same in the form that every load has.
+inline LoadSum sum_of(const LoadParameters& load) {
+  if (const auto* const sum = std::get_if<LoadSum>(&load)) return *sum;
+  if (const auto* const arm = std::get_if<GravityArm>(&load)) return {{*arm}};
+  LoadSum sum;
+  for (const SignalTerm& term : std::get<Signal>(load).terms)
+    std::visit([&](const auto& t) { sum.terms.emplace_back(t); }, term);
+  return sum;
 }
 
 /// Calls visit.template operator()<Load>() for every kind of load but the functions of time.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -93,30 +94,10 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// with Rounded for a scalar every coefficient knows its rounding.
   template <int N, class C = T>
   MomentHere<Series<C, N>> ahead(const Instant& now) const {
-    using Flow = Series<C, N>;
-    MomentHere<Flow> at = moment_at(Flow::variable(C(now.t)), now.x);
-    if constexpr (N > 0) {
-      const MomentHere<C> here = resting(moment_at(C(now.t), now.x), now);
-      at.theta_g[1] = now.x[1];
-      at.omega_g[1] = acceleration(here, now.mode);
-      if constexpr (with_states) {
-        const auto rates = state_rates(here);
-        for (std::size_t j = 0; j < rates.size(); ++j) at.states[j][1] = rates[j];
-      }
-      this->turn_worm(at);
-    }
-    for (int k = 1; k < N; ++k) {
-      const Flow a = acceleration(at, now.mode);
-      if constexpr (with_states) {
-        const auto rates = state_rates(at);
-        for (std::size_t j = 0; j < rates.size(); ++j) at.states[j][k + 1] = rates[j][k] / C(k + 1);
-      }
-      at.theta_g[k + 1] = at.omega_g[k] / C(k + 1);
-      at.omega_g[k + 1] = a[k] / C(k + 1);
-      this->turn_worm(at);
-    }
-    return resting(at, now);
+    return along<Series<C, N>>(now, N);
   }
+  /// The same to any order up to highest_series.
+  MomentHere<OpenSeries<T>> ahead(const Instant& now, int order) const { return along<OpenSeries<T>>(now, order); }
 
   /// The state at a moment, in the order of State.
   template <class S, template <class> class M>
@@ -181,13 +162,23 @@ class WormDrive : public TorqueBalance<T, Load> {
       const Motion reversed = now.mode.motion == Motion::forward ? Motion::backward : Motion::forward;
       now.mode = starts(now, reversed) ? moving(now, reversed) : Mode{};
     } else {
-      now.mode.flank = flank_after_crossing(now);
+      // the other one, unless the surface is only touched
+      const auto beyond = beyond_surface(ahead<deciding, Rounded>(now), now.mode.motion);
+      now.mode.flank = flank_just_after(beyond, now.t, across_surface(now.mode).flank);
     }
     return now;
   }
   /// The same where it is known already that the switching surface is crossed and not only touched.
   static Mode across_surface(Mode mode) {
     return {mode.motion, mode.flank == Flank::left ? Flank::right : Flank::left};
+  }
+
+  /// The flank that carries at a distance beyond_surface(tau, at) far from the surface; nothing where it is not far.
+  std::optional<Flank> flank_by_far(const SideTorques<T>& tau, const T& distance) const {
+    using std::abs;
+    // no input or drive moves a torque by a thousandth within the resolution of time, and rounding is far below it
+    const bool far = abs(distance) > T(1e-3) * (abs(tau.worm) + abs(surface() * tau.gear));
+    return far || !mesh().has_teeth ? std::optional(flank_at(distance)) : std::nullopt;
   }
 
   /// The mode in which the drive goes on after inputs or state were set from outside; ties mean stick.
@@ -200,8 +191,6 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   /// The gear angle that the sensor sees [rad].
   T measured_angle(const Instant& now) const { return effects().measured_angle(now.x[0]); }
-
-  // ---- what is reported ---------------------------------------------------------------------------------------
 
   Observation observe(const Instant& now) const requires std::same_as<T, double> {
     const MomentHere<double> at = moment(now);
@@ -218,6 +207,28 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 
  private:
+  template <class Flow>
+  MomentHere<Flow> along(const Instant& now, int order) const {
+    using C = ConstantOf<Flow>;
+    MomentHere<Flow> at = moment_at(Flow::variable(C(now.t), 1), now.x);
+    const int last = at.t.within(order);
+    const auto extend = [&](int k, const auto& known, const auto& coefficient) {
+      const auto over = [k](const C& x) { return k == 0 ? x : x / C(k + 1); };
+      const auto a = acceleration(known, now.mode);
+      if constexpr (with_states) {
+        const auto rates = state_rates(known);
+        for (std::size_t j = 0; j < rates.size(); ++j) at.states[j].append(k + 1, over(coefficient(rates[j])));
+      }
+      at.t.know(k + 1);
+      at.theta_g.append(k + 1, over(at.omega_g[k]));
+      at.omega_g.append(k + 1, over(coefficient(a)));
+      this->turn_worm(at);
+    };
+    if (last > 0) extend(0, resting(moment_at(C(now.t), now.x), now), [](const C& x) { return x; });
+    for (int k = 1; k < last; ++k) extend(k, at, [k](const Flow& x) { return x[k]; });
+    return resting(at, now);
+  }
+
   /// A moment from a state, whatever its scalar.
   template <class S, class X>
   [[gnu::always_inline]] MomentHere<S> moment_at(const S& t, const X& x) const {
@@ -238,7 +249,7 @@ class WormDrive : public TorqueBalance<T, Load> {
     if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
     return at;
   }
-  static constexpr int order = 3;  ///< of the series that decide what happens just after an event
+  static constexpr int deciding = 3;  ///< order of the series that decide what happens just after an event
 
   /// The acceleration that motion from rest would have, on the flank that this motion would load.
   template <class S, template <class> class M>
@@ -247,14 +258,12 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
   template <class S>
   Flank flank_at(const S& beyond) const {
-    if (!mesh().has_teeth) return Flank::none;
-    return beyond <= S(T(0)) ? Flank::left : Flank::right;
+    return !mesh().has_teeth ? Flank::none : beyond <= S(T(0)) ? Flank::left : Flank::right;
   }
   /// On the surface itself, the flank just after.
   template <int N>
   Flank flank_at(const Series<Rounded, N>& beyond) const {
-    if (!mesh().has_teeth) return Flank::none;
-    return sign_just_after(beyond, 0.0) > 0 ? Flank::right : Flank::left;
+    return !mesh().has_teeth ? Flank::none : sign_just_after(beyond, 0.0) > 0 ? Flank::right : Flank::left;
   }
 
   /// Whether the gear starts from rest in this direction. An acceleration that is not more than what is not known of it
@@ -269,25 +278,17 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
   Mode moving(const Instant& now, Motion motion) const {
-    using std::abs;
     if (!mesh().has_teeth) return {motion, Flank::none};
     const MomentHere<T> at = moment(now);
     const SideTorques<T> tau = side_torques(at, motion);
     const T distance = beyond_surface(tau, at);
-    const Flank now_on = flank_at(distance);
-    // no input or drive moves a torque by a thousandth within the resolution of time, and rounding is far below it
-    if (abs(distance) > T(1e-3) * (abs(tau.worm) + abs(surface() * tau.gear))) return {motion, now_on};
-    const Instant then{now.t, now.x, {motion, now_on}, now.since};
-    return {motion, flank_just_after(beyond_surface(ahead<order, Rounded>(then), motion), now.t, Flank::left)};
+    if (const auto flank = flank_by_far(tau, distance)) return {motion, *flank};
+    const Instant then{now.t, now.x, {motion, flank_at(distance)}, now.since};
+    return {motion, flank_just_after(beyond_surface(ahead<deciding, Rounded>(then), motion), now.t, Flank::left)};
   }
 
-  /// The flank behind a crossing of the switching surface: the other one, unless the surface is only touched.
-  Flank flank_after_crossing(const Instant& now) const {
-    const auto beyond = beyond_surface(ahead<order, Rounded>(now), now.mode.motion);
-    return flank_just_after(beyond, now.t, across_surface(now.mode).flank);
-  }
   /// The flank that carries the load just after t; the other argument where nothing decides.
-  static Flank flank_just_after(const Series<Rounded, order>& beyond, double t, Flank undecided) {
+  static Flank flank_just_after(const Series<Rounded, deciding>& beyond, double t, Flank undecided) {
     const int side = sign_just_after(beyond, time_resolution(t));
     return side == 0 ? undecided : side > 0 ? Flank::right : Flank::left;
   }

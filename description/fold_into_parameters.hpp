@@ -23,10 +23,15 @@ Effects<double> fold_into_parameters(Effects<double> effects, GearMesh<double>& 
     take(std::get<std::optional<WormInertia<double>>>(list), [&](const auto& more) { mesh.Jg += more.inertia; });
     take(std::get<std::optional<GearInertia<double>>>(list), [&](const auto& more) { mesh.Jg += more.inertia; });
   }
-  if constexpr (std::is_same_v<Load, GravityLoad>) {
+  GravityLoad* arm = nullptr;
+  if constexpr (std::is_same_v<Load, GravityLoad>)
+    arm = &load;
+  else if constexpr (std::is_same_v<Load, SummedLoad>)
+    arm = load.lone_arm();
+  if (arm != nullptr) {
     take(std::get<std::optional<LoadMagnitude<double>>>(list),
-         [&](const auto& magnitude) { load.amplitude += magnitude.share * load.amplitude; });
-    take(std::get<std::optional<LoadAngle<double>>>(list), [&](const auto& angle) { load.offset += angle.shift; });
+         [&](const auto& magnitude) { arm->amplitude += magnitude.share * arm->amplitude; });
+    take(std::get<std::optional<LoadAngle<double>>>(list), [&](const auto& angle) { arm->offset += angle.shift; });
   }
   return effects;
 }

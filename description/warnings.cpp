@@ -19,7 +19,7 @@ std::vector<std::string> control_warnings(const Scenario& scenario) {
   if (!scenario.control) return list;
   const NominalSettings& stated = scenario.control->nominal;
   if (has_model(scenario.control->law) && !is_estimable(scenario) && !stated.load_torque && !stated.load_constant)
-    list.push_back(std::holds_alternative<LoadSum>(scenario.load)
+    list.push_back(sum_of(scenario.load).terms.size() > 1
                        ? "the controller knows arms and constants of the load only; state [controller.nominal]"
                        : "the controller assumes no load because the load is neither an arm nor a constant; state "
                          "[controller.nominal]");

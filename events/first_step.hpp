@@ -25,7 +25,7 @@ class FirstStep {
   /// From now on, no further than limit [s] and max_step.
   FirstStep(const System& system, const Instant& now, double limit, double max_step, const SolverSettings& settings)
       : system_(system), begin_(now), accuracy_(settings) {
-    const auto at = system.template ahead<order + 1>(now);
+    const auto at = system.ahead(now, order + 1);
     const auto start = system.template ahead<leading, Rounded>(now);
     const auto flow = System::state_at(at);
     const auto rounded = System::state_at(start);
@@ -73,7 +73,7 @@ class FirstStep {
 
   /// Coefficients without those that are rounding; a value is what it is. Before one that counts, none does that
   /// whoever let the motion begin could not judge.
-  static void take(const Series<double, order + 1>& from, const Series<Rounded, leading>& rounded, Coefficients& to) {
+  static void take(const OpenSeries<double>& from, const Series<Rounded, leading>& rounded, Coefficients& to) {
     int decides = 1;
     while (decides <= leading && std::abs(rounded[decides].value) <= blur(rounded, decides, 0.0)) ++decides;
     if (decides > leading) decides = 1;

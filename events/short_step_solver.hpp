@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
@@ -22,6 +23,20 @@ class ShortStepSolver {
 
   /// longest [s]: no step is longer. The system must outlive the solver; its inputs may change between restarts.
   ShortStepSolver(const System& system, double longest) : system_(system), longest_(longest) {}
+
+  /// The mode in which the system goes on after inputs or state were set from outside. What decides it is known to the
+  /// step that begins here.
+  Mode settle(const Instant& now) {
+    settled_at_.reset();
+    if (now.mode.motion == Motion::stuck || now.x[1] == 0.0) return system_.settle(now);
+    const Motion motion = now.x[1] > 0.0 ? Motion::forward : Motion::backward;
+    const Torques torques = torques_at(now.t, now.x[0], now.x[1], motion);
+    const auto flank = system_.flank_by_far(torques.sides, torques.beyond);
+    if (!flank) return system_.settle(now);
+    settled_at_ = now.t;
+    settled_ = torques;
+    return {motion, *flank};
+  }
 
   /// Takes up a new state.
   void restart(const Instant& now) {
@@ -50,21 +65,33 @@ class ShortStepSolver {
   static constexpr double most_bend = 1e-4;
   static constexpr double shortest_share = 1.0 / 64.0;
 
+  struct Torques {
+    Moment<double> moment;
+    typename System::template SideTorques<double> sides;
+    double beyond;
+  };
+  Torques torques_at(double t, double theta_g, double omega_g, Motion motion) {
+    ++count_.evaluations;
+    const Moment<double> moment = system_.moment(t, theta_g, omega_g);
+    const auto sides = system_.side_torques(moment, motion);
+    return {moment, sides, system_.beyond_surface(sides, moment)};
+  }
+  bool knows(const Instant& now) const {
+    return settled_at_ == now.t && settled_.moment.theta_g == now.x[0] && settled_.moment.omega_g == now.x[1];
+  }
   struct Node {
     double acceleration, beyond;
   };
+  Node node(const Torques& t) const { return {system_.acceleration(t.sides, t.moment, begin_.mode), t.beyond}; }
   Node node(double t, double theta_g, double omega_g) {
-    ++count_.evaluations;
-    const auto moment = system_.moment(t, theta_g, omega_g);
-    const auto torques = system_.side_torques(moment, begin_.mode.motion);
-    return {system_.acceleration(torques, moment, begin_.mode), system_.beyond_surface(torques, moment)};
+    return node(torques_at(t, theta_g, omega_g, begin_.mode.motion));
   }
 
   /// The polynomials from now on to the first event or to the end of the step.
   void step(const Instant& now, double limit) {
     begin_ = now;
     const double most = std::min(limit - now.t, longest_), x = now.x[0], v = now.x[1];
-    const Node first = node(now.t, x, v);
+    const Node first = knows(now) ? node(settled_) : node(now.t, x, v);
     const double a0 = first.acceleration;
     for (double h = most;; h *= 0.5) {
       const Node middle = node(now.t + 0.5 * h, x + 0.5 * h * (v + 0.25 * h * a0), v + 0.5 * h * a0);
@@ -132,6 +159,8 @@ class ShortStepSolver {
   std::array<double, 3> a_{};  ///< acceleration over the share of the step [rad/s^2]
   int fired_ = no_guard;       ///< the guard that falls through zero at the end
   std::array<bool, 2> armed_{};
+  std::optional<double> settled_at_;  ///< [s]
+  Torques settled_{};                 ///< in the direction of the speed
   RootSearch search_;
   SolverStatistics count_{};
 };

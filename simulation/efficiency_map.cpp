@@ -50,8 +50,8 @@ std::vector<OperatingPoint> efficiency_map(Scenario scenario, const std::vector<
   for (const double speed : worm_speeds)
     for (const double load : load_torques) {
       scenario.load = Signal{{Constant{load}}};
-      map.push_back(with_drive(
-          scenario, [&](auto& drive) { return operating_point(drive, scenario.initial.theta_g, speed, load); }));
+      auto drive = make_drive(scenario);
+      map.push_back(operating_point(drive, scenario.initial.theta_g, speed, load));
     }
   return map;
 }

@@ -4,10 +4,8 @@
 namespace wormdrive {
 
 RunSummary run_compliant(const Scenario& scenario, const RunListeners& listeners) {
-  return with_drive(scenario, [&](auto& rigid) {
-    CompliantDrive compliant(std::move(rigid), tooth_contact(scenario.effects));
-    return run_drive(compliant, scenario, listeners);
-  });
+  CompliantDrive drive(make_drive(scenario), tooth_contact(scenario.effects));
+  return run_drive(drive, scenario, listeners);
 }
 
 }  // namespace wormdrive

@@ -8,7 +8,7 @@ namespace wormdrive {
 RunSummary run_scenario(const Scenario& scenario, const RunListeners& listeners) {
   if (has_elastic_teeth(scenario.effects)) return run_compliant(scenario, listeners);
   if (scenario.effects.have_states()) return run_with_states(scenario, listeners);
-  return with_drive(scenario, [&](auto& drive) { return run_drive(drive, scenario, listeners); });
+  return with_drive_for_runs(scenario, [&](auto& drive) { return run_drive(drive, scenario, listeners); });
 }
 
 Trajectory simulate_scenario(const Scenario& scenario) {

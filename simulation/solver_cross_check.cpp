@@ -105,8 +105,12 @@ Scenario with_cvode(Scenario scenario) {
 Disagreement cross_check(const Scenario& scenario) {
   const SolverCrossCheck told = testimony_of(scenario);
   const Scenario again = with_cvode(scenario);
-  const auto again_by = [&](auto& drive) { return replayed(drive, again, told); };
-  return again.effects.have_states() ? with_drive<true>(again, again_by) : with_drive(again, again_by);
+  if (again.effects.have_states()) {
+    auto drive = make_drive<true>(again);
+    return replayed(drive, again, told);
+  }
+  auto drive = make_drive(again);
+  return replayed(drive, again, told);
 }
 
 LoopCrossCheck cross_check_in_the_loop(const Scenario& scenario) {

@@ -7,10 +7,9 @@ namespace wormdrive {
 /// The motor torque [N m] that keeps the drive of a scenario at a worm speed other than 0 [rad/s], with the load of
 /// time 0 and the initial angle.
 inline double steady_torque(const Scenario& scenario, double worm_speed) {
-  return with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    return steady_torque(drive, worm_speed, scenario.initial.theta_g, 0.0);
-  });
+  auto drive = make_drive(scenario);
+  drive.enter(0.0);
+  return steady_torque(drive, worm_speed, scenario.initial.theta_g, 0.0);
 }
 
 /// The commands to the motor [N m] from the lowest to the highest under which the drive of a scenario stays at rest, at
@@ -19,13 +18,11 @@ struct RestAtStart {
   double low, high, load;
 };
 inline RestAtStart rest_at_start(const Scenario& scenario) {
-  return with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    const double at = scenario.initial.theta_g;
-    return RestAtStart{break_in_torque(drive, Motion::backward, at, 0.0),
-                       break_in_torque(drive, Motion::forward, at, 0.0),
-                       drive.inputs(drive.moment(0.0, at, 0.0), Motion::stuck).gear};
-  });
+  auto drive = make_drive(scenario);
+  drive.enter(0.0);
+  const double at = scenario.initial.theta_g;
+  return {break_in_torque(drive, Motion::backward, at, 0.0), break_in_torque(drive, Motion::forward, at, 0.0),
+          drive.inputs(drive.moment(0.0, at, 0.0), Motion::stuck).gear};
 }
 
 }  // namespace wormdrive

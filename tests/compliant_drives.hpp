@@ -8,12 +8,12 @@
 
 namespace wormdrive::test {
 
-template <class Load>
-auto compliant(const MeshParameters<double>& p, const Load& load, const Signal& motor,
-               const ToothContact<double>& contact, Effects<double> on = {}) {
-  auto rigid = drive(p, load, motor, std::move(on));
-  return CompliantDrive(std::move(rigid), contact);
+using ElasticDrive = CompliantDrive<double, SummedLoad>;
+inline ElasticDrive compliant(const MeshParameters<double>& p, const LoadParameters& load, const Signal& motor,
+                              const ToothContact<double>& contact, Effects<double> on = {}) {
+  return {drive(p, sum_of(load), motor, std::move(on)), contact};
 }
+extern WORMDRIVE_TEST_RUN(ElasticDrive);
 
 /// A frictionless gear with a ratio of 1 whose teeth have a lever arm of 1 m on both shafts.
 inline MeshParameters<double> unit_arms(double Jw, double Jg) {

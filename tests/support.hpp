@@ -153,12 +153,14 @@ Run<System> run(System system, const Timetable& timetable, typename System::Inst
 }
 
 // The runs of most tests are compiled once, in support.cpp.
-#define WORMDRIVE_TEST_RUN(Drive)                                                                              \
+#define WORMDRIVE_TEST_RUN(Drive) \
   template Run<Drive> run(Drive, const Timetable&, typename Drive::Instant, const SolverSettings&, NoController&)
 using TimedDrive = WormDrive<double, TimedLoad>;
 using ArmDrive = WormDrive<double, GravityLoad>;
+using SumDrive = WormDrive<double, SummedLoad>;
 extern WORMDRIVE_TEST_RUN(TimedDrive);
 extern WORMDRIVE_TEST_RUN(ArmDrive);
+extern WORMDRIVE_TEST_RUN(SumDrive);
 
 // ---- reference data ---------------------------------------------------------------------------------------------
 

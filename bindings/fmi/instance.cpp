@@ -39,11 +39,10 @@ void FmuInstance::begin() {
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
   if (const auto id = set.effects.first_with_states(); !id.empty())
     throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
-  const auto take = [&]<class Drive>(Drive drive) {
-    if (type_ == InterfaceType::model_exchange) {
-      state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
-      return;
-    }
+  const auto move_from_outside = [&]<class Drive>(Drive drive) {
+    state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
+  };
+  const auto solve_inside = [&]<class Drive>(Drive drive) {
     if constexpr (solved_inside<Drive>) {
       const double tolerance = std::min(state_.experiment.tolerance.value_or(1.0), set.run.relative_tolerance);
       StepRun<Drive> run(std::move(drive), model_, state_.time, state_.torque, tolerance);
@@ -51,12 +50,17 @@ void FmuInstance::begin() {
       state_.run.emplace(std::move(run));
     }
   };
-  with_drive(set, [&](auto& drive) {
-    if (has_elastic_teeth(set.effects))
-      take(CompliantDrive(std::move(drive), tooth_contact(set.effects)));
+  if (has_elastic_teeth(set.effects)) {
+    CompliantDrive drive(make_drive(set), tooth_contact(set.effects));
+    if (type_ == InterfaceType::model_exchange)
+      move_from_outside(std::move(drive));
     else
-      take(std::move(drive));
-  });
+      solve_inside(std::move(drive));
+  } else if (type_ == InterfaceType::model_exchange) {
+    move_from_outside(make_drive(set));
+  } else {
+    with_drive_for_runs(set, [&](auto& drive) { solve_inside(std::move(drive)); });
+  }
 }
 
 void FmuInstance::set_up(const Experiment& experiment) {

@@ -15,18 +15,17 @@
 
 namespace wormdrive {
 
-/// Every drive that an FMU may be: each load with rigid and with elastic teeth, moved from outside or by a solver
-/// inside.
+/// Every drive that an FMU may be: with rigid and with elastic teeth, moved from outside or by a solver inside, which
+/// has formulas for some loads.
 template <class Loads>
 struct FmuRuns;
 template <class... Parameters>
 struct FmuRuns<std::variant<Parameters...>> {
   template <class P>
   using Load = decltype(make_load(std::declval<const P&>()));
-  using type = std::variant<PlantRun<WormDrive<double, Load<Parameters>>>...,
-                            PlantRun<CompliantDrive<double, Load<Parameters>>>...,
+  using type = std::variant<PlantRun<WormDrive<double, SummedLoad>>, PlantRun<CompliantDrive<double, SummedLoad>>,
 #ifdef WORMDRIVE_FMU_CVODE
-                            StepRun<CompliantDrive<double, Load<Parameters>>>...,
+                            StepRun<CompliantDrive<double, SummedLoad>>,
 #endif
                             StepRun<WormDrive<double, Load<Parameters>>>...>;
 };

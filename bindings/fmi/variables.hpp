@@ -72,9 +72,9 @@ struct InterfaceNames {
 
   explicit InterfaceNames(bool elastic_teeth) {
     if (elastic_teeth)
-      take<CompliantDrive<double, GravityLoad>>();
+      take<CompliantDrive<double, SummedLoad>>();
     else
-      take<WormDrive<double, GravityLoad>>();
+      take<WormDrive<double, SummedLoad>>();
   }
 
  private:

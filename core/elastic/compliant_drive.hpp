@@ -14,9 +14,7 @@
 namespace wormdrive {
 
 /// Worm and gear as two inertias with elastic teeth and backlash, a hybrid system like the rigid drive, whose inputs,
-/// load and effects it takes over.
-///
-/// The flanks approach each other as the ratio i says, whether or not the radii and the lead angle give that ratio.
+/// load and effects it takes over. The flanks approach each other as the ratio i says, whatever the radii give.
 template <class T, class Load>
 class CompliantDrive {
  public:
@@ -57,7 +55,6 @@ class CompliantDrive {
   const double& disturbance() const { return rigid_.disturbance(); }
   double next_knot(double t) const { return rigid_.next_knot(t); }
   double fastest_input(double t) const { return rigid_.fastest_input(t); }
-
   template <class S>
   Moment<S> moment(const S& t, const S& theta_w, const S& omega_w, const S& theta_g, const S& omega_g) const {
     return {t, theta_g, omega_g, omega_w, theta_w};
@@ -89,11 +86,11 @@ class CompliantDrive {
     const S most = sliding(Motion::forward), least = sliding(Motion::backward);
     return holding > most ? most : holding < least ? least : holding;
   }
+  /// theta_w'' and theta_g'' [rad/s^2], 0 for a shaft that is stuck.
   template <class S>
   struct Accelerations {
-    S worm, gear;  ///< [rad/s^2]
+    S worm, gear;
   };
-  /// theta_w'' and theta_g'', 0 for a shaft that is stuck.
   template <class S, template <class> class M>
   Accelerations<S> accelerations(const M<S>& at, Mode mode) const {
     const S Wn = normal_force(at, mode), Wf = friction(at, mode, Wn), push = T(sign(mode.contact)) * Wn;
@@ -109,7 +106,6 @@ class CompliantDrive {
     const Accelerations<T> a = accelerations(moment(T(t), x[0], x[1], x[2], x[3]), mode);
     return {mode.worm == Motion::stuck ? T(0) : x[1], a.worm, mode.gear == Motion::stuck ? T(0) : x[3], a.gear};
   }
-
   /// Exact Jacobian of the derivative, by automatic differentiation.
   Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
     using Jet = ceres::Jet<double, 4>;
@@ -126,23 +122,10 @@ class CompliantDrive {
   /// scalar every coefficient knows its rounding.
   template <int N, class C = T>
   Moment<Series<C, N>> ahead(const Instant& now) const {
-    using Flow = Series<C, N>;
-    Moment<Flow> at = moment(Flow::variable(C(now.t)), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
-    const auto extend = [&](int k, const C& worm, const C& gear) {
-      at.theta_w[k + 1] = at.omega_w[k] / C(k + 1);
-      at.omega_w[k + 1] = worm / C(k + 1);
-      at.theta_g[k + 1] = at.omega_g[k] / C(k + 1);
-      at.omega_g[k + 1] = gear / C(k + 1);
-    };
-    const Accelerations<C> first =
-        accelerations(moment(C(now.t), C(now.x[0]), C(now.x[1]), C(now.x[2]), C(now.x[3])), now.mode);
-    extend(0, first.worm, first.gear);
-    for (int k = 1; k < N; ++k) {
-      const Accelerations<Flow> a = accelerations(at, now.mode);
-      extend(k, a.worm[k], a.gear[k]);
-    }
-    return at;
+    return along<Series<C, N>>(now, N);
   }
+  /// The same to any order up to highest_series.
+  Moment<OpenSeries<T>> ahead(const Instant& now, int order) const { return along<OpenSeries<T>>(now, order); }
 
   /// The state at a moment, in the order of State.
   template <class S>
@@ -253,7 +236,26 @@ class CompliantDrive {
   }
 
  private:
-  static constexpr int order = 3;  ///< of the series that decide what happens just after an event
+  template <class Flow>
+  Moment<Flow> along(const Instant& now, int order) const {
+    using C = ConstantOf<Flow>;
+    Moment<Flow> at =
+        moment(Flow::variable(C(now.t), 1), Flow(now.x[0]), Flow(now.x[1]), Flow(now.x[2]), Flow(now.x[3]));
+    Accelerations<C> a = accelerations(moment(C(now.t), C(now.x[0]), C(now.x[1]), C(now.x[2]), C(now.x[3])), now.mode);
+    for (int k = 0, last = at.t.within(order); k < last; ++k) {
+      if (k > 0) {
+        const auto known = accelerations(at, now.mode);
+        a = {known.worm[k], known.gear[k]};
+      }
+      at.t.know(k + 1);
+      at.theta_w.append(k + 1, at.omega_w[k] / C(k + 1));
+      at.omega_w.append(k + 1, a.worm / C(k + 1));
+      at.theta_g.append(k + 1, at.omega_g[k] / C(k + 1));
+      at.omega_g.append(k + 1, a.gear / C(k + 1));
+    }
+    return at;
+  }
+  static constexpr int deciding = 3;  ///< order of the series that decide what happens just after an event
 
   static int speed_of(Shaft shaft) { return shaft == Shaft::worm ? 1 : 3; }
   static int first_guard(Shaft shaft) { return shaft == Shaft::worm ? worm_guards : gear_guards; }
@@ -266,7 +268,7 @@ class CompliantDrive {
   }
   /// Whether the teeth push on a flank just after now.
   bool touches(const Instant& now, Flank flank) const {
-    return sign_just_after(apart(ahead<order, Rounded>(now), flank), time_resolution(now.t)) < 0;
+    return sign_just_after(apart(ahead<deciding, Rounded>(now), flank), time_resolution(now.t)) < 0;
   }
 
   /// The acceleration that a shaft at rest would have, moving in this direction.
@@ -280,7 +282,7 @@ class CompliantDrive {
     Mode mode = now.mode;
     for (const Shaft shaft : {Shaft::worm, Shaft::gear}) {
       if (mode[shaft] != Motion::stuck) continue;
-      const auto at = ahead<order, Rounded>({now.t, now.x, mode});
+      const auto at = ahead<deciding, Rounded>({now.t, now.x, mode});
       for (const Motion motion : {Motion::forward, Motion::backward})
         if (sign_just_after(release_acceleration(at, mode, shaft, motion), time_resolution(now.t)) == sign(motion))
           mode = mode.with(shaft, motion);

@@ -86,17 +86,32 @@ class SummedLoad {
   /// Load torque tau_l [N m] while the gear moves, or starts to move, in a direction ...
   template <class S>
   S torque(const Moment<S>& at, Motion motion) const {
-    return folded(timed_.torque(at), [&](const S& sum, const auto& load) {
+    return torque(timed_.torque(at), at, motion);
+  }
+  /// ... where that of all functions of time is known.
+  template <class S>
+  S torque(const S& over_time, const Moment<S>& at, Motion motion) const {
+    return folded(over_time, [&](const S& sum, const auto& load) {
       if constexpr (requires { load.torque(at, motion); })
         return S(sum + load.torque(at, motion));
       else
         return S(sum + load.torque(at));
     });
   }
-  /// ... and in that of its speed.
+  /// ... in the direction of its speed.
   template <class S>
   S torque(const Moment<S>& at) const {
     return torque(at, motion_of(at.omega_g));
+  }
+
+  /// All functions of time, or nullptr.
+  const TimedLoad* over_time() const { return timed_.signal.terms.empty() ? nullptr : &timed_; }
+  /// The arm, if there is nothing else.
+  GravityLoad* lone_arm() {
+    auto& arms = std::get<std::vector<GravityLoad>>(lists_);
+    std::size_t special = 0;
+    std::apply([&](const auto&... list) { ((special += list.size()), ...); }, lists_);
+    return special == 1 && arms.size() == 1 && over_time() == nullptr ? &arms.front() : nullptr;
   }
 
  private:

@@ -14,6 +14,7 @@ struct TimedLoad {
   double next_knot(double t) const { return signal.next_knot(t); }
   double fastest() const { return piece.fastest(); }
   double ripple() const { return 0.0; }
+  const TimedLoad* over_time() const { return this; }
 
   /// Load torque tau_l [N m], positive in the direction of positive theta_g.
   template <class S>

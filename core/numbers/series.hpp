@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -8,11 +9,26 @@
 
 namespace wormdrive {
 
-/// Truncated power series sum of c[k] s^k, k = 0..N, around the present moment: a scalar that carries the future.
+/// To which order a series is known: as far as it has room, or where it is open so far only, which may change. A
+/// constant is known to order 0 and has no further coefficients.
+template <int N, bool open>
+struct SeriesOrder {
+  static constexpr int last = N;
+  static constexpr void know(int /*order*/) {}
+};
+template <int N>
+struct SeriesOrder<N, true> {
+  int last = 0;
+  void know(int order) { last = order; }
+};
+
+/// Truncated power series sum of c[k] s^k, k = 0..last, around the present moment: a scalar that carries the future.
+/// Coefficients behind the last are zero.
 ///
 /// The equations of core/ are instantiated with it unchanged to obtain derivatives along the motion.
-template <class T, int N>
-struct Series {
+template <class T, int N, bool open = false>
+struct Series : SeriesOrder<N, open> {
+  using SeriesOrder<N, open>::last, SeriesOrder<N, open>::know;
   std::array<T, N + 1> c{};
 
   Series() = default;
@@ -23,40 +39,53 @@ struct Series {
     c[0] = T(constant);
   }
 
-  /// The series of the variable itself, value + s.
-  static Series variable(T value) {
+  /// The series of the variable itself, value + s; an open one is known to an order.
+  static Series variable(T value, int order = N) {
     Series x(value);
     if constexpr (N > 0) x.c[1] = T(1);
+    x.know(order);
     return x;
+  }
+  /// The order, but none for which there is no room.
+  static constexpr int within(int order) { return order < N ? order : N; }
+  /// Makes it known to the next order.
+  void append(int order, const T& coefficient) {
+    c[order] = coefficient;
+    know(order);
   }
 
   T& operator[](int k) { return c[k]; }
   const T& operator[](int k) const { return c[k]; }
 
   Series& operator+=(const Series& b) {
-    for (int k = 0; k <= N; ++k) c[k] += b.c[k];
+    know(std::max(last, b.last));
+    for (int k = 0; k <= b.last; ++k) c[k] += b.c[k];
     return *this;
   }
   Series& operator-=(const Series& b) {
-    for (int k = 0; k <= N; ++k) c[k] -= b.c[k];
+    know(std::max(last, b.last));
+    for (int k = 0; k <= b.last; ++k) c[k] -= b.c[k];
     return *this;
   }
   Series operator-() const {
     Series r;
-    for (int k = 0; k <= N; ++k) r.c[k] = -c[k];
+    r.know(last);
+    for (int k = 0; k <= last; ++k) r.c[k] = -c[k];
     return r;
   }
   friend Series operator+(Series a, const Series& b) { return a += b; }
   friend Series operator-(Series a, const Series& b) { return a -= b; }
   friend Series operator*(const Series& a, const Series& b) {
     Series r;
-    for (int k = 0; k <= N; ++k)
+    r.know(std::max(a.last, b.last));
+    for (int k = 0; k <= r.last; ++k)
       for (int j = 0; j <= k; ++j) r.c[k] += a.c[j] * b.c[k - j];
     return r;
   }
   friend Series operator/(const Series& a, const Series& b) {
     Series r;
-    for (int k = 0; k <= N; ++k) {
+    r.know(std::max(a.last, b.last));
+    for (int k = 0; k <= r.last; ++k) {
       T rest = a.c[k];
       for (int j = 0; j < k; ++j) rest -= r.c[j] * b.c[k - j];
       r.c[k] = rest / b.c[0];
@@ -93,21 +122,21 @@ struct Series {
   requires std::constructible_from<T, Constant>
   friend Series operator*(Series a, const Constant& b) {
     const T factor(b);
-    for (T& c : a.c) c = c * factor;
+    for (int k = 0; k <= a.last; ++k) a.c[k] = a.c[k] * factor;
     return a;
   }
   template <class Constant>
   requires std::constructible_from<T, Constant>
   friend Series operator*(const Constant& a, Series b) {
     const T factor(a);
-    for (T& c : b.c) c = factor * c;
+    for (int k = 0; k <= b.last; ++k) b.c[k] = factor * b.c[k];
     return b;
   }
   template <class Constant>
   requires std::constructible_from<T, Constant>
   friend Series operator/(Series a, const Constant& b) {
     const T divisor(b);
-    for (T& c : a.c) c = c / divisor;
+    for (int k = 0; k <= a.last; ++k) a.c[k] = a.c[k] / divisor;
     return a;
   }
   friend bool operator<=(const Series& a, const Series& b) { return a.c[0] <= b.c[0]; }
@@ -116,13 +145,19 @@ struct Series {
   friend bool operator>(const Series& a, const Series& b) { return b < a; }
 };
 
+/// A series of whatever order, and the highest that it may have: one type where a number of orders is in use, for every
+/// one more the equations would be compiled again.
+inline constexpr int highest_series = 25;
+template <class T>
+using OpenSeries = Series<T, highest_series, true>;
+
 /// The scalar of what does not change along the motion: the coefficient of a series, any other scalar itself.
 template <class S>
 struct ConstantOfScalar {
   using type = S;
 };
-template <class T, int N>
-struct ConstantOfScalar<Series<T, N>> {
+template <class T, int N, bool open>
+struct ConstantOfScalar<Series<T, N, open>> {
   using type = T;
 };
 template <class S>
@@ -135,11 +170,11 @@ S at_least(const S& x, double least) {
 }
 
 /// Sine and cosine of one series, which need each other.
-template <class T, int N>
+template <class T, int N, bool open>
 struct SineCosine {
-  Series<T, N> sine, cosine;
+  Series<T, N, open> sine, cosine;
 
-  explicit SineCosine(const Series<T, N>& x) {
+  explicit SineCosine(const Series<T, N, open>& x) {
     if constexpr (requires { sine_and_cosine(x[0]); }) {
       const auto start = sine_and_cosine(x[0]);
       sine[0] = start.sine;
@@ -149,8 +184,10 @@ struct SineCosine {
       sine[0] = sin(x[0]);
       cosine[0] = cos(x[0]);
     }
+    sine.know(x.last);
+    cosine.know(x.last);
     std::array<T, N + 1> rate;  // k x[k]
-    for (int k = 1; k <= N; ++k) {
+    for (int k = 1; k <= x.last; ++k) {
       rate[k] = T(k) * x[k];
       for (int j = 1; j <= k; ++j) {
         sine[k] += rate[j] * cosine[k - j];
@@ -162,21 +199,22 @@ struct SineCosine {
   }
 };
 
-template <class T, int N>
-Series<T, N> sin(const Series<T, N>& x) {
-  return SineCosine<T, N>(x).sine;
+template <class T, int N, bool open>
+Series<T, N, open> sin(const Series<T, N, open>& x) {
+  return SineCosine<T, N, open>(x).sine;
 }
-template <class T, int N>
-Series<T, N> cos(const Series<T, N>& x) {
-  return SineCosine<T, N>(x).cosine;
+template <class T, int N, bool open>
+Series<T, N, open> cos(const Series<T, N, open>& x) {
+  return SineCosine<T, N, open>(x).cosine;
 }
 
 /// From r' = x' r.
-template <class T, int N>
-Series<T, N> exp(const Series<T, N>& x) {
+template <class T, int N, bool open>
+Series<T, N, open> exp(const Series<T, N, open>& x) {
   using portable::exp;
-  Series<T, N> r(exp(x[0]));
-  for (int k = 1; k <= N; ++k) {
+  Series<T, N, open> r(exp(x[0]));
+  r.know(x.last);
+  for (int k = 1; k <= x.last; ++k) {
     for (int j = 1; j <= k; ++j) r[k] += T(j) * x[j] * r[k - j];
     r[k] = r[k] / T(k);
   }

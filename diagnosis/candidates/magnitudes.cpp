@@ -51,16 +51,15 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
   for (const PreparedRecording& r : recordings) {
     Scenario loaded = scenario;
     if (r.data.load) loaded.load = *r.data.load;
-    with_drive(loaded, [&](const auto& drive) {
-      auto load = drive.load();
-      m.load_turns = m.load_turns || load.ripple() > 0.0;
-      for (std::size_t k = 0; k < r.samples(); k += 50) {
-        const double t = r.data.time(k);
-        load.enter(t);
-        const double tau = load.torque(drive.moment(t, r.data.gear_angle[k], r.speed[k]));
-        m.load_torque = std::max(m.load_torque, std::abs(tau));
-      }
-    });
+    const auto drive = make_drive(loaded);
+    auto load = drive.load();
+    m.load_turns = m.load_turns || load.ripple() > 0.0;
+    for (std::size_t k = 0; k < r.samples(); k += 50) {
+      const double t = r.data.time(k);
+      load.enter(t);
+      const double tau = load.torque(drive.moment(t, r.data.gear_angle[k], r.speed[k]));
+      m.load_torque = std::max(m.load_torque, std::abs(tau));
+    }
   }
   return m;
 }

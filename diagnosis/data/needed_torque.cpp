@@ -40,37 +40,35 @@ std::vector<double> needed_torque(const Scenario& scenario, const MeasuredMotion
   std::vector<double> torque(motion.angle.size(), 0.0);
   Scenario free = scenario;
   free.motor = {};
-  with_drive(free, [&](auto& drive) {
-    for (std::size_t k = 0; k < torque.size(); ++k) {
-      const double v = motion.speed[k], a = motion.acceleration[k];
-      if (std::abs(v) < still) continue;
-      const Motion direction = v > 0.0 ? Motion::forward : Motion::backward;
-      const double t = time[k];
-      drive.enter(t);
-      const auto at = drive.moment(t, motion.angle[k], v);
-      const auto sides = drive.side_torques(at, direction);
-      const double through_teeth = sides.gear - drive.Jg() * a;
-      const Flank flank = !drive.mesh().has_teeth ? Flank::none : through_teeth >= 0.0 ? Flank::left : Flank::right;
-      const double C = drive.mesh().C(drive.signed_friction(at, Mode{direction, flank}));
-      torque[k] = drive.mesh().Jw * drive.mesh().i * a - C * through_teeth - sides.worm;
-    }
-  });
+  auto drive = make_drive(free);
+  for (std::size_t k = 0; k < torque.size(); ++k) {
+    const double v = motion.speed[k], a = motion.acceleration[k];
+    if (std::abs(v) < still) continue;
+    const Motion direction = v > 0.0 ? Motion::forward : Motion::backward;
+    const double t = time[k];
+    drive.enter(t);
+    const auto at = drive.moment(t, motion.angle[k], v);
+    const auto sides = drive.side_torques(at, direction);
+    const double through_teeth = sides.gear - drive.Jg() * a;
+    const Flank flank = !drive.mesh().has_teeth ? Flank::none : through_teeth >= 0.0 ? Flank::left : Flank::right;
+    const double C = drive.mesh().C(drive.signed_friction(at, Mode{direction, flank}));
+    torque[k] = drive.mesh().Jw * drive.mesh().i * a - C * through_teeth - sides.worm;
+  }
   return torque;
 }
 
 double largest_acceleration(const Scenario& scenario, double torque) {
-  return with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    double load = 0.0;
-    for (int k = 0; k < 16; ++k) {
-      const auto at = drive.moment(0.0, 0.4 * k, 0.0);
-      load = std::max(load, std::abs(drive.side_torques(at, Motion::stuck).gear));
-    }
-    const auto& mesh = drive.mesh();
-    if (!mesh.has_teeth) return (torque + load) / drive.Jg();
-    const double inertia = std::max(mesh.Jw * mesh.i + mesh.C1() * drive.Jg(), 0.1 * mesh.Jw * mesh.i);
-    return (torque + std::abs(mesh.C2()) * load) / inertia;
-  });
+  auto drive = make_drive(scenario);
+  drive.enter(0.0);
+  double load = 0.0;
+  for (int k = 0; k < 16; ++k) {
+    const auto at = drive.moment(0.0, 0.4 * k, 0.0);
+    load = std::max(load, std::abs(drive.side_torques(at, Motion::stuck).gear));
+  }
+  const auto& mesh = drive.mesh();
+  if (!mesh.has_teeth) return (torque + load) / drive.Jg();
+  const double inertia = std::max(mesh.Jw * mesh.i + mesh.C1() * drive.Jg(), 0.1 * mesh.Jw * mesh.i);
+  return (torque + std::abs(mesh.C2()) * load) / inertia;
 }
 
 }  // namespace wormdrive

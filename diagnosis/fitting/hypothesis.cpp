@@ -129,9 +129,8 @@ double inertia_on_worm(const Evaluation& evaluation, const Hypothesis& h, std::s
   const std::optional<LoadParameters>& own = evaluation.layout().recordings[recording].data.load;
   Scenario scenario = evaluation.scenario();
   if (own) scenario.load = *own;
-  return with_drive(scenario, extended(h).effects, Signal{}, [](const auto& drive) {
-    return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
-  });
+  const auto drive = make_drive(scenario, extended(h).effects, Signal{});
+  return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
 }
 
 }  // namespace wormdrive

@@ -31,16 +31,15 @@ Scenario under_loads(Scenario scenario, const std::vector<double>& loads) {
 /// Torques at break-in in these directions, one for every load.
 std::vector<double> torques_at(const Scenario& scenario, const Effects<double>& effects,
                                const std::vector<int>& direction) {
-  return with_drive(scenario, effects, Signal{}, [&](auto& drive) {
-    std::vector<double> torques;
-    for (std::size_t k = 0; k < direction.size(); ++k) {
-      const double t = static_cast<double>(k) + 0.5;
-      drive.enter(t);
-      torques.push_back(
-          break_in_torque(drive, direction[k] > 0 ? Motion::forward : Motion::backward, scenario.initial.theta_g, t));
-    }
-    return torques;
-  });
+  auto drive = make_drive(scenario, effects, Signal{});
+  std::vector<double> torques;
+  for (std::size_t k = 0; k < direction.size(); ++k) {
+    const double t = static_cast<double>(k) + 0.5;
+    drive.enter(t);
+    torques.push_back(
+        break_in_torque(drive, direction[k] > 0 ? Motion::forward : Motion::backward, scenario.initial.theta_g, t));
+  }
+  return torques;
 }
 
 /// A slope through the origin with its standard error, by Student's t about points whose deviation grows with them.

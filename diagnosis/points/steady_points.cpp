@@ -13,10 +13,9 @@ TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const 
   double sum = 0.0;
   for (const SpeedTorqueRecord& record : records) sum += record.motor_torque * record.motor_torque;
   const double rms = std::sqrt(sum / static_cast<double>(records.size()));
-  const double load = with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    return drive.inputs(drive.moment(0.0, scenario.initial.theta_g, 0.0), Motion::stuck).gear;
-  });
+  auto at_rest = make_drive(scenario);
+  at_rest.enter(0.0);
+  const double load = at_rest.inputs(at_rest.moment(0.0, scenario.initial.theta_g, 0.0), Motion::stuck).gear;
   for (const SpeedTorqueRecord& record : records) {
     points.names.push_back(record.name);
     points.worm_speed.push_back(record.worm_speed);
@@ -28,12 +27,11 @@ TorquePoints steady_points(const std::vector<SpeedTorqueRecord>& records, const 
   points.half = every_second(points.direction, points.worm_speed);
   points.predict = [scenario = std::make_shared<const Scenario>(scenario),
                     speeds = points.worm_speed](const Effects<double>& effects) {
-    return with_drive(*scenario, effects, Signal{}, [&](auto& drive) {
-      drive.enter(0.0);
-      std::vector<double> torques;
-      for (const double speed : speeds) torques.push_back(steady_torque(drive, speed, scenario->initial.theta_g, 0.0));
-      return torques;
-    });
+    auto drive = make_drive(*scenario, effects, Signal{});
+    drive.enter(0.0);
+    std::vector<double> torques;
+    for (const double speed : speeds) torques.push_back(steady_torque(drive, speed, scenario->initial.theta_g, 0.0));
+    return torques;
   };
   return points;
 }

@@ -120,9 +120,9 @@ class DriveWithBacklash {
   }
 
   /// The mode after inputs or state were set from outside, or after an event in contact.
-  void settle(State& s) const {
+  void settle(State& s) {
     if (flies(s)) return;
-    s.now.mode = drive_.settle(s.now);
+    s.now.mode = solver_.settle(s.now);
     part_where_another_carries(s);
   }
   void part_where_another_carries(State& s) const {
@@ -178,7 +178,7 @@ class DriveWithBacklash {
   }
 
   /// Through the gap to the next impact or to the stop; whether there was an impact.
-  bool fly(State& s, double stop) const {
+  bool fly(State& s, double stop) {
     ShaftState gear{s.now.x[0], s.now.x[1]};
     const FreeFlight flight = free_flight(drive_, s.now.t, gear, s.worm, stop - s.now.t);
     const double separation = drive_.effects().transmission(gear.angle).angle - s.worm.angle;
@@ -194,7 +194,7 @@ class DriveWithBacklash {
 
   /// The teeth of a flank meet and move on together, until they part again unless what presses them together
   /// [rad/s^2] makes the next bounce a short one.
-  void meet(State& s, const Impact& impact, double pressing) const {
+  void meet(State& s, const Impact& impact, double pressing) {
     const double parting = bounce_.restitution * impact.speed;
     push(s, impact.flank, -sign(impact.flank) * impact.speed);
     s.contact = impact.flank;

@@ -34,24 +34,23 @@ Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Mag
     const FilteredStates& state = states[q];
     Scenario loaded = evaluation.scenario();
     if (r.data.load) loaded.load = *r.data.load;
-    with_drive(loaded, [&](auto& drive) {
-      for (std::size_t k = 0; k < r.samples(); ++k) {
-        const double t = r.data.time(k);
-        auto load = drive.load();
-        load.enter(t);
-        const double tau = sizes.load_torque > 0.0
-                               ? load.torque(drive.moment(t, state.angle[k], state.speed[k])) / sizes.load_torque
-                               : 0.0;
-        const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
-        a.angle.push_back(state.angle[k]);
-        a.speed.push_back(state.speed[k]);
-        a.time.push_back(t);
-        a.load.push_back(tau);
-        a.direction.push_back(direction);
-        a.side.push_back(tau * direction > 0.0 ? 1.0 : -1.0);
-        a.moving.push_back(r.moving[k]);
-      }
-    });
+    auto drive = make_drive(loaded);
+    for (std::size_t k = 0; k < r.samples(); ++k) {
+      const double t = r.data.time(k);
+      auto load = drive.load();
+      load.enter(t);
+      const double tau = sizes.load_torque > 0.0
+                             ? load.torque(drive.moment(t, state.angle[k], state.speed[k])) / sizes.load_torque
+                             : 0.0;
+      const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
+      a.angle.push_back(state.angle[k]);
+      a.speed.push_back(state.speed[k]);
+      a.time.push_back(t);
+      a.load.push_back(tau);
+      a.direction.push_back(direction);
+      a.side.push_back(tau * direction > 0.0 ? 1.0 : -1.0);
+      a.moving.push_back(r.moving[k]);
+    }
   }
   return a;
 }

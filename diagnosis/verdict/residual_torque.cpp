@@ -42,35 +42,34 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
     Scenario loaded = evaluation.scenario();
     if (recording.data.load) loaded.load = *recording.data.load;
     const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(rules::torque_bin / recording.data.period)));
-    with_drive(loaded, [&](auto& drive) {
-      for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
-        double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
-        bool whole = true;
-        for (std::size_t k = begin; k < begin + bin; ++k) {
-          whole = whole && recording.moving[k] && (recording.used[k] || k % recording.every != 0);
-          if (!recording.used[k]) continue;
-          sum_then += then[k];
-          sum_now += now[k];
-          readings += 1.0;
-        }
-        if (!whole || readings == 0.0) continue;
-        const std::size_t middle = begin + bin / 2;
-        const double t = recording.data.time(middle);
-        const double angle = recording.data.gear_angle[middle];
-        auto load = drive.load();
-        load.enter(t);
-        const Moment<double> at = drive.moment(t, angle, recording.speed[middle]);
-        const double turn = 2.0 * std::numbers::pi;
-        map.time.push_back(recording.data.start + t);
-        map.gear_angle.push_back(angle);
-        map.gear_speed.push_back(recording.speed[middle]);
-        map.load_torque.push_back(load.torque(at));
-        map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
-        map.before.push_back(sum_then / readings);
-        map.after.push_back(sum_now / readings);
-        map.held_out.push_back(recording.held_out[middle]);
+    auto drive = make_drive(loaded);
+    for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
+      double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
+      bool whole = true;
+      for (std::size_t k = begin; k < begin + bin; ++k) {
+        whole = whole && recording.moving[k] && (recording.used[k] || k % recording.every != 0);
+        if (!recording.used[k]) continue;
+        sum_then += then[k];
+        sum_now += now[k];
+        readings += 1.0;
       }
-    });
+      if (!whole || readings == 0.0) continue;
+      const std::size_t middle = begin + bin / 2;
+      const double t = recording.data.time(middle);
+      const double angle = recording.data.gear_angle[middle];
+      auto load = drive.load();
+      load.enter(t);
+      const Moment<double> at = drive.moment(t, angle, recording.speed[middle]);
+      const double turn = 2.0 * std::numbers::pi;
+      map.time.push_back(recording.data.start + t);
+      map.gear_angle.push_back(angle);
+      map.gear_speed.push_back(recording.speed[middle]);
+      map.load_torque.push_back(load.torque(at));
+      map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
+      map.before.push_back(sum_then / readings);
+      map.after.push_back(sum_now / readings);
+      map.held_out.push_back(recording.held_out[middle]);
+    }
   }
   return map;
 }

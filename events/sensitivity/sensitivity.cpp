@@ -4,6 +4,6 @@ namespace wormdrive {
 
 WORMDRIVE_SENSITIVITIES(, TimedLoad)
 WORMDRIVE_SENSITIVITIES(, GravityLoad)
-WORMDRIVE_SENSITIVITIES(, TableLoad)
+WORMDRIVE_SENSITIVITIES(, SummedLoad)
 
 }  // namespace wormdrive

@@ -160,6 +160,6 @@ Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Param
 // clang-format on
 WORMDRIVE_SENSITIVITIES(extern, TimedLoad)
 WORMDRIVE_SENSITIVITIES(extern, GravityLoad)
-WORMDRIVE_SENSITIVITIES(extern, TableLoad)
+WORMDRIVE_SENSITIVITIES(extern, SummedLoad)
 
 }  // namespace wormdrive

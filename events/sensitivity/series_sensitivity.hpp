@@ -52,7 +52,7 @@ class SeriesSensitivity {
   void step(const Instant& now) {
     begin_ = now;
     const double span = std::min(limit_ - now.t, max_step_);
-    double h = expand<lowest_order>(span);
+    double h = expand(span);
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit_ - now.t ? now.t + h : limit_;
     if (end_ == now.t) throw SolverFault("the step size fell below the resolution of time");
@@ -61,17 +61,17 @@ class SeriesSensitivity {
   }
 
   /// Makes the series from begin_ on, and returns the step within h over which they suffice.
-  template <int order>
   double expand(double h) {
-    const auto at = drive_.template ahead<order>(begin_);
-    order_ = order;
-    std::copy(at.theta_g.c.begin(), at.theta_g.c.end(), theta_.begin());
-    std::copy(at.omega_g.c.begin(), at.omega_g.c.end(), omega_.begin());
-    for (const double c : {omega_[1].a, omega_[order].a})
-      if (!std::isfinite(c)) throw SolverFault("the acceleration is not a finite number");
-    double share = shortening(h);
-    if constexpr (order < highest_order)
-      if (share < 1.0) return expand<order + higher>(h);
+    double share = 0.0;
+    for (order_ = lowest_order;; order_ += higher) {
+      const auto at = drive_.ahead(begin_, order_);
+      std::copy_n(at.theta_g.c.begin(), order_ + 1, theta_.begin());
+      std::copy_n(at.omega_g.c.begin(), order_ + 1, omega_.begin());
+      for (const double c : {omega_[1].a, omega_[order_].a})
+        if (!std::isfinite(c)) throw SolverFault("the acceleration is not a finite number");
+      share = shortening(h);
+      if (share >= 1.0 || order_ == highest_order) break;
+    }
     for (; share < 1.0; share = shortening(h)) h *= std::min(share, 0.95);
     return h;
   }

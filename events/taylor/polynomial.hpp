@@ -5,10 +5,11 @@
 #include <span>
 
 #include "core/numbers/pair.hpp"
+#include "core/numbers/series.hpp"
 
 namespace wormdrive {
 
-inline constexpr int highest_order = 24;  ///< of a power series of the speed
+inline constexpr int highest_order = highest_series - 1;  ///< of a power series of the speed
 
 /// One power series in the time since a step began.
 using Coefficients = std::array<double, highest_order + 2>;

@@ -23,7 +23,20 @@ class SeriesFlow {
 
   /// The motion from now on, accurate over a step of at most h.
   static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
-    to_order<8>(system, now, h, accuracy, e);
+    constexpr int lowest = 8, higher = 6;
+    for (int order = lowest;; order += higher) {
+      const auto at = system.ahead(now, order + 1);
+      const auto guards = system.guards(at, now.mode);
+      e.order = order;
+      std::copy_n(at.theta_g.c.begin(), order + 2, e.theta.begin());
+      std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
+      for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
+      e.step = h;
+      if (accuracy.suffices(e, h)) break;
+      if (order + higher <= highest_order && order < accuracy.order()) continue;
+      e.step = accuracy.step(e, h);
+      break;
+    }
     end_where_it_fails(system, now, accuracy, e);
   }
 
@@ -49,24 +62,6 @@ class SeriesFlow {
     Roundings of{roundings_of_series * ahead.omega_g[1].rounding, {}};
     for (int g = 0; g < System::guard_count; ++g) of.guards[g] = roundings_of_series * guards[g][0].rounding;
     return of;
-  }
-
-  template <int order>
-  static void to_order(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
-    const auto at = system.template ahead<order + 1>(now);
-    const auto guards = system.guards(at, now.mode);
-    e.order = order;
-    std::copy(at.theta_g.c.begin(), at.theta_g.c.end(), e.theta.begin());
-    std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
-    for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
-    if (accuracy.suffices(e, h)) {
-      e.step = h;
-      return;
-    }
-    constexpr int next = order + 6;
-    if constexpr (next <= highest_order)
-      if (next < accuracy.order() + 6) return to_order<next>(system, now, h, accuracy, e);
-    e.step = accuracy.step(e, h);
   }
 
   /// Whether the equations at s are those that the series was made from.

@@ -25,8 +25,7 @@ class TapedFlow {
 /// The motion of a worm drive with any effects by its own equations, recorded once in each mode: what SeriesFlow finds,
 /// many times faster.
 template <class Load>
-requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have to be inputs of the tape
-    class TapedFlow<WormDrive<double, Load>> {
+class TapedFlow<WormDrive<double, Load>> {
  public:
   static constexpr bool known = true;
   using System = WormDrive<double, Load>;
@@ -53,7 +52,7 @@ requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have
     course_->series->work_out(0, course_->tape.steps().size());
     terms_ = terms_over(now, h, accuracy);
     if (terms_ == 0) return false;
-    if (!inputs_are_constant()) expand_inputs<longest>(now.t);
+    if (!inputs_are_constant()) expand_inputs(now.t, longest);
     Coefficients &theta = input(angle), &omega = input(speed);
     const Coefficients& acceleration = (*course_->series)[course_->acceleration];
     for (int k = 0;; ++k) {
@@ -79,7 +78,7 @@ requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have
     if (course_->has_table) return SeriesFlow<System>::expand(system_, now, h, accuracy, e);
     const int last = accuracy.order();
     start(now);
-    if (!inputs_are_constant()) expand_inputs<highest_order>(now.t);
+    if (!inputs_are_constant()) expand_inputs(now.t, highest_order);
     const Coefficients& acceleration = (*course_->series)[course_->acceleration];
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
@@ -145,26 +144,40 @@ requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have
     }
 
    private:
+    /// A load of which the functions of time are an input.
     struct Given {
-      Taped input;
-      const Taped& torque(const Moment<Taped>&) const { return input; }
+      const Load& all;
+      Taped over_time;
+      Taped torque(const Moment<Taped>& at, wormdrive::Motion motion) const {
+        if constexpr (requires { all.torque(over_time, at, motion); })
+          return all.torque(over_time, at, motion);
+        else
+          return over_time;
+      }
     };
     Taped load_torque(const System& system, const Moment<Taped>& at, Mode mode) {
-      if constexpr (std::is_same_v<Load, TimedLoad>)
-        return system.effects().load_torque(Given{tape.input(load)}, at, mode.motion);
-      else
-        return system.effects().load_torque(system.load(), at, mode.motion);
+      if (over_time(system.load()) == nullptr) return system.effects().load_torque(system.load(), at, mode.motion);
+      return system.effects().load_torque(Given{system.load(), tape.input(load)}, at, mode.motion);
     }
   };
 
   Coefficients& input(Input which) { return (*course_->series)[which]; }
   const Coefficients& input(Input which) const { return (*course_->series)[which]; }
 
-  bool inputs_are_constant() const {
-    if constexpr (std::is_same_v<Load, TimedLoad>)
-      return system_.motor_input().is_constant() && system_.load().piece.is_constant();
+  /// What of a load depends on time alone, or nullptr.
+  static const TimedLoad* over_time(const Load& load) {
+    if constexpr (requires { load.over_time(); })
+      return load.over_time();
     else
-      return system_.motor_input().is_constant();
+      return nullptr;
+  }
+  const Piece* load_piece() const {
+    const TimedLoad* const timed = over_time(system_.load());
+    return timed == nullptr ? nullptr : &timed->piece;
+  }
+  bool inputs_are_constant() const {
+    const Piece* const piece = load_piece();
+    return system_.motor_input().is_constant() && (piece == nullptr || piece->is_constant());
   }
   /// The values of the inputs.
   void start(const Instant& now) {
@@ -173,18 +186,17 @@ requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have
     input(speed)[0] = now.x[1];
     input(command)[0] = system_.motor_input()(now.t);
     input(disturbance)[0] = system_.disturbance();
-    if constexpr (std::is_same_v<Load, TimedLoad>) input(load)[0] = system_.load().piece(now.t);
+    if (const Piece* const piece = load_piece()) input(load)[0] = (*piece)(now.t);
     if (!course_->moves) return;
     std::fill(input(command).begin() + 1, input(command).end(), 0.0);
     std::fill(input(load).begin() + 1, input(load).end(), 0.0);
     course_->moves = false;
   }
   /// The series of those that change on their own.
-  template <int N>
-  void expand_inputs(double t) {
-    const auto motor = system_.motor_input()(Series<double, N>::variable(t));
+  void expand_inputs(double t, int order) {
+    const auto motor = system_.motor_input()(OpenSeries<double>::variable(t, order));
     std::copy(motor.c.begin(), motor.c.end(), input(command).begin());
-    if constexpr (std::is_same_v<Load, TimedLoad>) expand_input(system_.load().piece, t, N, 1.0, input(load));
+    if (const Piece* const piece = load_piece()) expand_input(*piece, t, order, 1.0, input(load));
     course_->moves = true;
   }
 
@@ -208,8 +220,7 @@ requires(!std::is_same_v<Load, SummedLoad>)  // its functions of time would have
     if (!inputs_are_constant()) {
       series.radius(time) = std::min(series.radius(time), 1.0 / system_.fastest_input(now.t));
       series.radius(command) = system_.motor_input().change_within(now.t, series.radius(time));
-      if constexpr (std::is_same_v<Load, TimedLoad>)
-        series.radius(load) = system_.load().piece.change_within(series.radius(time));
+      if (const Piece* const piece = load_piece()) series.radius(load) = piece->change_within(series.radius(time));
     }
     series.work_out_discs();
     if (const double factor = series.shrinking(); !(factor >= 1.0)) {

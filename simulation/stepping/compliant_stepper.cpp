@@ -5,9 +5,7 @@
 namespace wormdrive {
 
 std::unique_ptr<SteppedDrive> make_compliant_stepper(const Scenario& scenario) {
-  return with_drive(scenario, [&](auto& rigid) {
-    return stepper_of(CompliantDrive(std::move(rigid), tooth_contact(scenario.effects)), scenario, false);
-  });
+  return stepper_of(CompliantDrive(make_drive(scenario), tooth_contact(scenario.effects)), scenario, false);
 }
 
 }  // namespace wormdrive

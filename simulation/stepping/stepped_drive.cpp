@@ -116,11 +116,11 @@ std::unique_ptr<SteppedDrive> make_stepped_drive(const Scenario& scenario) {
     reject({"drive"}, "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
   if (const auto id = plant.effects.first_with_states(); !id.empty() && plant.run.solver == SolverKind::taylor)
     reject({"drive"}, taylor_without_states(id));
-  auto drive =
-      elastic ? make_compliant_stepper(plant)
-      : plant.effects.have_states()
-          ? make_stepper_with_states(plant)
-          : with_drive(plant, [&](auto& rigid) { return stepper_of(std::move(rigid), plant, has_lane_plant(plant)); });
+  auto drive = elastic                       ? make_compliant_stepper(plant)
+               : plant.effects.have_states() ? make_stepper_with_states(plant)
+                                             : with_drive_for_runs(plant, [&](auto& rigid) {
+                                                 return stepper_of(std::move(rigid), plant, has_lane_plant(plant));
+                                               });
   drive->digest_ = digest_of(plant);
   return drive;
 }

@@ -4,7 +4,7 @@
 namespace wormdrive {
 
 std::unique_ptr<SteppedDrive> make_stepper_with_states(const Scenario& scenario) {
-  return with_drive<true>(scenario, [&](auto& drive) { return stepper_of(std::move(drive), scenario, false); });
+  return stepper_of(make_drive<true>(scenario), scenario, false);
 }
 
 }  // namespace wormdrive

@@ -119,7 +119,7 @@ TEST_CASE("a single load of its own kind stays what it was, and a sum is one onl
   REQUIRE(std::holds_alternative<Signal>(load_of({})));
   REQUIRE(std::holds_alternative<Signal>(load_of({Constant{1.0}, Ramp{.rate = 1.0}})));
   REQUIRE(std::holds_alternative<GravityArm>(load_of({arm(1.0, 0)})));
-  REQUIRE(std::holds_alternative<AngleTable>(load_of({table})));
+  REQUIRE(std::holds_alternative<LoadSum>(load_of({table})));
   REQUIRE(std::holds_alternative<LoadSum>(load_of({fan})));
   REQUIRE(std::holds_alternative<LoadSum>(load_of({arm(1.0, 0), Constant{1.0}})));
 }

@@ -42,10 +42,9 @@ std::vector<SpeedTorqueRecord> hidden(const Scenario& truth, double noise, unsig
   std::vector<SpeedTorqueRecord> records;
   for (const double speed : {0.1, 0.2, 0.4, 0.8, 1.3, 2.1, 3.1, 4.2, 5.2, 6.3, 8.4, 10.5, 12.6, 14.7, 16.8, 18.8, 20.9})
     for (const double w : {-speed, speed}) {
-      const double torque = with_drive(truth, [&](auto& drive) {
-        drive.enter(0.0);
-        return steady_torque(drive, w, 0.0, 0.0);
-      });
+      auto drive = make_drive(truth);
+      drive.enter(0.0);
+      const double torque = steady_torque(drive, w, 0.0, 0.0);
       records.push_back({fmt::format("{}", w), w, torque + error(random), 500, {}});
     }
   return records;

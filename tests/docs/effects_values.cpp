@@ -85,42 +85,40 @@ Effects<double> alone(const std::string& id, const Effects<double>& all) {
 double evaluated(const WorkedValue& value, const std::string& quantity) {
   const Numbers at(value.at);
   const Scenario scenario = stated(value, at["u"]);
-  return with_drive(scenario, [&](auto& drive) {
-    drive.enter(0.0);
-    for (double knot = drive.next_knot(0.0); knot <= at["t"]; knot = drive.next_knot(knot)) drive.enter(knot);
-    const GearMesh<double>& mesh = drive.mesh();
-    const double omega_g = at.has("v") ? at["v"] * std::cos(mesh.lambda) / mesh.lw / mesh.i : at["omega_g"];
-    Moment<double> moment = drive.moment(at["t"], at["theta_g"], omega_g);
-    if (at.has("rest")) moment.rest = at["rest"];
-    const Motion motion = omega_g > 0.0 ? Motion::forward : omega_g < 0.0 ? Motion::backward : Motion::stuck;
-    const Effects<double> on = alone(value.effect, drive.effects());
-    if (quantity == "tau_m") return drive.inputs(moment, motion).worm;
-    if (quantity == "tau_l") return drive.inputs(moment, motion).gear;
-    if (quantity == "tau_w") return on.worm_torque(moment, motion);
-    if (quantity == "tau_g") return on.gear_torque(moment, motion);
-    if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
-    if (quantity == "Jw") return mesh.Jw;
-    if (quantity == "Jg") return drive.Jg();
-    if (quantity == "theta_w") return moment.theta_w;
-    if (quantity == "omega_w") return moment.omega_w;
-    if (quantity == "theta_seen") return on.measured_angle(at["theta_g"]);
-    if (quantity == "t_seen") {
-      Timetable timetable(0.0, 1.0, 1.0, {.period = 1.0, .offset = at["t"], .age = on.measuring_delay()});
-      timetable.pop();  // the inputs' knot at the begin
-      return timetable.next_time();
-    }
-    const ToothContact<double> contact = tooth_contact(drive.effects());
-    if (quantity == "Wn") return contact.force(at["d"], at["d'"]);
-    if (quantity == "d") {
-      const CompliantDrive elastic(drive, contact);
-      const double deflection = at["deflection"];
-      return elastic
-          .penetration(Moment<double>{0.0, deflection, 0.0, 0.0}, deflection < 0.0 ? Flank::right : Flank::left)
-          .first;
-    }
-    FAIL("the page gives a quantity that this test does not know: " << quantity);
-    return 0.0;
-  });
+  auto drive = make_drive(scenario);
+  drive.enter(0.0);
+  for (double knot = drive.next_knot(0.0); knot <= at["t"]; knot = drive.next_knot(knot)) drive.enter(knot);
+  const GearMesh<double>& mesh = drive.mesh();
+  const double omega_g = at.has("v") ? at["v"] * std::cos(mesh.lambda) / mesh.lw / mesh.i : at["omega_g"];
+  Moment<double> moment = drive.moment(at["t"], at["theta_g"], omega_g);
+  if (at.has("rest")) moment.rest = at["rest"];
+  const Motion motion = omega_g > 0.0 ? Motion::forward : omega_g < 0.0 ? Motion::backward : Motion::stuck;
+  const Effects<double> on = alone(value.effect, drive.effects());
+  if (quantity == "tau_m") return drive.inputs(moment, motion).worm;
+  if (quantity == "tau_l") return drive.inputs(moment, motion).gear;
+  if (quantity == "tau_w") return on.worm_torque(moment, motion);
+  if (quantity == "tau_g") return on.gear_torque(moment, motion);
+  if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
+  if (quantity == "Jw") return mesh.Jw;
+  if (quantity == "Jg") return drive.Jg();
+  if (quantity == "theta_w") return moment.theta_w;
+  if (quantity == "omega_w") return moment.omega_w;
+  if (quantity == "theta_seen") return on.measured_angle(at["theta_g"]);
+  if (quantity == "t_seen") {
+    Timetable timetable(0.0, 1.0, 1.0, {.period = 1.0, .offset = at["t"], .age = on.measuring_delay()});
+    timetable.pop();  // the inputs' knot at the begin
+    return timetable.next_time();
+  }
+  const ToothContact<double> contact = tooth_contact(drive.effects());
+  if (quantity == "Wn") return contact.force(at["d"], at["d'"]);
+  if (quantity == "d") {
+    const CompliantDrive elastic(drive, contact);
+    const double deflection = at["deflection"];
+    return elastic.penetration(Moment<double>{0.0, deflection, 0.0, 0.0}, deflection < 0.0 ? Flank::right : Flank::left)
+        .first;
+  }
+  FAIL("the page gives a quantity that this test does not know: " << quantity);
+  return 0.0;
 }
 
 }  // namespace

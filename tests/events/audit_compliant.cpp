@@ -12,7 +12,7 @@ namespace wormdrive::test::events_audit_compliant {
 
 namespace {
 
-using Drive = CompliantDrive<double, GravityLoad>;
+using Drive = ElasticDrive;
 using Trail = AuditTrail<Drive, CvodeSolver<Drive>>;
 
 /// Fig. 9 with impacts and bearings, of a geometry that closes, with the record that an audit reads.

@@ -118,7 +118,7 @@ TEST_CASE("they agree under a load that changes its law at the points of a table
   const AngleTable table{.angles = {-3.0, -0.4, -0.1, 0.05, 0.3, 0.9, 3.0},
                          .torques = {0.03, 0.02, -0.03, 0.01, 0.025, -0.02, 0.01}};
   const auto arm = lively(effects(LoadAngle<double>{0.05}));
-  const RigidDrive<TableLoad> drive{arm.mesh, make_load(table), arm.effects, arm.motor};
+  const RigidDrive<SummedLoad> drive{arm.mesh, make_load(LoadSum{{table}}), arm.effects, arm.motor};
   const auto found =
       agreement(drive, {parameter(drive, "load_angle", "angle"), parameter(drive, "worm_coulomb", "torque")},
                 Timetable(0, duration, 0.0131));

@@ -109,8 +109,10 @@ TEST_CASE("a table of torques over the angle is followed from piece to piece, in
   }
   for (double start : {0.0, 3.0, -3.0}) {
     const Timetable timetable(0, 2, 0.05);
-    const auto by_series = run(drive(table1(), table, fig9_motor()), timetable, {0, {0, start}, {}}, tight(taylor));
-    const auto by_cvode = run(drive(table1(), table, fig9_motor()), timetable, {0, {0, start}, {}}, tight(adams));
+    const auto by_series =
+        run(drive(table1(), LoadSum{{table}}, fig9_motor()), timetable, {0, {0, start}, {}}, tight(taylor));
+    const auto by_cvode =
+        run(drive(table1(), LoadSum{{table}}, fig9_motor()), timetable, {0, {0, start}, {}}, tight(adams));
     REQUIRE(by_series.modes() == by_cvode.modes());
     REQUIRE((by_series.end.x - by_cvode.end.x).cwiseAbs().maxCoeff() <= 1e-9);
   }

@@ -230,7 +230,10 @@ Comparison compare_random_held(Dice& dice) {
   }
   const Signal motor{{held}};
   const typename WormDrive<double, GravityLoad>::Instant start{0, {dice.between(-3, 3), dice.between(-2, 2)}, {}};
-  switch (dice.below(4)) {
+  GravityArm arm;
+  arm.amplitude = dice.between(-0.1, 0.1);
+  arm.offset = dice.between(-3, 3);
+  switch (dice.below(5)) {
     case 0: return compare(drive(p, constant(dice.between(-0.1, 0.1)), motor, on), {0, start.x, {}});
     case 1: return compare(drive(p, Signal{{random_term(dice, 0.05)}}, motor, on), {0, start.x, {}});
     case 2: {
@@ -239,12 +242,14 @@ Comparison compare_random_held(Dice& dice) {
         table.angles.push_back(angle);
         table.torques.push_back(dice.between(-0.1, 0.1));
       }
-      return compare(drive(p, table, motor, on), {0, start.x, {}});
+      return compare(drive(p, LoadSum{{table}}, motor, on), {0, start.x, {}});
+    }
+    case 3: {
+      LoadSum sum{{arm, Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)}}};
+      if (dice.one_in(2)) std::visit([&](const auto& term) { sum.terms.emplace_back(term); }, random_term(dice, 0.05));
+      return compare(drive(p, sum, motor, on), {0, start.x, {}});
     }
   }
-  GravityArm arm;
-  arm.amplitude = dice.between(-0.1, 0.1);
-  arm.offset = dice.between(-3, 3);
   return compare(drive(p, arm, motor, on), start);
 }
 

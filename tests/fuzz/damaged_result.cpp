@@ -193,6 +193,7 @@ std::vector<std::vector<std::uint8_t>> sweep_file_seeds(const fs::path& folder) 
   std::ofstream(folder / "study.toml") << "scenario = \"" WORMDRIVE_SCENARIOS
                                           "/fig09_switching.toml\"\n"
                                           "set = [\"run.solver=taylor\", \"run.duration_s=0.1\"]\n"
+                                          "metrics = [\"final_gear_angle\", \"final_gear_speed\", \"stop_events\"]\n"
                                           "[sweep]\ndesign = \"monte_carlo\"\ntrials = 12\nseed = 1\n"
                                           "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\n"
                                           "low = 0.2\nhigh = 0.3\n";

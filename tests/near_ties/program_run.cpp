@@ -141,11 +141,10 @@ ProgramRun run_drive(Drive drive, const Scenario& s, const Case& tie) {
   return result;
 }
 
-template <class LoadParameters>
-ProgramRun run_with(const Scenario& s, const LoadParameters& load, const Case& tie) {
-  auto rigid = make_drive(s, load, s.effects, s.motor);
-  if (!tie.elastic) return run_drive(std::move(rigid), s, tie);
-  return run_drive(CompliantDrive(std::move(rigid), tooth_contact(s.effects)), s, tie);
+template <class Load>
+ProgramRun run_with(const Scenario& s, const Load& load, const Case& tie) {
+  if (!tie.elastic) return run_drive(make_drive(s, load, s.effects, s.motor), s, tie);
+  return run_drive(CompliantDrive(make_drive(s, sum_of(load), s.effects, s.motor), tooth_contact(s.effects)), s, tie);
 }
 
 }  // namespace

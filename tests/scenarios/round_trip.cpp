@@ -170,9 +170,10 @@ TEST_CASE("a scenario with every torque, load, effect and axis is the same after
   };
   const LoadSum turning{{by_mass, filler.make<Fan>(), table, samples, by_torque}};
   const LoadSum sum{{table, filler.make<Fan>(), filler.make<Sinusoid>(), samples}};
-  for (const LoadParameters& load : {LoadParameters(by_torque), LoadParameters(by_mass), LoadParameters(timed),
-                                     LoadParameters(table), LoadParameters(Signal{}), LoadParameters(turning),
-                                     LoadParameters(sum), LoadParameters(LoadSum{{sum.terms[1]}})}) {
+  for (const LoadParameters& load :
+       {LoadParameters(by_torque), LoadParameters(by_mass), LoadParameters(timed), LoadParameters(LoadSum{{table}}),
+        LoadParameters(Signal{}), LoadParameters(turning), LoadParameters(sum),
+        LoadParameters(LoadSum{{sum.terms[1]}})}) {
     Scenario s = full(filler, load);
     require_round_trip(s);
     s.mesh = filler.make<SingleInertia<double>>();

@@ -122,7 +122,7 @@ TEST_CASE("stepping: the same under loads over time and over the angle, with kno
   AngleTable slope;
   slope.angles = {-1.0, -0.2, 0.3, 1.0};
   slope.torques = {0.1, -0.2, 0.3, 0.05};
-  scenario.load = slope;
+  scenario.load = LoadSum{{slope}};
   CHECK(compare(scenario, torques(60, 0.05, 6), 0.01).events > 10);
 }
 
