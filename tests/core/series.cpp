@@ -1,6 +1,7 @@
 #include "core/numbers/series.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 #include "catch.hpp"
 #include "core/numbers/rounded.hpp"
@@ -131,6 +132,32 @@ TEST_CASE("a constant acts on a series as the series of that constant does") {
   REQUIRE((k + x).c == (constant + x).c);
   REQUIRE((x - k).c == (x - constant).c);
   REQUIRE((k - x).c == (constant - x).c);
+}
+
+TEST_CASE("an open series has the coefficients of one of its order, whatever it was known to before") {
+  // as the equations use it: the variable, what grows from term to term, constants and parameters
+  const auto formula = [](const auto& t, const auto& x) {
+    using S = std::decay_t<decltype(x)>;
+    S r = 0.3 * sin(2.0 * t + 0.4) * x - exp(-x / 1.7) / (S(2.0) + cos(x)) + at_least(x, 0.1) * x / 3.0;
+    r -= S(0.2) * t;
+    return -r + (1.0 - x) * 0.7;
+  };
+  Flow x(0.8);
+  OpenSeries<double> open(0.8);
+  auto t = OpenSeries<double>::variable(0.2, 0);
+  for (int k = 0; k < order; ++k) {
+    const double a = formula(Flow::variable(0.2), x)[k];
+    const OpenSeries<double> found = formula(t, open);
+    CHECK(found[k] == a);
+    CHECK(found.last == k);
+    x[k + 1] = a / (k + 1);
+    t.know(k + 1);
+    open.append(k + 1, found[k] / (k + 1));
+  }
+  const Flow closed = formula(Flow::variable(0.2), x);
+  const OpenSeries<double> opened = formula(t, open);
+  for (int k = 0; k <= order; ++k) CHECK(opened[k] == closed[k]);
+  for (int k = order + 1; k <= highest_series; ++k) CHECK(opened[k] == 0.0);
 }
 
 TEST_CASE("a series that is rounding to its last term has no sign, one with nothing but its last term has that one's") {

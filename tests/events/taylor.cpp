@@ -118,6 +118,33 @@ TEST_CASE("a table of torques over the angle is followed from piece to piece, in
   }
 }
 
+TEST_CASE("under held torques no event is leapt over that a changing load makes, alone or in a sum") {
+  Samples held;
+  held.interpolation = Interpolation::hold;
+  for (int k = 0; k < 400; ++k) {
+    held.times.push_back(0.005 * k);
+    held.values.push_back(0.06 * std::sin(0.1 * k));
+  }
+  for (const double frequency : {1.0, 4.0, 10.0}) {
+    const Sinusoid swell{.amplitude = 0.2, .frequency = frequency};
+    const auto compare = [&](const auto& load) {
+      const auto by = [&](double tolerance) {
+        return run(drive(table1(), load, Signal{{held}}, effects(GearViscous<double>{1e-4})), Timetable(0, 2, 0.05),
+                   {0, {0.2, 0.5}, {}}, tight(taylor, tolerance));
+      };
+      const auto exact = by(1e-13);
+      for (const double tolerance : {1e-6, 1e-8}) {
+        const auto loose = by(tolerance);
+        CAPTURE(frequency, tolerance);
+        CHECK(loose.modes() == exact.modes());
+        CHECK((loose.end.x - exact.end.x).cwiseAbs().maxCoeff() <= tolerance);
+      }
+    };
+    compare(Signal{{swell}});
+    compare(LoadSum{{swell}});
+  }
+}
+
 TEST_CASE("a load whose law changes within a step is not stepped over") {
   for (double jump : {0.0, -0.05}) {
     const WormDrive<double, BentLoad> bent(GearMesh<double>(table1()), BentLoad{0.3, jump}, {}, constant(0.01));

@@ -245,8 +245,8 @@ Comparison compare_random_held(Dice& dice) {
       return compare(drive(p, LoadSum{{table}}, motor, on), {0, start.x, {}});
     }
     case 3: {
-      LoadSum sum{{arm, Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)}}};
-      if (dice.one_in(2)) std::visit([&](const auto& term) { sum.terms.emplace_back(term); }, random_term(dice, 0.05));
+      const LoadSum sum{{arm, Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)},
+                         Sinusoid{.amplitude = dice.between(0.01, 0.05), .frequency = dice.between(1, 10)}}};
       return compare(drive(p, sum, motor, on), {0, start.x, {}});
     }
   }
