@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "core/effects/actuator_delay.hpp"
 #include "core/effects/actuator_lag.hpp"
@@ -70,6 +71,21 @@ template <class S>
 struct MomentOfEffects : Moment<S> {
   std::array<S, effect_state_count> states{};
 };
+
+/// Whether an effect has a hook that makes another one of a value.
+template <class Hook, class Effect, class Value>
+concept Hooks = requires(const Hook& hook, const Effect& effect, const Value& value) {
+  hook(effect, value);
+};
+/// Places in the catalogue of the effects that have a hook.
+template <class Value, class Hook, class... Effect>
+consteval auto hooked(const std::tuple<std::optional<Effect>...>*) {
+  constexpr std::array has{Hooks<Hook, Effect, Value>...};
+  std::array<std::size_t, std::count(has.begin(), has.end(), true)> places{};
+  for (std::size_t k = 0, n = 0; k < has.size(); ++k)
+    if (has[k]) places[n++] = k;
+  return places;
+}
 
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
@@ -254,13 +270,15 @@ struct Effects {
   }
 
  private:
-  /// The value after every effect that is on and has the hook has changed it in turn.
+  /// The value after every effect that is on and has the hook has changed it in turn. Effects without the hook are left
+  /// out beforehand: a visit of all of them would be instantiated for every place and every scalar.
   template <class Value, class Hook>
   Value through(Value value, Hook hook) const {
-    for_each([&](const auto& effect) {
-      if constexpr (requires { hook(*effect, value); })
-        if (effect) value = hook(*effect, value);
-    });
+    static constexpr auto places = hooked<Value, Hook>(static_cast<const EffectList<T>*>(nullptr));
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+      ((std::get<places[K]>(list) ? void(value = hook(*std::get<places[K]>(list), value)) : void()), ...);
+    }
+    (std::make_index_sequence<places.size()>());
     return value;
   }
 };

@@ -14,6 +14,7 @@
 #include "core/effects.hpp"
 #include "core/elastic/elastic_teeth.hpp"
 #include "core/initial_state.hpp"
+#include "core/load.hpp"
 #include "core/mesh.hpp"
 #include "core/signal.hpp"
 #include "core/unit.hpp"
@@ -30,10 +31,9 @@ struct Parameter {
 };
 
 /// Everything that a rigid drive is made of: what its parameters are read from, and what carries their derivatives.
-template <class Load>
 struct RigidDrive {
   GearMesh<double> mesh;
-  Load load;
+  LoadSum load;
   Effects<double> effects;
   Signal motor;
   InitialState<double> initial{};
@@ -46,8 +46,8 @@ MeshParameters<T> stated(const GearMesh<T>& mesh) {
 }
 
 /// Calls visit(table, parameters) for every parameter struct of a drive: initial state, mesh, effects that are on.
-template <class Load, class Visit>
-void for_each_table(const RigidDrive<Load>& drive, Visit&& visit) {
+template <class Visit>
+void for_each_table(const RigidDrive& drive, Visit&& visit) {
   visit(std::string_view("initial"), drive.initial);
   const std::string_view mesh = "mesh";
   if (drive.mesh.has_teeth)
@@ -68,8 +68,7 @@ constexpr bool continuous(const Field<Owner, Value>& field) {
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are
 /// on. Throws std::invalid_argument where the teeth are elastic, for such a drive is not rigid, or an effect has a
 /// state.
-template <class Load>
-std::vector<Parameter> continuous_parameters(const RigidDrive<Load>& drive) {
+inline std::vector<Parameter> continuous_parameters(const RigidDrive& drive) {
   if (has_elastic_teeth(drive.effects)) throw std::invalid_argument("a drive with elastic teeth is not rigid");
   if (const auto id = drive.effects.first_with_states(); !id.empty())
     throw std::invalid_argument("effect." + std::string(id) + " has a state, which sensitivities do not follow");
@@ -84,8 +83,7 @@ std::vector<Parameter> continuous_parameters(const RigidDrive<Load>& drive) {
 }
 
 /// One of them by its names. Throws std::invalid_argument where the drive has none of that name.
-template <class Load>
-Parameter parameter(const RigidDrive<Load>& drive, std::string_view table, std::string_view field) {
+inline Parameter parameter(const RigidDrive& drive, std::string_view table, std::string_view field) {
   for (const Parameter& p : continuous_parameters(drive))
     if (p.table == table && p.field == field) return p;
   throw std::invalid_argument("the drive has no continuous parameter '" + std::string(field) + "' in '" +
@@ -129,8 +127,7 @@ Effects<T> converted(const Effects<double>& effects, Value&& value) {
 }
 
 /// The drive with other values of some of its parameters.
-template <class Load>
-RigidDrive<Load> changed(RigidDrive<Load> drive, std::span<const Parameter> to) {
+inline RigidDrive changed(RigidDrive drive, std::span<const Parameter> to) {
   const auto value = [&](std::string_view table, std::string_view field, double x) {
     const auto found =
         std::find_if(to.begin(), to.end(), [&](const Parameter& p) { return p.table == table && p.field == field; });
@@ -144,12 +141,12 @@ RigidDrive<Load> changed(RigidDrive<Load> drive, std::span<const Parameter> to) 
 
 /// A drive and its initial state that carry the derivatives by some of the parameters; T is a ceres::Jet of at least as
 /// many, and the k-th partial derivative is that by the k-th parameter.
-template <class T, class Load>
+template <class T>
 struct SeededDrive {
-  WormDrive<T, Load> drive;
+  WormDrive<T, SummedLoad> drive;
   InitialState<T> initial;
 
-  SeededDrive(const RigidDrive<Load>& stated, std::span<const Parameter> by)
+  SeededDrive(const RigidDrive& stated, std::span<const Parameter> by)
       : SeededDrive(stated, [by](std::string_view table, std::string_view field, double x) {
           for (std::size_t k = 0; k < by.size(); ++k)
             if (by[k].table == table && by[k].field == field) return T(x, static_cast<int>(k));
@@ -158,8 +155,9 @@ struct SeededDrive {
 
  private:
   template <class Seed>
-  SeededDrive(const RigidDrive<Load>& stated, const Seed& seed)
-      : drive(converted<T>(stated.mesh, seed), stated.load, converted<T>(stated.effects, seed), stated.motor),
+  SeededDrive(const RigidDrive& stated, const Seed& seed)
+      : drive(converted<T>(stated.mesh, seed), make_load(stated.load), converted<T>(stated.effects, seed),
+              stated.motor),
         initial(converted<T>(stated.initial, "initial", seed)) {}
 };
 

@@ -1,18 +1,12 @@
 #pragma once
-#include <algorithm>
-#include <cstddef>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
-#include <ceres/jet.h>
 
 #include "core/load.hpp"
 #include "core/rigid_drive.hpp"
 #include "events/event_sequence.hpp"
-#include "events/sensitivity/cvodes_sensitivity.hpp"
-#include "events/sensitivity/saltation.hpp"
-#include "events/sensitivity/series_sensitivity.hpp"
 #include "events/solvers.hpp"
 
 namespace wormdrive {
@@ -38,128 +32,30 @@ struct Sensitivities {
   std::vector<Event> events;
 };
 
-/// A scalar with its derivatives by four parameters, as many as are followed at a time: more would share the cost of
-/// the state itself, fewer carry less that nobody asked for.
-using Followed = ceres::Jet<double, 4>;
-
-/// The rows and events of a course, their derivatives by the parameters still zero.
-template <class System>
-Sensitivities outline(const EventSequence<System>& sequence, const System& drive,
-                      std::span<const Parameter> parameters) {
-  Sensitivities made{{parameters.begin(), parameters.end()}, {}, {}};
-  const auto count = static_cast<Eigen::Index>(parameters.size());
-  for (const auto& stop : sequence.stops()) {
-    const auto& now = stop.after;
-    if (stop.passed())
-      made.rows.push_back(
-          {now.t, now.x, drive.measured_angle(now), Eigen::Matrix2Xd::Zero(2, count), Eigen::RowVectorXd::Zero(count)});
-    else if (stop.changes_mode())
-      made.events.push_back({now.t, stop.before.mode, now.mode, Eigen::RowVectorXd::Zero(count)});
-  }
-  return made;
-}
-
-/// The measured angle as the sensor hands it on, which is at a time that does not move with the sensor's delay: the
-/// longer the delay, the earlier the angle.
-template <class Drive>
-auto handed_on(const Drive& drive, typename Drive::Instant now) {
-  const auto age = drive.effects().measuring_delay();
-  now.x -= drive.derivative(now.t, now.x, now.mode) * typename Drive::State::Scalar(age - age.a);
-  return drive.measured_angle(now);
-}
-
-/// Carries a state of Jets along a course and writes the derivatives by `count` parameters, from column `first` on.
-template <class System, class Drive, class Carrier>
-void follow(const EventSequence<System>& sequence, Drive& drive, Carrier& carrier, typename Drive::Instant now,
-            Eigen::Index first, Eigen::Index count, Sensitivities& made) {
-  const auto write = [&](auto&& row, const Followed& value) {
-    row.segment(first, count) = value.v.head(count).transpose();
-  };
-  const auto limit = [&](auto stop) {
-    while (stop->cause.reason == Reason::report) ++stop;
-    return stop->before.t;
-  };
-  auto row = made.rows.begin();
-  auto event = made.events.begin();
-  const auto& stops = sequence.stops();
-  for (auto stop = stops.begin(); stop != stops.end(); ++stop) {
-    if (Drive::at_rest(now.mode))
-      now.t = stop->before.t;
-    else
-      carrier.advance(now, stop->before.t);
-    if (stop->passed()) {
-      take_values(now, stop->before.x);
-      for (int k = 0; k < Drive::state_size; ++k) write(row->state_by.row(k), now.x[k]);
-      write(row->measured_by, handed_on(drive, now));
-      ++row;
-      continue;
-    }
-    const Followed t = cross(drive, now, *stop);
-    if (stop->changes_mode()) write((event++)->time_by, t);
-    if (!Drive::at_rest(now.mode)) carrier.restart(now, limit(stop + 1));
-  }
-}
-
-/// Carries the derivatives by parameters along what a run has met.
-template <class Load>
-void follow_all(const EventSequence<WormDrive<double, Load>>& sequence, double begin, const RigidDrive<Load>& parts,
-                std::span<const Parameter> parameters, const SolverSettings& settings, Sensitivities& made) {
-  constexpr std::size_t together = Followed::DIMENSION;
-  for (std::size_t first = 0; first < parameters.size(); first += together) {
-    const auto some = parameters.subspan(first, std::min(together, parameters.size() - first));
-    SeededDrive<Followed, Load> seeded(parts, some);
-    using Drive = decltype(seeded.drive);
-    const auto count = static_cast<int>(some.size());
-    // what moves at the start is in the mode that it goes on in: nothing has happened yet
-    const Mode mode = parts.initial.omega_g != 0.0 ? sequence.stops().front().after.mode : Mode{};
-    const typename Drive::Instant now{begin, {seeded.initial.theta_g, seeded.initial.omega_g}, mode, {}};
-    const auto along = [&](auto carrier) {
-      follow(sequence, seeded.drive, carrier, now, static_cast<Eigen::Index>(first), count, made);
-    };
-    switch (settings.solver) {
-      case SolverKind::cvode: along(CvodesSensitivity<Drive>(seeded.drive, count, settings)); break;
-      case SolverKind::taylor: along(SeriesSensitivity<Drive>(seeded.drive, settings)); break;
-    }
-  }
-}
+/// The derivatives by parameters along what a run from `begin` [s] on has met.
+Sensitivities derivatives(const EventSequence<WormDrive<double, SummedLoad>>& sequence,
+                          const WormDrive<double, SummedLoad>& system, double begin, const RigidDrive& parts,
+                          std::span<const Parameter> parameters, const SolverSettings& settings);
 
 /// Runs a drive and finds the derivatives of its state by parameters, through every event.
 ///
 /// settings.solver makes the run and carries the derivatives: power series of Jets, or CVODES. What the controller
 /// holds is taken as given, as a recorded torque is; the derivatives do not go through its law. Throws
 /// SimulationFailure or SolverFault when the run cannot go on.
-template <class Load, class Controller>
-Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
-                            const Timetable& timetable, const SolverSettings& settings, Controller& controller) {
-  using System = WormDrive<double, Load>;
-  System system(parts.mesh, parts.load, parts.effects, parts.motor);
+template <class Controller>
+Sensitivities sensitivities(const RigidDrive& parts, std::span<const Parameter> parameters, const Timetable& timetable,
+                            const SolverSettings& settings, Controller& controller) {
+  using System = WormDrive<double, SummedLoad>;
+  System system(parts.mesh, make_load(parts.load), parts.effects, parts.motor);
   const typename System::Instant start{timetable.next_time(), {parts.initial.theta_g, parts.initial.omega_g}, {}};
   EventSequence<System> sequence(start);
   with_solver(system, settings,
               [&](auto& solver) { simulate(system, solver, controller, timetable, start, sequence); });
-  Sensitivities made = outline(sequence, system, parameters);
-  follow_all(sequence, start.t, parts, parameters, settings, made);
-  return made;
+  return derivatives(sequence, system, start.t, parts, parameters, settings);
 }
 
 /// The same in open loop.
-template <class Load>
-Sensitivities sensitivities(const RigidDrive<Load>& parts, std::span<const Parameter> parameters,
-                            const Timetable& timetable, const SolverSettings& settings) {
-  NoController nobody;
-  return sensitivities(parts, parameters, timetable, settings, nobody);
-}
-
-// Compiled once, in sensitivity.cpp, for the loads of core/: the derivatives cost a compiler minutes.
-// clang-format off
-#define WORMDRIVE_SENSITIVITIES(prefix, Load)                                                                       \
-  prefix template void follow_all(const EventSequence<WormDrive<double, Load>>&, double, const RigidDrive<Load>&,   \
-                                  std::span<const Parameter>, const SolverSettings&, Sensitivities&);               \
-  prefix template Sensitivities sensitivities(const RigidDrive<Load>&, std::span<const Parameter>, const Timetable&, \
-                                              const SolverSettings&);
-// clang-format on
-WORMDRIVE_SENSITIVITIES(extern, TimedLoad)
-WORMDRIVE_SENSITIVITIES(extern, GravityLoad)
-WORMDRIVE_SENSITIVITIES(extern, SummedLoad)
+Sensitivities sensitivities(const RigidDrive& parts, std::span<const Parameter> parameters, const Timetable& timetable,
+                            const SolverSettings& settings);
 
 }  // namespace wormdrive

@@ -18,7 +18,7 @@ inline std::vector<ReferenceTerm> rich_motion() {
 }
 
 struct RecordingConditions {
-  double duration = 24.0;        ///< [s]
+  double duration = 16.0;        ///< [s]
   double white_torque = 5e-4;    ///< [N m]
   double counts = 65536;         ///< of the gear's encoder per turn
   double angle_noise = 3e-5;     ///< [rad]
@@ -43,7 +43,7 @@ inline Scenario nominal_arm() {
   arm.mass = 1.0;
   arm.arm = 0.07;
   s.load = arm;
-  s.run.duration = 24.0;
+  s.run.duration = 16.0;
   return s;
 }
 

@@ -10,7 +10,7 @@ namespace wormdrive {
 
 /// What friction and payload do to an arm that swings for two seconds, a row every 10 ms.
 inline Sensitivities friction_or_payload(const MeshParameters<double>& mesh, const GravityArm& arm) {
-  RigidDrive<GravityLoad> drive{GearMesh<double>(mesh), make_load(arm), {}, {}, {}};
+  RigidDrive drive{GearMesh<double>(mesh), {{arm}}, {}, {}, {}};
   drive.motor.terms = {Sinusoid{.amplitude = 0.05, .frequency = 1.5}};
   // on, so that there is something to differentiate by; zero, so that nothing changes
   std::get<std::optional<MeshFriction<double>>>(drive.effects.list) = {0.0};

@@ -24,10 +24,9 @@ struct Kinds {
 };
 
 /// Runs that differ in one parameter, compared event by event and row by row.
-template <class Load>
 class Differences {
  public:
-  Differences(const RigidDrive<Load>& drive, const Timetable& timetable) : drive_(drive), timetable_(timetable) {}
+  Differences(const RigidDrive& drive, const Timetable& timetable) : drive_(drive), timetable_(timetable) {}
 
   /// The derivatives by a parameter, of fourth order in the step; the events must be the same ones.
   Sensitivities by(const Parameter& p, double step) const {
@@ -65,7 +64,7 @@ class Differences {
     return d;
   }
 
-  const RigidDrive<Load>& drive_;
+  const RigidDrive& drive_;
   Timetable timetable_;
 };
 
@@ -120,9 +119,8 @@ struct Agreement {
   Deviation cvodes, differences;
 };
 
-template <class Load>
-Agreement agreement(const RigidDrive<Load>& drive, const std::vector<Parameter>& by, const Timetable& timetable,
-                    double change = 5e-5) {
+inline Agreement agreement(const RigidDrive& drive, const std::vector<Parameter>& by, const Timetable& timetable,
+                           double change = 5e-5) {
   Agreement found{sensitivities(drive, by, timetable, tight(taylor, 1e-12)), {}, {}};
   const Sensitivities& series = found.series;
   const Sensitivities cvodes = sensitivities(drive, by, timetable, tight(adams, 1e-12));

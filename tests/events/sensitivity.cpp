@@ -16,7 +16,7 @@ namespace {
 constexpr double duration = 2.0;
 
 /// Two sinusoids against an arm, chosen for events of every kind, none of them near to another.
-RigidDrive<GravityLoad> lively(Effects<double> on = {}) {
+RigidDrive lively(Effects<double> on = {}) {
   GravityArm arm;
   arm.amplitude = 0.033;
   arm.offset = 2.241;
@@ -29,7 +29,7 @@ RigidDrive<GravityLoad> lively(Effects<double> on = {}) {
   unless_on(WormCoulomb<double>{0.0058});
   unless_on(GearCoulomb<double>{0.0069});
   unless_on(WormViscous<double>{2e-5});
-  return {GearMesh<double>(table1()), make_load(arm), on, motor};
+  return {GearMesh<double>(table1()), {{arm}}, on, motor};
 }
 
 std::vector<Parameter> in_table(const std::vector<Parameter>& all, std::string_view table) {
@@ -118,7 +118,7 @@ TEST_CASE("they agree under a load that changes its law at the points of a table
   const AngleTable table{.angles = {-3.0, -0.4, -0.1, 0.05, 0.3, 0.9, 3.0},
                          .torques = {0.03, 0.02, -0.03, 0.01, 0.025, -0.02, 0.01}};
   const auto arm = lively(effects(LoadAngle<double>{0.05}));
-  const RigidDrive<SummedLoad> drive{arm.mesh, make_load(LoadSum{{table}}), arm.effects, arm.motor};
+  const RigidDrive drive{arm.mesh, {{table}}, arm.effects, arm.motor};
   const auto found =
       agreement(drive, {parameter(drive, "load_angle", "angle"), parameter(drive, "worm_coulomb", "torque")},
                 Timetable(0, duration, 0.0131));

@@ -13,12 +13,8 @@ namespace {
 
 constexpr double J = 0.02, T = 0.05;  // [kg m^2], [N m]
 
-RigidDrive<TimedLoad> flywheel(const Signal& motor, double omega) {
-  return {GearMesh<double>::without_teeth(J),
-          make_load(constant(0.0)),
-          effects(WormCoulomb<double>{T}),
-          motor,
-          {0.0, omega}};
+RigidDrive flywheel(const Signal& motor, double omega) {
+  return {GearMesh<double>::without_teeth(J), LoadSum{}, effects(WormCoulomb<double>{T}), motor, {0.0, omega}};
 }
 
 /// A controller that repeats what was recorded.
@@ -33,7 +29,7 @@ struct Recorded {
 };
 
 /// The derivatives by dry friction, initial speed and inertia at the end of a run, in this order.
-Sensitivities derived(const RigidDrive<TimedLoad>& drive, double end, By by) {
+Sensitivities derived(const RigidDrive& drive, double end, By by) {
   const std::array which{parameter(drive, "worm_coulomb", "torque"), parameter(drive, "initial", "gear_speed"),
                          parameter(drive, "mesh", "inertia")};
   return sensitivities(drive, which, Timetable(0, end, end), tight(by, 1e-12));
