@@ -27,13 +27,12 @@ class ShortStepSolver {
   /// The mode in which the system goes on after inputs or state were set from outside. What decides it is known to the
   /// step that begins here.
   Mode settle(const Instant& now) {
-    settled_at_.reset();
+    settled_.reset();
     if (now.mode.motion == Motion::stuck || now.x[1] == 0.0) return system_.settle(now);
     const Motion motion = now.x[1] > 0.0 ? Motion::forward : Motion::backward;
     const Torques torques = torques_at(now.t, now.x[0], now.x[1], motion);
     const auto flank = system_.flank_by_far(torques.sides, torques.beyond);
     if (!flank) return system_.settle(now);
-    settled_at_ = now.t;
     settled_ = torques;
     return {motion, *flank};
   }
@@ -77,7 +76,9 @@ class ShortStepSolver {
     return {moment, sides, system_.beyond_surface(sides, moment)};
   }
   bool knows(const Instant& now) const {
-    return settled_at_ == now.t && settled_.moment.theta_g == now.x[0] && settled_.moment.omega_g == now.x[1];
+    if (!settled_) return false;
+    const Moment<double>& at = settled_->moment;
+    return at.t == now.t && at.theta_g == now.x[0] && at.omega_g == now.x[1];
   }
   struct Node {
     double acceleration, beyond;
@@ -91,7 +92,7 @@ class ShortStepSolver {
   void step(const Instant& now, double limit) {
     begin_ = now;
     const double most = std::min(limit - now.t, longest_), x = now.x[0], v = now.x[1];
-    const Node first = knows(now) ? node(settled_) : node(now.t, x, v);
+    const Node first = knows(now) ? node(*settled_) : node(now.t, x, v);
     const double a0 = first.acceleration;
     for (double h = most;; h *= 0.5) {
       const Node middle = node(now.t + 0.5 * h, x + 0.5 * h * (v + 0.25 * h * a0), v + 0.5 * h * a0);
@@ -159,8 +160,7 @@ class ShortStepSolver {
   std::array<double, 3> a_{};  ///< acceleration over the share of the step [rad/s^2]
   int fired_ = no_guard;       ///< the guard that falls through zero at the end
   std::array<bool, 2> armed_{};
-  std::optional<double> settled_at_;  ///< [s]
-  Torques settled_{};                 ///< in the direction of the speed
+  std::optional<Torques> settled_;  ///< in the direction of the speed
   RootSearch search_;
   SolverStatistics count_{};
 };

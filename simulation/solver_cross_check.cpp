@@ -65,7 +65,7 @@ struct RecordedController {
 };
 
 template <class Drive>
-Disagreement replayed(Drive& drive, const Scenario& scenario, const SolverCrossCheck& told) {
+Disagreement replayed(Drive drive, const Scenario& scenario, const SolverCrossCheck& told) {
   CvodeSolver<Drive> solver(drive, scenario.run.solver_settings());
   Sampling sampling;
   if (scenario.control) {
@@ -105,12 +105,8 @@ Scenario with_cvode(Scenario scenario) {
 Disagreement cross_check(const Scenario& scenario) {
   const SolverCrossCheck told = testimony_of(scenario);
   const Scenario again = with_cvode(scenario);
-  if (again.effects.have_states()) {
-    auto drive = make_drive<true>(again);
-    return replayed(drive, again, told);
-  }
-  auto drive = make_drive(again);
-  return replayed(drive, again, told);
+  return again.effects.have_states() ? replayed(make_drive<true>(again), again, told)
+                                     : replayed(make_drive(again), again, told);
 }
 
 LoopCrossCheck cross_check_in_the_loop(const Scenario& scenario) {

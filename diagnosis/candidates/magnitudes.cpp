@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/build.hpp"
+#include "diagnosis/data/moved_load.hpp"
 
 namespace wormdrive {
 
@@ -49,9 +50,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     m.gear_inertia = total_gear_inertia(scenario);
   }
   for (const PreparedRecording& r : recordings) {
-    Scenario loaded = scenario;
-    if (r.data.load) loaded.load = *r.data.load;
-    const auto drive = make_drive(loaded);
+    const auto drive = loaded_drive(scenario, r.data);
     auto load = drive.load();
     m.load_turns = m.load_turns || load.ripple() > 0.0;
     for (std::size_t k = 0; k < r.samples(); k += 50) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "description/build.hpp"
+#include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/faults/mended_recording.hpp"
 #include "diagnosis/predictor/predictor.hpp"
 #include "diagnosis/rules/noise.hpp"
@@ -35,7 +36,7 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
                                   observer_gains(noise, prepared.data), extra);
         use(predictor);
       },
-      prepared.data.load ? *prepared.data.load : scenario_.load);
+      moved_load(scenario_, prepared.data));
 }
 
 std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& drive, const ProcessNoise& noise,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/build.hpp"
+#include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/rules/noise.hpp"
 
 namespace wormdrive {
@@ -126,10 +127,9 @@ std::vector<double> sensitivity(const Evaluation& evaluation, const Hypothesis& 
 }
 
 double inertia_on_worm(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording) {
-  const std::optional<LoadParameters>& own = evaluation.layout().recordings[recording].data.load;
-  Scenario scenario = evaluation.scenario();
-  if (own) scenario.load = *own;
-  const auto drive = make_drive(scenario, extended(h).effects, Signal{});
+  const Scenario& scenario = evaluation.scenario();
+  const LoadParameters& load = moved_load(scenario, evaluation.layout().recordings[recording].data);
+  const auto drive = make_drive(scenario, sum_of(load), extended(h).effects, Signal{});
   return drive.mesh().Jw * drive.mesh().i + drive.mesh().C(0.0) * drive.Jg();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "description/build.hpp"
+#include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/rules/noise.hpp"
@@ -32,12 +32,10 @@ Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Mag
   for (std::size_t q = 0; q < states.size(); ++q) {
     const PreparedRecording& r = evaluation.layout().recordings[q];
     const FilteredStates& state = states[q];
-    Scenario loaded = evaluation.scenario();
-    if (r.data.load) loaded.load = *r.data.load;
-    auto drive = make_drive(loaded);
+    const auto drive = loaded_drive(evaluation.scenario(), r.data);
+    auto load = drive.load();
     for (std::size_t k = 0; k < r.samples(); ++k) {
       const double t = r.data.time(k);
-      auto load = drive.load();
       load.enter(t);
       const double tau = sizes.load_torque > 0.0
                              ? load.torque(drive.moment(t, state.angle[k], state.speed[k])) / sizes.load_torque

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "description/build.hpp"
+#include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/rules/verdict.hpp"
 
 namespace wormdrive {
@@ -39,10 +39,9 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
   for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
     const PreparedRecording& recording = evaluation.layout().recordings[r];
     const std::vector<double>&then = all_then[r], &now = all_now[r];
-    Scenario loaded = evaluation.scenario();
-    if (recording.data.load) loaded.load = *recording.data.load;
     const auto bin = static_cast<std::size_t>(std::max(1L, std::lround(rules::torque_bin / recording.data.period)));
-    auto drive = make_drive(loaded);
+    const auto drive = loaded_drive(evaluation.scenario(), recording.data);
+    auto load = drive.load();
     for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
       double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
       bool whole = true;
@@ -57,7 +56,6 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
       const std::size_t middle = begin + bin / 2;
       const double t = recording.data.time(middle);
       const double angle = recording.data.gear_angle[middle];
-      auto load = drive.load();
       load.enter(t);
       const Moment<double> at = drive.moment(t, angle, recording.speed[middle]);
       const double turn = 2.0 * std::numbers::pi;
