@@ -38,6 +38,7 @@
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_viscous.hpp"
+#include "core/hook.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
@@ -72,21 +73,6 @@ struct MomentOfEffects : Moment<S> {
   std::array<S, effect_state_count> states{};
 };
 
-/// Whether an effect has a hook that makes another one of a value.
-template <class Hook, class Effect, class Value>
-concept Hooks = requires(const Hook& hook, const Effect& effect, const Value& value) {
-  hook(effect, value);
-};
-/// Places in the catalogue of the effects that have a hook.
-template <class Value, class Hook, class... Effect>
-consteval auto hooked(const std::tuple<std::optional<Effect>...>*) {
-  constexpr std::array has{Hooks<Hook, Effect, Value>...};
-  std::array<std::size_t, std::count(has.begin(), has.end(), true)> places{};
-  for (std::size_t k = 0, n = 0; k < has.size(); ++k)
-    if (has[k]) places[n++] = k;
-  return places;
-}
-
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
 struct Effects {
@@ -105,34 +91,41 @@ struct Effects {
 
   /// Largest magnitude of the motor's command [N m], infinity without a limit.
   T torque_limit() const {
-    return through(T(std::numeric_limits<double>::infinity()),
+    return through(list, T(std::numeric_limits<double>::infinity()),
                    [](const auto& e, const T& limit) -> decltype(e.torque_limit()) {
                      return e.torque_limit() < limit ? e.torque_limit() : limit;
                    });
   }
   /// Delay of the command on its way to the motor [s].
   T delay() const {
-    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.delay()) { return sum + e.delay(); });
+    return through(list, T(0.0),
+                   [](const auto& e, const T& sum) -> decltype(sum + e.delay()) { return sum + e.delay(); });
   }
   /// Time constant with which the motor's torque follows [s], 0 for at once.
   T lag() const {
-    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.lag()) { return sum + e.lag(); });
+    return through(list, T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.lag()) { return sum + e.lag(); });
   }
   /// Torque that the motor gives for a command [N m].
   template <class S>
   S motor_torque(const S& command, const Moment<S>& at) const {
-    return through(command, [&](const auto& e, const S& torque) -> decltype(e.motor_torque(torque, at)) {
-      return e.motor_torque(torque, at);
-    });
+    return through(
+        list, command,
+        [](const auto& e, const S& torque, const auto& now) -> decltype(e.motor_torque(torque, now)) {
+          return e.motor_torque(torque, now);
+        },
+        at);
   }
   /// The same where effects have states.
   template <class S>
   S motor_torque(const S& command, const MomentOfEffects<S>& at) const {
-    return through(command, [&]<class E>(const E& e, const S& torque) -> decltype(e.motor_torque(torque, at)) {
-      if constexpr (MayHaveStates<E>)
-        if (e.has_states()) return e.motor_torque(torque, at, EffectStates::template of<E>(at.states));
-      return e.motor_torque(torque, at);
-    });
+    return through(
+        list, command,
+        []<class E>(const E& e, const S& torque, const auto& now) -> decltype(e.motor_torque(torque, now)) {
+          if constexpr (MayHaveStates<E>)
+            if (e.has_states()) return e.motor_torque(torque, now, EffectStates::template of<E>(now.states));
+          return e.motor_torque(torque, now);
+        },
+        at);
   }
   /// The id of the first effect that has a state; empty if none has.
   std::string_view first_with_states() const {
@@ -169,26 +162,37 @@ struct Effects {
   /// Torque that the effects add on the worm shaft [N m].
   template <class S>
   S worm_torque(const Moment<S>& at, Motion motion) const {
-    return through(S(0.0), [&](const auto& e, const S& sum) -> decltype(sum + e.worm_torque(at, motion)) {
-      return sum + e.worm_torque(at, motion);
-    });
+    return through(
+        list, S(0.0),
+        [](const auto& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
+          return sum + e.worm_torque(now, way);
+        },
+        at, motion);
   }
   /// Inertia that the effects add on the worm shaft [kg m^2].
   T worm_inertia() const {
-    return through(
-        T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.worm_inertia()) { return sum + e.worm_inertia(); });
+    return through(list, T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.worm_inertia()) {
+      return sum + e.worm_inertia();
+    });
   }
   /// Coefficient of friction between the teeth out of the mesh's own.
   template <class S>
   S friction(const S& mesh, const SlidingContact<S>& at) const {
-    return through(mesh,
-                   [&](const auto& e, const S& mu) -> decltype(e.friction(mu, at)) { return e.friction(mu, at); });
+    return through(
+        list, mesh,
+        [](const auto& e, const S& mu, const auto& now) -> decltype(e.friction(mu, now)) {
+          return e.friction(mu, now);
+        },
+        at);
   }
   /// What friction may come to until a time [s], out of what it is without effects.
   FrictionRange friction_range(const FrictionRange& mesh, double end) const {
-    return through(mesh, [&](const auto& e, const FrictionRange& mu) -> decltype(e.friction_range(mu, end)) {
-      return e.friction_range(mu, end);
-    });
+    return through(
+        list, mesh,
+        [](const auto& e, const FrictionRange& mu, double until) -> decltype(e.friction_range(mu, until)) {
+          return e.friction_range(mu, until);
+        },
+        end);
   }
   /// Whether an effect makes the friction between the teeth another one.
   bool change_friction() const {
@@ -200,12 +204,17 @@ struct Effects {
   }
   /// Highest angular frequency with which friction at rest changes [rad/s].
   double fastest_at_rest() const {
-    return through(0.0, [](const auto& e, double) -> decltype(e.fastest_at_rest()) { return e.fastest_at_rest(); });
+    return through(list, 0.0,
+                   [](const auto& e, double) -> decltype(e.fastest_at_rest()) { return e.fastest_at_rest(); });
   }
   /// Highest number of periods per radian of the gear in what effects do over its angle, for a ratio i.
   double ripple(double i) const {
-    return through(0.0,
-                   [&](const auto& e, double most) -> decltype(e.ripple(i)) { return std::max(most, e.ripple(i)); });
+    return through(
+        list, 0.0,
+        [](const auto& e, double most, double ratio) -> decltype(e.ripple(ratio)) {
+          return std::max(most, e.ripple(ratio));
+        },
+        i);
   }
   /// Whether the worm does not follow the gear with the ratio i throughout.
   bool pitch_varies() const {
@@ -217,32 +226,39 @@ struct Effects {
   }
   /// Smallest slope of the worm angle over the gear angle, per ratio i.
   double least_slope() const {
-    return through(1.0, [](const auto& e, double) -> decltype(e.least_slope()) { return e.least_slope(); });
+    return through(list, 1.0, [](const auto& e, double) -> decltype(e.least_slope()) { return e.least_slope(); });
   }
   /// How the worm follows the gear, per ratio i.
   template <class S>
   Transmission<S> transmission(const S& theta_g) const {
     return through(
-        Transmission<S>{theta_g, S(T(1)), S(T(0))},
-        [&](const auto& e, const auto&) -> decltype(e.transmission(theta_g)) { return e.transmission(theta_g); });
+        list, Transmission<S>{theta_g, S(T(1)), S(T(0))},
+        [](const auto& e, const auto&, const S& angle) -> decltype(e.transmission(angle)) {
+          return e.transmission(angle);
+        },
+        theta_g);
   }
   /// Torque that the effects add on the gear shaft [N m].
   template <class S>
   S gear_torque(const Moment<S>& at, Motion motion) const {
-    return through(S(0.0), [&](const auto& e, const S& sum) -> decltype(sum + e.gear_torque(at, motion)) {
-      return sum + e.gear_torque(at, motion);
-    });
+    return through(
+        list, S(0.0),
+        [](const auto& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.gear_torque(now, way)) {
+          return sum + e.gear_torque(now, way);
+        },
+        at, motion);
   }
   /// Inertia that the effects add on the gear shaft [kg m^2].
   T gear_inertia() const {
-    return through(
-        T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.gear_inertia()) { return sum + e.gear_inertia(); });
+    return through(list, T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.gear_inertia()) {
+      return sum + e.gear_inertia();
+    });
   }
   /// Torque of a load with what the effects make of it [N m], while the gear moves, or starts to move, in a direction.
   template <class Load, class S>
   S load_torque(const Load& load, const Moment<S>& at, Motion motion) const {
     Moment<S> seen = at;
-    seen.theta_g = through(at.theta_g, [](const auto& e, const S& theta_g) -> decltype(e.loading_angle(theta_g)) {
+    seen.theta_g = through(list, at.theta_g, [](const auto& e, const S& theta_g) -> decltype(e.loading_angle(theta_g)) {
       return e.loading_angle(theta_g);
     });
     const auto stated = [&]() -> S {
@@ -251,35 +267,25 @@ struct Effects {
       else
         return load.torque(seen);
     };
-    return through(stated(), [&](const auto& e, const S& torque) -> decltype(e.load_torque(torque, at)) {
-      return e.load_torque(torque, at);
-    });
+    return through(
+        list, stated(),
+        [](const auto& e, const S& torque, const auto& now) -> decltype(e.load_torque(torque, now)) {
+          return e.load_torque(torque, now);
+        },
+        at);
   }
   /// Age of the angle that a sample sees [s].
   T measuring_delay() const {
-    return through(T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.measuring_delay()) {
+    return through(list, T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.measuring_delay()) {
       return sum + e.measuring_delay();
     });
   }
   /// The gear angle as the sensor sees it [rad].
   template <class S>
   S measured_angle(const S& theta_g) const {
-    return through(theta_g, [](const auto& e, const S& angle) -> decltype(e.measured_angle(angle)) {
+    return through(list, theta_g, [](const auto& e, const S& angle) -> decltype(e.measured_angle(angle)) {
       return e.measured_angle(angle);
     });
-  }
-
- private:
-  /// The value after every effect that is on and has the hook has changed it in turn. Effects without the hook are left
-  /// out beforehand: a visit of all of them would be instantiated for every place and every scalar.
-  template <class Value, class Hook>
-  Value through(Value value, Hook hook) const {
-    static constexpr auto places = hooked<Value, Hook>(static_cast<const EffectList<T>*>(nullptr));
-    [&]<std::size_t... K>(std::index_sequence<K...>) {
-      ((std::get<places[K]>(list) ? void(value = hook(*std::get<places[K]>(list), value)) : void()), ...);
-    }
-    (std::make_index_sequence<places.size()>());
-    return value;
   }
 };
 

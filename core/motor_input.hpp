@@ -5,10 +5,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/lagged_piece.hpp"
-#include "core/limited_piece.hpp"
 #include "core/numbers/jet.hpp"
 #include "core/numbers/queue.hpp"
+#include "core/pieces/lagged_piece.hpp"
+#include "core/pieces/limited_piece.hpp"
 #include "core/signal.hpp"
 
 namespace wormdrive {

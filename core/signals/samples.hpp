@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/field.hpp"
-#include "core/piece.hpp"
+#include "core/pieces/piece.hpp"
 
 namespace wormdrive {
 

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/field.hpp"
-#include "core/piece.hpp"
+#include "core/pieces/piece.hpp"
 
 namespace wormdrive {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/numbers/sine_cosine.hpp"
-#include "core/piece.hpp"
+#include "core/pieces/piece.hpp"
 #include "events/taylor/polynomial.hpp"
 
 namespace wormdrive {

@@ -4,7 +4,7 @@
 
 #include "core/numbers/jet.hpp"
 #include "core/numbers/portable.hpp"
-#include "core/piece.hpp"
+#include "core/pieces/piece.hpp"
 
 namespace wormdrive {
 

@@ -6,7 +6,7 @@
 
 #include "core/numbers/crossing.hpp"
 #include "core/numbers/rounded.hpp"
-#include "core/piece.hpp"
+#include "core/pieces/piece.hpp"
 
 namespace wormdrive {
 
