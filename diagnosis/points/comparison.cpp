@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "description/build.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/points.hpp"
 #include "statistics/student_t.hpp"
@@ -25,6 +26,17 @@ std::vector<double> carried(const PointModel& to, const FittedModel& from, const
       if (candidate->coordinates[k].is(c)) made.back() = (*start)[k];
   }
   return made;
+}
+
+/// Why no teeth rub as effects make them; empty if some do, or if the scenario states as much.
+std::string impossible_friction(const Scenario& scenario, const Effects<double>& effects) {
+  const double mu = stated_mesh(scenario).mu;
+  const FrictionRange stated = scenario.effects.friction_range({mu, mu}, 0.0),
+                      found = effects.friction_range({mu, mu}, 0.0);
+  if (found.high > std::max(rules::highest_friction, stated.high))
+    return fmt::format("the friction of the teeth would reach {:.2f}: no teeth rub so", found.high);
+  if (found.low < std::min(0.0, stated.low)) return "the friction of the teeth would be negative";
+  return "";
 }
 
 }  // namespace
@@ -115,7 +127,7 @@ std::string PointComparison::doubt(const FittedModel& model) const {
     if (tolerances < rules::least_tolerances)
       return fmt::format("within its tolerance: {:.1f} standard deviations from what is stated", tolerances);
   }
-  return "";
+  return impossible_friction(fitter_.scenario(), fitter_.with(model.model, values));
 }
 
 }  // namespace wormdrive

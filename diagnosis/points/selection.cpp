@@ -161,6 +161,7 @@ class Selector {
       for (const std::string_view effect : std::vector<std::string_view>(model.model.causes)) {
         const auto without = comparison_.reduced(model, comparison_.candidate(effect));
         if (!without || without->rank() - model.rank() > rules::points::least_bic) continue;
+        if (!comparison_.doubt(*without).empty()) continue;
         model = *without;
         dropped = true;
         break;

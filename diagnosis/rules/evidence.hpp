@@ -24,6 +24,8 @@ inline constexpr double held_out_loss = 0.05;
 inline constexpr double equivalence_share = 0.03;
 /// BIC | standard | the same for weak evidence: very strong [Kass and Raftery 1995]
 inline constexpr double equivalence_bic = 10.0;
+/// coefficient of friction | set | teeth rub no more: dry steel slides on steel at 0.57 [Bowden and Tabor 1950]
+inline constexpr double highest_friction = 0.6;
 /// times the smallest speed | set | a fall of friction over less is friction at rest
 inline constexpr double fall_like_rest = 2.0;
 /// BIC | standard | among candidates that differ by less, the one with the fewest parameters comes first
