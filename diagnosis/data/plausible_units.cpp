@@ -179,8 +179,8 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {
   if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const TorqueFit as_is = TorqueJudge(table, table.torque.values, table.angle.values, period).fit(scenario);
-  if (as_is.missed > rules::too_much_unaccounted &&
-      (as_is.factor > rules::wrong_size || as_is.factor * rules::wrong_size < 1.0))
+  const auto wrong = [](double factor) { return factor > rules::wrong_size || factor * rules::wrong_size < 1.0; };
+  if (as_is.missed > rules::too_much_unaccounted && wrong(as_is.factor) && wrong(as_is.factor_rms))
     reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
                                       "unit, or wrong scenario",
                                       table.torque.name, as_is.factor));

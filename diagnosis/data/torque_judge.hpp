@@ -15,7 +15,8 @@ namespace wormdrive {
 struct TorqueFit {
   double missed = 1e9;      ///< median size of what is left over that of the torque
   double missed_rms = 1e9;  ///< the same by root mean squares, which no half of the motion escapes
-  double factor = 0.0;      ///< median size of the torque over that of the need
+  double factor = 1.0;      ///< median size of the torque over that of the need
+  double factor_rms = 1.0;  ///< the same by root mean squares, which a motor that is off for a while hardly changes
 };
 
 /// Compares recorded torques with those that a drive needs for the recorded motion, by its inverse dynamics. What does
@@ -44,8 +45,9 @@ class TorqueJudge {
       given.push_back(mean_[k]);
       asked.push_back(needed[k]);
     }
-    if (given.size() < rules::fewest_for_torque || median_size(given) == 0.0 || median_size(asked) == 0.0) return {};
-    return {median_size(left) / median_size(given), rms(left) / rms(given), median_size(given) / median_size(asked)};
+    if (given.size() < rules::fewest_for_torque || rms(given) == 0.0 || median_size(asked) == 0.0) return {};
+    return {median_size(left) / median_size(given), rms(left) / rms(given), median_size(given) / median_size(asked),
+            rms(given) / rms(asked)};
   }
 
  private:

@@ -67,6 +67,23 @@ Scenario pendulum() {
   return s;
 }
 
+/// The same with its gearbox stated as a worm gear of the same ratio, which its load drives back.
+constexpr double servo_ratio = 288.35;
+Scenario geared_pendulum() {
+  Scenario s = pendulum();
+  MeshParameters<double> mesh;
+  mesh.i = servo_ratio;
+  mesh.lambda = 3.0 * std::numbers::pi / 180.0;
+  mesh.phi_n = 20.0 * std::numbers::pi / 180.0;
+  mesh.lw = 0.003;
+  mesh.lg = mesh.i * mesh.lw * std::tan(mesh.lambda);
+  mesh.mu = 0.01;
+  mesh.Jw = 1.643e-3 / (mesh.i * mesh.i);
+  mesh.Jg = 0.49 * 0.1 * 0.1;
+  s.mesh = mesh;
+  return s;
+}
+
 }  // namespace
 
 TEST_CASE("rows that a logger has lost are put in where they were, and count for nothing") {
@@ -220,6 +237,8 @@ TEST_CASE("the logs of a servo are read as they were written", "[reference]") {
       CHECK(std::abs(r.start + r.times.back() - log->number("time_s", log->size() - 1)) < 1e-9);
       REQUIRE_FALSE(r.remarks.empty());
       CHECK(r.remarks.back().ends_with("; followed as they are"));
+      sheet.each(1, [](double torque, std::size_t) { return torque / servo_ratio; });
+      CHECK_NOTHROW(read(Folder(), sheet, geared_pendulum()));  // its motor is off for most of two logs
     }
 }
 
