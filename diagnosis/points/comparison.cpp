@@ -28,17 +28,6 @@ std::vector<double> carried(const PointModel& to, const FittedModel& from, const
   return made;
 }
 
-/// Why no teeth rub as effects make them; empty if some do, or if the scenario states as much.
-std::string impossible_friction(const Scenario& scenario, const Effects<double>& effects) {
-  const double mu = stated_mesh(scenario).mu;
-  const FrictionRange stated = scenario.effects.friction_range({mu, mu}, 0.0),
-                      found = effects.friction_range({mu, mu}, 0.0);
-  if (found.high > std::max(rules::highest_friction, stated.high))
-    return fmt::format("the friction of the teeth would reach {:.2f}: no teeth rub so", found.high);
-  if (found.low < std::min(0.0, stated.low)) return "the friction of the teeth would be negative";
-  return "";
-}
-
 }  // namespace
 
 std::size_t PointComparison::index_of(std::string_view effect) const {
@@ -127,7 +116,23 @@ std::string PointComparison::doubt(const FittedModel& model) const {
     if (tolerances < rules::least_tolerances)
       return fmt::format("within its tolerance: {:.1f} standard deviations from what is stated", tolerances);
   }
-  return impossible_friction(fitter_.scenario(), fitter_.with(model.model, values));
+  if (const double most = friction(model).high; most > std::max(rules::highest_friction, stated_friction().high))
+    return fmt::format("the friction of the teeth would reach {:.2f}: no teeth rub so", most);
+  return "";
+}
+
+FrictionRange PointComparison::stated_friction() const {
+  const double mu = stated_mesh(fitter_.scenario()).mu;
+  return fitter_.scenario().effects.friction_range({mu, mu}, 0.0);
+}
+
+FrictionRange PointComparison::friction(const FittedModel& model) const {
+  const double mu = stated_mesh(fitter_.scenario()).mu;
+  return fitter_.with(model.model, model.all.values).friction_range({mu, mu}, 0.0);
+}
+
+bool PointComparison::negative_friction(const FittedModel& model) const {
+  return friction(model).low < std::min(0.0, stated_friction().low);
 }
 
 }  // namespace wormdrive

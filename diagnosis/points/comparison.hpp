@@ -43,11 +43,15 @@ class PointComparison {
   bool fits_beside(const PointCandidate& candidate, const PointModel& model) const;
   /// Why a model cannot be believed; empty if it can.
   std::string doubt(const FittedModel& model) const;
+  /// Whether the friction of its teeth falls below zero at some speed: it cannot be simulated.
+  bool negative_friction(const FittedModel& model) const;
 
  private:
   PointModel wider(const FittedModel& model, const PointCandidate& candidate,
                    std::vector<std::vector<double>>& starts) const;
   FittedModel judged(const PointModel& model, PointFit all, double held_out) const;
+  FrictionRange stated_friction() const;
+  FrictionRange friction(const FittedModel& model) const;
 
   const PointFitter& fitter_;
   const std::vector<PointCandidate>& candidates_;

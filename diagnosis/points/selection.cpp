@@ -29,7 +29,7 @@ class Selector {
     for (std::size_t k = 0; k < comparison_.candidates().size(); ++k)
       if (auto judgement = judge(k, *nominal)) singles.push_back(std::move(*judgement));
     selection.before = *nominal;
-    selection.after = search(*nominal);
+    selection.after = simulable(search(*nominal));
     selection.classes = equivalence_classes(comparison_, selection.after);
     report(selection, std::move(singles));
     return selection;
@@ -88,6 +88,24 @@ class Selector {
       return m.rank() + rules::points::decisive_bic * static_cast<double>(m.model.causes.size());
     };
     return dear(unstated) < dear(all) ? unstated : all;
+  }
+
+  /// A model whose friction is nowhere negative: in place of one that fits as well, by the exchange of one effect.
+  FittedModel simulable(const FittedModel& found) const {
+    if (!comparison_.negative_friction(found)) return found;
+    std::optional<FittedModel> best;
+    for (const std::string_view effect : found.model.causes) {
+      const auto without = comparison_.reduced(found, comparison_.candidate(effect));
+      if (!without) continue;
+      for (const PointCandidate& one : comparison_.candidates()) {
+        if (found.model.holds(one.effect) || !comparison_.fits_beside(one, without->model)) continue;
+        auto instead = comparison_.extended(*without, one);
+        if (!instead || !comparison_.doubt(*instead).empty() || comparison_.negative_friction(*instead)) continue;
+        if (instead->bic - found.bic <= rules::points::equally_good && (!best || instead->bic < best->bic))
+          best = std::move(instead);
+      }
+    }
+    return best.value_or(found);
   }
 
   FittedModel best_of_sizes(const FittedModel& nominal, std::size_t largest, bool stated_too) const {
@@ -161,7 +179,6 @@ class Selector {
       for (const std::string_view effect : std::vector<std::string_view>(model.model.causes)) {
         const auto without = comparison_.reduced(model, comparison_.candidate(effect));
         if (!without || without->rank() - model.rank() > rules::points::least_bic) continue;
-        if (!comparison_.doubt(*without).empty()) continue;
         model = *without;
         dropped = true;
         break;
