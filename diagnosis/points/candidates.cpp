@@ -53,10 +53,11 @@ class Maker {
       for (const double share : {-0.3, 0.3})
         starts.push_back({(1.0 - std::abs(share)) * coordinates.front().centre +
                           share * (share > 0.0 ? coordinates.front().high : -coordinates.front().low)});
-    list_.push_back({coordinates.front().effect, std::move(coordinates), std::move(starts), tolerated, {}});
+    list_.push_back({coordinates.front().effect, std::move(coordinates), std::move(starts), tolerated, {}, false});
   }
   /// Of the candidate that was added last.
   void exclude(std::string_view effect) { list_.back().excludes = effect; }
+  void fall() { list_.back().falls = true; }
   std::vector<PointCandidate> take() { return std::move(list_); }
 
  private:
@@ -95,6 +96,7 @@ std::vector<PointCandidate> point_candidates(const Scenario& scenario, const Tor
     if (!maker.states("agma", "scale")) {
       maker.add({maker.coordinate("stribeck", "drop", mu, 0.5), at}, starts);
       maker.exclude("agma");
+      maker.fall();
     }
     if (!maker.states("stribeck", "drop")) {
       maker.add({maker.coordinate("agma", "scale", 1.0, 10.0)}, {{mu / 0.15}});

@@ -12,6 +12,7 @@ struct PointCandidate {
   std::vector<std::vector<double>> starts;  ///< values of the coordinates
   bool tolerated = false;                   ///< a stated parameter: its tolerance lets every model move it a little
   std::string_view excludes{};              ///< an effect that says the same in another way
+  bool falls = false;                       ///< its size is a fall: where it rises, another effect has a name for it
 };
 
 /// Every effect of the catalogue that changes torques at constant speed or at break-in.

@@ -131,7 +131,12 @@ FrictionRange PointComparison::friction(const FittedModel& model) const {
   return fitter_.with(model.model, model.all.values).friction_range({mu, mu}, 0.0);
 }
 
-bool PointComparison::negative_friction(const FittedModel& model) const {
+bool PointComparison::misshapen(const FittedModel& model) const {
+  for (const std::string_view effect : model.model.causes) {
+    const PointCandidate& one = candidate(effect);
+    for (std::size_t k = 0; k < model.all.values.size() && one.falls; ++k)
+      if (model.model.coordinates[k].is(one.coordinates.front()) && model.all.values[k] < 0.0) return true;
+  }
   return friction(model).low < std::min(0.0, stated_friction().low);
 }
 

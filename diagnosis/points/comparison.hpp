@@ -43,8 +43,9 @@ class PointComparison {
   bool fits_beside(const PointCandidate& candidate, const PointModel& model) const;
   /// Why a model cannot be believed; empty if it can.
   std::string doubt(const FittedModel& model) const;
-  /// Whether the friction of its teeth falls below zero at some speed: it cannot be simulated.
-  bool negative_friction(const FittedModel& model) const;
+  /// Whether its friction falls below zero at some speed, so that it cannot be simulated, or rises where it is named
+  /// for its fall.
+  bool misshapen(const FittedModel& model) const;
 
  private:
   PointModel wider(const FittedModel& model, const PointCandidate& candidate,

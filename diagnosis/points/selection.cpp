@@ -29,7 +29,7 @@ class Selector {
     for (std::size_t k = 0; k < comparison_.candidates().size(); ++k)
       if (auto judgement = judge(k, *nominal)) singles.push_back(std::move(*judgement));
     selection.before = *nominal;
-    selection.after = simulable(search(*nominal));
+    selection.after = well_shaped(search(*nominal));
     selection.classes = equivalence_classes(comparison_, selection.after);
     report(selection, std::move(singles));
     return selection;
@@ -90,9 +90,9 @@ class Selector {
     return dear(unstated) < dear(all) ? unstated : all;
   }
 
-  /// A model whose friction is nowhere negative: in place of one that fits as well, by the exchange of one effect.
-  FittedModel simulable(const FittedModel& found) const {
-    if (!comparison_.negative_friction(found)) return found;
+  /// A model whose friction is no misshapen law: in place of one that fits as well, by the exchange of one effect.
+  FittedModel well_shaped(const FittedModel& found) const {
+    if (!comparison_.misshapen(found)) return found;
     std::optional<FittedModel> best;
     for (const std::string_view effect : found.model.causes) {
       const auto without = comparison_.reduced(found, comparison_.candidate(effect));
@@ -100,7 +100,7 @@ class Selector {
       for (const PointCandidate& one : comparison_.candidates()) {
         if (found.model.holds(one.effect) || !comparison_.fits_beside(one, without->model)) continue;
         auto instead = comparison_.extended(*without, one);
-        if (!instead || !comparison_.doubt(*instead).empty() || comparison_.negative_friction(*instead)) continue;
+        if (!instead || !comparison_.doubt(*instead).empty() || comparison_.misshapen(*instead)) continue;
         if (instead->bic - found.bic <= rules::points::equally_good && (!best || instead->bic < best->bic))
           best = std::move(instead);
       }

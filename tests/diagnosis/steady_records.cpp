@@ -92,6 +92,25 @@ TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, t
   CHECK(d.prediction[0].after < d.prediction[0].after_high);
 }
 
+TEST_CASE("friction that is stated far too low is told by its level, not by one that rises with the speed",
+          "[reference][slow]") {
+  const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
+  if (!std::filesystem::exists(path)) {
+    std::cout << "skipped: reference data not found\n";
+    return;
+  }
+  Scenario scenario = mesh_friction_only();
+  std::get<MeshParameters<double>>(scenario.mesh).mu = 0.04;  // a third of what the drive has
+  const Diagnosis d = diagnosed(read_speed_torque_records(path), scenario);
+  INFO(d.sentence);
+  for (const EstimatedEffect& cause : d.causes)
+    if (cause.effect == "stribeck") CHECK(cause.parameters.at(0).value > 0.0);
+  bool told = false;
+  for (const std::vector<std::string>& one_class : d.classes)
+    told = told || std::find(one_class.begin(), one_class.end(), "mesh_friction") != one_class.end();
+  CHECK(told);
+}
+
 TEST_CASE("records of the scenario's own drive are adequate, whatever the noise", "[slow]") {
   const Scenario scenario = mesh_friction_only();
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
