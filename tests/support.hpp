@@ -173,13 +173,19 @@ struct Table {
   double number(const std::string& column, std::size_t row) const { return std::stod(text(column, row)); }
 };
 
-/// A file of the reference data; without the data it says so in the words by which ctest knows a skipped test.
-inline std::optional<Table> reference(const std::string& path) {
-  std::ifstream file(std::string(WORMDRIVE_REFERENCE_DATA) + "/" + path);
-  if (!file) {
-    std::cout << "skipped: reference data not found\n";
-    return std::nullopt;
-  }
+/// Where a file of the reference data is; without the data it says so in the words by which ctest knows a skipped test.
+inline std::optional<std::string> reference_path(const std::string& file) {
+  std::string path = std::string(WORMDRIVE_REFERENCE_DATA) + "/" + file;
+  if (std::ifstream(path)) return path;
+  std::cout << "skipped: reference data not found\n";
+  return std::nullopt;
+}
+
+/// A file of the reference data as a table.
+inline std::optional<Table> reference(const std::string& name) {
+  const auto path = reference_path(name);
+  if (!path) return std::nullopt;
+  std::ifstream file(*path);
   const auto cells = [](const std::string& line) {
     std::vector<std::string> found;
     std::istringstream rest(line);

@@ -28,22 +28,6 @@ class Groups {
   std::vector<std::size_t> group_;
 };
 
-/// Puts every other candidate in the place of every named one.
-void join_exchangeable(const PointComparison& comparison, const FittedModel& model, Groups& groups) {
-  for (const std::string_view effect : model.model.causes) {
-    const std::size_t place = comparison.index_of(effect);
-    const auto without = comparison.reduced(model, comparison.candidates()[place]);
-    if (!without) continue;
-    for (std::size_t k = 0; k < comparison.candidates().size(); ++k) {
-      const PointCandidate& other = comparison.candidates()[k];
-      if (model.model.holds(other.effect) || !comparison.fits_beside(other, without->model)) continue;
-      const auto instead = comparison.extended(*without, other);
-      if (instead && instead->bic - model.bic <= rules::points::equally_good && comparison.doubt(*instead).empty())
-        groups.join(k, place);
-    }
-  }
-}
-
 /// Named effects each of which can be imitated by the others together.
 void join_imitated(const PointComparison& comparison, const FittedModel& model, Groups& groups) {
   const std::vector<std::vector<double>> slopes = comparison.fitter().slopes(model.model, model.all.values);
@@ -81,7 +65,7 @@ void join_imitated(const PointComparison& comparison, const FittedModel& model, 
 
 std::vector<std::vector<std::size_t>> equivalence_classes(const PointComparison& comparison, const FittedModel& model) {
   Groups groups(comparison.candidates().size());
-  join_exchangeable(comparison, model, groups);
+  for (const Exchange& exchange : comparison.exchanges(model)) groups.join(exchange.taken, exchange.dropped);
   join_imitated(comparison, model, groups);
   std::vector<std::vector<std::size_t>> classes;
   for (std::size_t group = 0; group < comparison.candidates().size(); ++group) {

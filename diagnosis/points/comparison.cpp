@@ -98,6 +98,23 @@ std::optional<FittedModel> PointComparison::again(const FittedModel& model, cons
   return fitted(model.model, {carried(model.model, wider), model.all.values});
 }
 
+std::vector<Exchange> PointComparison::exchanges(const FittedModel& model) const {
+  std::vector<Exchange> list;
+  for (const std::string_view effect : model.model.causes) {
+    const std::size_t dropped = index_of(effect);
+    const auto without = reduced(model, candidates_[dropped]);
+    if (!without) continue;
+    for (std::size_t taken = 0; taken < candidates_.size(); ++taken) {
+      const PointCandidate& other = candidates_[taken];
+      if (model.model.holds(other.effect) || !fits_beside(other, without->model)) continue;
+      auto instead = extended(*without, other);
+      if (instead && instead->bic - model.bic <= rules::points::equally_good && doubt(*instead).empty())
+        list.push_back({dropped, taken, std::move(*instead)});
+    }
+  }
+  return list;
+}
+
 bool PointComparison::fits_beside(const PointCandidate& candidate, const PointModel& model) const {
   return !model.holds(candidate.effect) && (candidate.excludes.empty() || !model.holds(candidate.excludes));
 }
@@ -116,19 +133,19 @@ std::string PointComparison::doubt(const FittedModel& model) const {
     if (tolerances < rules::least_tolerances)
       return fmt::format("within its tolerance: {:.1f} standard deviations from what is stated", tolerances);
   }
-  if (const double most = friction(model).high; most > std::max(rules::highest_friction, stated_friction().high))
+  if (const double most = friction(model).high;
+      most > std::max(rules::highest_friction, friction(fitter_.scenario().effects).high))
     return fmt::format("the friction of the teeth would reach {:.2f}: no teeth rub so", most);
   return "";
 }
 
-FrictionRange PointComparison::stated_friction() const {
+FrictionRange PointComparison::friction(const Effects<double>& effects) const {
   const double mu = stated_mesh(fitter_.scenario()).mu;
-  return fitter_.scenario().effects.friction_range({mu, mu}, 0.0);
+  return effects.friction_range({mu, mu}, 0.0);
 }
 
 FrictionRange PointComparison::friction(const FittedModel& model) const {
-  const double mu = stated_mesh(fitter_.scenario()).mu;
-  return fitter_.with(model.model, model.all.values).friction_range({mu, mu}, 0.0);
+  return friction(fitter_.with(model.model, model.all.values));
 }
 
 bool PointComparison::misshapen(const FittedModel& model) const {
@@ -137,7 +154,7 @@ bool PointComparison::misshapen(const FittedModel& model) const {
     for (std::size_t k = 0; k < model.all.values.size() && one.falls; ++k)
       if (model.model.coordinates[k].is(one.coordinates.front()) && model.all.values[k] < 0.0) return true;
   }
-  return friction(model).low < std::min(0.0, stated_friction().low);
+  return friction(model).low < std::min(0.0, friction(fitter_.scenario().effects).low);
 }
 
 }  // namespace wormdrive

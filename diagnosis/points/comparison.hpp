@@ -18,6 +18,12 @@ struct FittedModel {
   double rank() const { return bic + doubt; }
 };
 
+/// A model with one effect in the place of one that it named, both by index.
+struct Exchange {
+  std::size_t dropped, taken;
+  FittedModel model;
+};
+
 /// Fits models and compares them: what selection and classes have in common.
 class PointComparison {
  public:
@@ -38,6 +44,8 @@ class PointComparison {
   std::optional<FittedModel> reduced(const FittedModel& model, const PointCandidate& candidate) const;
   /// A model again, started from the values of a wider one.
   std::optional<FittedModel> again(const FittedModel& model, const FittedModel& wider) const;
+  /// Every model that explains the points as well as another after an exchange of one effect, and can be believed.
+  std::vector<Exchange> exchanges(const FittedModel& model) const;
 
   /// Whether an effect can be added to a model.
   bool fits_beside(const PointCandidate& candidate, const PointModel& model) const;
@@ -51,7 +59,7 @@ class PointComparison {
   PointModel wider(const FittedModel& model, const PointCandidate& candidate,
                    std::vector<std::vector<double>>& starts) const;
   FittedModel judged(const PointModel& model, PointFit all, double held_out) const;
-  FrictionRange stated_friction() const;
+  FrictionRange friction(const Effects<double>& effects) const;
   FrictionRange friction(const FittedModel& model) const;
 
   const PointFitter& fitter_;

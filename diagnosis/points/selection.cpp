@@ -94,17 +94,9 @@ class Selector {
   FittedModel well_shaped(const FittedModel& found) const {
     if (!comparison_.misshapen(found)) return found;
     std::optional<FittedModel> best;
-    for (const std::string_view effect : found.model.causes) {
-      const auto without = comparison_.reduced(found, comparison_.candidate(effect));
-      if (!without) continue;
-      for (const PointCandidate& one : comparison_.candidates()) {
-        if (found.model.holds(one.effect) || !comparison_.fits_beside(one, without->model)) continue;
-        auto instead = comparison_.extended(*without, one);
-        if (!instead || !comparison_.doubt(*instead).empty() || comparison_.misshapen(*instead)) continue;
-        if (instead->bic - found.bic <= rules::points::equally_good && (!best || instead->bic < best->bic))
-          best = std::move(instead);
-      }
-    }
+    for (Exchange& exchange : comparison_.exchanges(found))
+      if (!comparison_.misshapen(exchange.model) && (!best || exchange.model.bic < best->bic))
+        best = std::move(exchange.model);
     return best.value_or(found);
   }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <random>
 #include <tuple>
 
@@ -11,6 +10,7 @@
 #include "cli/program.hpp"
 #include "core/unit.hpp"
 #include "diagnosis/data/speed_torque_records.hpp"
+#include "support.hpp"
 
 // Records at constant speed: which samples are left out of their means, and how well the model meets the rest.
 
@@ -20,13 +20,7 @@ namespace {
 
 const std::string header = "record,worm_speed_rad_per_s,motor_torque_Nm\n";
 
-/// The measured records, or nothing after saying so in the words by which ctest knows a skipped test.
-std::optional<std::string> measured() {
-  const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
-  if (std::filesystem::exists(path)) return path;
-  std::cout << "skipped: reference data not found\n";
-  return std::nullopt;
-}
+std::optional<std::string> measured() { return reference_path("worm_drive/steady_speed.csv"); }
 
 /// A sample left out: record, line, torque.
 using Left = std::tuple<std::string, std::size_t, double>;

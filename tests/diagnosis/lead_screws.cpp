@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "diagnosis/points/steady_points.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "simulation/load_scenario.hpp"
+#include "support.hpp"
 
 // Two measured lead screws: Mablekos-Alexiou, da Cruz, Bergeles, IEEE T-RO 37(4), 2021, drives no. 1 and no. 2. A nut
 // is a gear of radius 1 m.
@@ -24,8 +23,7 @@ namespace {
 
 /// A screw of the paper with friction of its teeth alone.
 Scenario screw(double nut_mass, double friction) {
-  std::vector<std::string> changes{"title=A lead screw",
-                                   "mesh.ratio=3141.59",
+  std::vector<std::string> changes{"mesh.ratio=3141.59",
                                    "mesh.lead_angle_deg=3.0368",
                                    "mesh.pressure_angle_deg=14.979",
                                    "mesh.worm_pitch_radius_m=0.0055",
@@ -51,12 +49,9 @@ struct Found {
 };
 
 std::optional<Found> diagnosed(const char* file, const Scenario& scenario) {
-  const std::string path = fmt::format("{}/lead_screws/{}", WORMDRIVE_REFERENCE_DATA, file);
-  if (!std::filesystem::exists(path)) {
-    std::cout << "skipped: reference data not found\n";
-    return std::nullopt;
-  }
-  const std::vector<SpeedTorqueRecord> records = read_speed_torque_records(path);
+  const auto path = reference_path(fmt::format("lead_screws/{}", file));
+  if (!path) return std::nullopt;
+  const std::vector<SpeedTorqueRecord> records = read_speed_torque_records(*path);
   const TorquePoints points = steady_points(records, scenario);
   Found found{diagnose(scenario, points, steady_points_at_two_loads(records, scenario, 1.884)), 0.0};
   const PredictedTorques& torques = found.diagnosis.torques;

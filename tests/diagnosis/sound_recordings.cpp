@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -155,15 +153,12 @@ TEST_CASE("the recording that is shipped is one") {
 }
 
 TEST_CASE("the measured servo axis is taken for a recording", "[reference]") {
-  const std::string path = std::string(WORMDRIVE_REFERENCE_DATA) + "/emps/data_emps.csv";
-  if (!std::filesystem::exists(path)) {
-    std::cout << "skipped: reference data not found\n";
-    return;
-  }
+  const auto path = reference_path("emps/data_emps.csv");
+  if (!path) return;
   Scenario axis;
   axis.axis = Axis::linear;
   axis.mesh = SingleInertia<double>{95.1};
-  const Recording r = read_recording(path, axis);
+  const Recording r = read_recording(*path, axis);
   CHECK(r.samples() == 24841);
   CHECK(std::abs(r.period - 1e-3) < 1e-9);
   CHECK(r.remarks.empty());

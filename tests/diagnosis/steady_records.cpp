@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <optional>
 #include <random>
 #include <set>
@@ -15,6 +13,7 @@
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
 #include "simulation/load_scenario.hpp"
+#include "support.hpp"
 
 // Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
 
@@ -59,12 +58,9 @@ Diagnosis diagnosed(const std::vector<SpeedTorqueRecord>& records, const Scenari
 
 TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, the levels are one class",
           "[reference][slow]") {
-  const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
-  if (!std::filesystem::exists(path)) {
-    std::cout << "skipped: reference data not found\n";
-    return;
-  }
-  const Diagnosis d = diagnosed(read_speed_torque_records(path), mesh_friction_only());
+  const auto path = reference_path("worm_drive/steady_speed.csv");
+  if (!path) return;
+  const Diagnosis d = diagnosed(read_speed_torque_records(*path), mesh_friction_only());
   INFO(d.sentence);
   CHECK(d.verdict == Verdict::ambiguous);
   const std::set<std::string> causes = ids(d.causes);
@@ -82,7 +78,7 @@ TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, t
 
   // again from the torques: both halves, each judged by the fit of the other
   double squares[2] = {0.0, 0.0};
-  const std::vector<int> half = steady_points(read_speed_torque_records(path), mesh_friction_only()).half;
+  const std::vector<int> half = steady_points(read_speed_torque_records(*path), mesh_friction_only()).half;
   for (std::size_t k = 0; k < half.size(); ++k)
     squares[half[k]] += std::pow(d.torques.measured[k] - d.torques.after[k], 2);
   REQUIRE(half.size() == 46);
@@ -94,14 +90,11 @@ TEST_CASE("of the measured drive worm viscous and Stribeck friction are named, t
 
 TEST_CASE("friction that is stated far too low is told by its level, not by one that rises with the speed",
           "[reference][slow]") {
-  const std::string path = WORMDRIVE_REFERENCE_DATA "/worm_drive/steady_speed.csv";
-  if (!std::filesystem::exists(path)) {
-    std::cout << "skipped: reference data not found\n";
-    return;
-  }
+  const auto path = reference_path("worm_drive/steady_speed.csv");
+  if (!path) return;
   Scenario scenario = mesh_friction_only();
   std::get<MeshParameters<double>>(scenario.mesh).mu = 0.04;  // a third of what the drive has
-  const Diagnosis d = diagnosed(read_speed_torque_records(path), scenario);
+  const Diagnosis d = diagnosed(read_speed_torque_records(*path), scenario);
   INFO(d.sentence);
   for (const EstimatedEffect& cause : d.causes)
     if (cause.effect == "stribeck") CHECK(cause.parameters.at(0).value > 0.0);
