@@ -57,13 +57,20 @@ def ranked(result):
 
 def influences(result):
     """Returns the bars of the tornado, greatest first, and what they show."""
-    table = group(group(result, "summary"), "influences")
+    summary = group(result, "summary")
+    table = group(summary, "influences")
     names = texts(table, "parameter")
     total, low, high = columns(table, "total", "total_low", "total_high")
     label = "total Sobol index, with its 95 % interval"
     if not np.isfinite(total).any():
         total = low = high = column(table, "rank_correlation")
         label = "rank correlation with the metric"
+    if "shapley" in summary:
+        effects, ranked_by = summary["shapley"], text(attribute(summary, "ranked_by"))
+        rows = [k for k, metric in enumerate(texts(effects, "metric")) if metric == ranked_by]
+        names = [texts(effects, "parameter")[k] for k in rows]
+        total, low, high = (values[rows] for values in columns(effects, "share", "share_low", "share_high"))
+        label = "Shapley effect, with its 95 % interval"
     bars = [Bar(*bar) for bar in zip(names, total, low, high)]
     return sorted(bars, key=lambda bar: -abs(bar.value) if np.isfinite(bar.value) else 0.0), label
 

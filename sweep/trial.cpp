@@ -41,13 +41,13 @@ Trial Trials::row(std::uint64_t index) const {
 
 std::vector<double> Trials::probabilities(std::uint64_t index) {
   std::vector<double> u = design_.point(index);
-  if (!study_.strata) study_.copula.apply(u);
+  if (!study_.has_correlated_points()) study_.copula.apply(u);
   return u;
 }
 
 std::vector<double> Trials::point(std::uint64_t index) {
   std::vector<double> u = design_.point(index);
-  if (study_.strata) study_.copula.undo(u);
+  if (study_.has_correlated_points()) study_.copula.undo(u);
   return u;
 }
 

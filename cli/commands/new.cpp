@@ -120,7 +120,7 @@ constexpr std::string_view study_lines =
 set = ["run.solver=taylor"]           # as --set, for every trial; of the solvers the fast one
 
 [sweep]
-design = "monte_carlo"                # or latin_hypercube, sobol, saltelli, morris, grid, one_at_a_time, table
+design = "monte_carlo"                # or latin_hypercube, sobol, saltelli, shapley, morris, grid, one_at_a_time, table
 trials = 10000
 seed = 1
 

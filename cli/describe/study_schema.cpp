@@ -47,6 +47,13 @@ void add_keys(SchemaTable& table, const Sampled*) {
 }
 void add_keys(SchemaTable& table, const Saltelli*) {
   table.with("samples", number_from(2, "there are samples (parameters + 2) trials")).requires_key("samples");
+  table.with("second_order", {{"type", "boolean"},
+                              {"default", false},
+                              {"description", "indices of pairs, too, by samples (2 parameters + 2) trials"}});
+}
+void add_keys(SchemaTable& table, const Shapley*) {
+  table.with("permutations", number_from(2, "there are permutations (parameters + 1) trials"));
+  table.requires_key("permutations");
 }
 void add_keys(SchemaTable& table, const Morris*) {
   table.with("trajectories", number_from(2, "there are trajectories (parameters + 1) trials"));

@@ -46,6 +46,19 @@ class Copula {
         list.push_back(static_cast<std::size_t>(k));
     return list;
   }
+  /// The same for coordinates in another order: each of these then hangs on those before it. order: of all of them.
+  Copula reordered(const std::vector<std::size_t>& order) const {
+    if (independent()) return {};
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(factor_.rows(), factor_.cols());
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+      for (Eigen::Index k = 0; k < row; ++k) {
+        const auto a = static_cast<Eigen::Index>(order[static_cast<std::size_t>(row)]),
+                   b = static_cast<Eigen::Index>(order[static_cast<std::size_t>(k)]);
+        for (Eigen::Index j = 0; j <= std::min(a, b); ++j) matrix(row, k) += factor_(a, j) * factor_(b, j);
+        matrix(k, row) = matrix(row, k);
+      }
+    return Copula(matrix);
+  }
   /// The lower triangle of the correlations between dependent coordinates.
   Eigen::MatrixXd factor(const std::vector<std::size_t>& coordinates) const {
     return factor_(coordinates, coordinates);

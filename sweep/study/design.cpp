@@ -12,7 +12,7 @@ namespace {
 std::uint64_t count(const MonteCarlo& design, std::size_t) { return design.trials; }
 std::uint64_t count(const LatinHypercube& design, std::size_t) { return design.trials; }
 std::uint64_t count(const SobolSequence& design, std::size_t) { return design.trials; }
-std::uint64_t count(const Saltelli& design, std::size_t parameters) { return design.samples * (parameters + 2); }
+std::uint64_t count(const Saltelli& design, std::size_t parameters) { return design.samples * design.rows(parameters); }
 std::uint64_t count(const Grid& design, std::size_t) {
   return std::accumulate(design.levels.begin(), design.levels.end(), std::uint64_t{1}, std::multiplies<>());
 }
@@ -20,6 +20,7 @@ std::uint64_t count(const OneAtATime& design, std::size_t) {
   return std::accumulate(design.levels.begin(), design.levels.end(), std::uint64_t{1});
 }
 std::uint64_t count(const Morris& design, std::size_t parameters) { return design.trajectories * (parameters + 1); }
+std::uint64_t count(const Shapley& design, std::size_t parameters) { return design.permutations * (parameters + 1); }
 std::uint64_t count(const TableOfPoints& design, std::size_t) { return design.trials; }
 
 /// Coordinates that the sequence of a design needs; 1 for a design that has none, for 0 is refused.
@@ -39,16 +40,25 @@ bool goes_by_levels(const DesignSettings& settings) {
 }
 bool allows_correlation(const DesignSettings& settings) {
   return std::holds_alternative<MonteCarlo>(settings) || std::holds_alternative<LatinHypercube>(settings) ||
-         std::holds_alternative<SobolSequence>(settings);
+         std::holds_alternative<SobolSequence>(settings) || std::holds_alternative<Shapley>(settings);
 }
 bool is_sample(const DesignSettings& settings) {
   return allows_correlation(settings) || std::holds_alternative<Saltelli>(settings);
 }
 
+bool is_draw(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {
+  if (std::holds_alternative<Shapley>(settings)) return trial % (parameters + 1) == 0;
+  const auto* const saltelli = std::get_if<Saltelli>(&settings);
+  return !saltelli || trial % saltelli->rows(parameters) < 2;
+}
+
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {
-  if (std::holds_alternative<Morris>(settings)) return trial - trial % (parameters + 1);
-  const std::uint64_t block = trial % (parameters + 2);
-  return std::holds_alternative<Saltelli>(settings) && block >= 2 ? trial - block : trial;
+  if (std::holds_alternative<Morris>(settings) || std::holds_alternative<Shapley>(settings))
+    return trial - trial % (parameters + 1);
+  const auto* const saltelli = std::get_if<Saltelli>(&settings);
+  if (!saltelli) return trial;
+  const std::uint64_t row = trial % saltelli->rows(parameters);
+  return trial - row + (row < 2 ? row : row < parameters + 2 ? 0 : 1);
 }
 
 std::uint64_t size(const DesignSettings& settings, std::size_t parameters) {
@@ -103,13 +113,17 @@ std::vector<double> Design::sobol(std::uint64_t row, std::uint64_t replicate) {
 
 std::vector<double> Design::at(const SobolSequence&, std::uint64_t trial) { return sobol(trial, 0); }
 
-std::vector<double> Design::at(const Saltelli&, std::uint64_t trial) {
-  const std::uint64_t block = trial % (parameters_ + 2), sample = trial / (parameters_ + 2);
+std::vector<double> Design::at(const Saltelli& design, std::uint64_t trial) {
+  const std::uint64_t rows = design.rows(parameters_), row = trial % rows, sample = trial / rows;
   const std::vector<double> both = sobol(sample / Saltelli::replicates, sample % Saltelli::replicates);
-  const auto B = both.begin() + static_cast<std::ptrdiff_t>(parameters_);
-  if (block == 1) return {B, both.end()};
-  std::vector<double> u(both.begin(), B);
-  if (block >= 2) u[block - 2] = both[parameters_ + block - 2];
+  const auto middle = both.begin() + static_cast<std::ptrdiff_t>(parameters_);
+  const std::vector<double> A(both.begin(), middle), B(middle, both.end());
+  const bool of_B = row == 1 || row >= parameters_ + 2;
+  std::vector<double> u = of_B ? B : A;
+  if (row >= 2) {
+    const std::uint64_t other = (row - 2) % parameters_;
+    u[other] = (of_B ? A : B)[other];
+  }
   return u;
 }
 
@@ -138,28 +152,40 @@ std::vector<double> Design::at(const TableOfPoints& design, std::uint64_t trial)
 std::vector<double> Design::at(const Morris& design, std::uint64_t trial) const {
   const std::uint64_t trajectory = trial / (parameters_ + 1), step = trial % (parameters_ + 1),
                       half = design.levels / 2;
-  struct Course {
-    std::uint64_t turn;  ///< the parameter with the least one changes first
-    std::size_t parameter;
-    std::uint64_t lower;  ///< of the two levels
-    bool rises;
-  };
-  std::vector<Course> courses;
-  for (std::size_t k = 0; k < parameters_; ++k) {
-    const auto [level, direction, turn, unused] = random_bits(seed_, SweepStream::draws, trajectory, k);
-    const auto lower = static_cast<std::uint64_t>(to_unit_interval(level) * static_cast<double>(half));
-    courses.push_back({turn, k, std::min(lower, half - 1), direction % 2 == 0});
-  }
-  std::sort(courses.begin(), courses.end(), [](const Course& a, const Course& b) {
-    return std::pair(a.turn, a.parameter) < std::pair(b.turn, b.parameter);
-  });
+  const std::vector<std::size_t> courses = order(trajectory);
   std::vector<double> u(parameters_);
   for (std::uint64_t place = 0; place < parameters_; ++place) {
-    const Course& course = courses[place];
-    const bool up = (place < step) == course.rises;
-    u[course.parameter] = middle_of(course.lower + (up ? half : 0), design.levels);
+    const std::size_t parameter = courses[place];
+    const auto bits = random_bits(seed_, SweepStream::draws, trajectory, parameter);
+    const auto lower = static_cast<std::uint64_t>(to_unit_interval(bits[0]) * static_cast<double>(half));
+    const bool rises = bits[1] % 2 == 0, up = (place < step) == rises;
+    u[parameter] = middle_of(std::min(lower, half - 1) + (up ? half : 0), design.levels);
   }
   return u;
+}
+
+std::vector<double> Design::at(const Shapley& design, std::uint64_t trial) const {
+  const std::uint64_t permutation = trial / (parameters_ + 1), step = trial % (parameters_ + 1);
+  const std::vector<std::size_t> drawn = order(permutation);
+  std::vector<double> in_order(parameters_), u(parameters_);
+  for (std::uint64_t place = 0; place < parameters_; ++place) {
+    const auto bits = random_bits(seed_, SweepStream::draws, permutation, drawn[place]);
+    const bool anew = step > 0 && place + 1 >= step;
+    in_order[place] = to_unit_interval(bits[anew ? 1 : 0]);
+  }
+  design.copula.reordered(drawn).apply(in_order);
+  for (std::uint64_t place = 0; place < parameters_; ++place) u[drawn[place]] = in_order[place];
+  return u;
+}
+
+std::vector<std::size_t> Design::order(std::uint64_t key) const {
+  std::vector<std::pair<std::uint64_t, std::size_t>> turns;
+  for (std::size_t k = 0; k < parameters_; ++k)
+    turns.emplace_back(random_bits(seed_, SweepStream::draws, key, k)[2], k);
+  std::sort(turns.begin(), turns.end());
+  std::vector<std::size_t> parameters;
+  for (const auto& turn : turns) parameters.push_back(turn.second);
+  return parameters;
 }
 
 }  // namespace wormdrive

@@ -29,6 +29,12 @@ class DesignReader {
   void read(Saltelli& design) {
     design.samples = whole(table_, "samples", bounds::between(2, most_trials / 1e4),
                            "rows of each of the two samples; there are samples (parameters + 2) trials");
+    design.second_order = table_.truth("second_order").value_or(false);
+  }
+  void read(Shapley& design) {
+    design.permutations = whole(table_, "permutations", bounds::between(2, most_trials / 1e4),
+                                "random orders of the parameters; there are permutations (parameters + 1) trials");
+    design.copula = study_.copula;
   }
   void read(Morris& design) {
     design.trajectories = whole(table_, "trajectories", bounds::between(2, most_trials / 1e4),
@@ -139,8 +145,9 @@ void read_design(TableReader& table, Study& study, const std::vector<StatedParam
     table.fault(
         "design",
         fmt::format("sweep.design = \"{}\" needs independent parameters, but there is a [[correlation]]; {}", *kind,
-                    is_sample(study.design) ? "Sobol indices of dependent parameters do not add up to the variance"
-                                            : "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""));
+                    is_sample(study.design)
+                        ? "Sobol indices of dependent parameters do not add up to the variance; use \"shapley\""
+                        : "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""));
   const auto* const latin = std::get_if<LatinHypercube>(&study.design);
   if (!latin || study.copula.independent() || !table.faults().empty()) return;
   if (latin->trials > CorrelatedStrata::most_trials)

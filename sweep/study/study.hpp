@@ -60,6 +60,8 @@ struct Study {
   bool varies(std::string_view path) const {
     return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.path == path; });
   }
+  /// Whether the points of the design have the correlations already.
+  bool has_correlated_points() const { return strata || std::holds_alternative<Shapley>(design); }
   std::uint64_t trials() const { return size(design, parameters.size()); }
 };
 

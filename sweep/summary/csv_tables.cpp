@@ -120,6 +120,17 @@ std::string summary_csv(const SweepReader& sweep, const SweepSummary& summary) {
       rows.add("mu_star", effects.mu_star, metric.unit.symbol);
       rows.add("sigma", effects.sigma, metric.unit.symbol);
     }
+  for (std::size_t m = 0; m < summary.shapley.size(); ++m)
+    for (std::size_t k = 0; k < summary.shapley[m].of.size(); ++k) {
+      rows.of("shapley", sweep.study().parameters[k].path, summary.metrics[m].metric.name);
+      rows.add("share", summary.shapley[m].of[k], "1");
+    }
+  for (const PairIndex& pair : summary.sobol.pairs) {
+    const auto& parameters = sweep.study().parameters;
+    rows.of("pairs", fmt::format("{} {}", parameters[pair.first].path, parameters[pair.second].path),
+            summary.ranked_by);
+    rows.add("interaction", pair.index, "1");
+  }
   return rows.take();
 }
 

@@ -1,25 +1,24 @@
+#include "sweep/summary/sobol_indices.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include "sweep/study/design.hpp"
-#include "sweep/summary/statistics.hpp"
-
 namespace wormdrive {
 namespace {
 
-/// Calls visit(sample, values) for every sample that is there; its values are those at A, at B, and at A with one
-/// parameter after the other from B.
+/// Calls visit(sample, values) for every sample that is there; its values are those at A, at B, at A with one parameter
+/// after the other from B, and at B with one after the other from A where pairs have indices.
 template <class Visit>
-void for_each_sample(const Column& column, std::size_t parameters, Visit&& visit) {
+void for_each_sample(const Column& column, std::uint64_t rows, Visit&& visit) {
   std::vector<double> values;
   std::uint64_t sample = 0;
   column([&](std::span<const double> part) {
     for (const double value : part) {
       values.push_back(value);
-      if (values.size() < parameters + 2) continue;
+      if (values.size() < rows) continue;
       visit(sample++, values);
       values.clear();
     }
@@ -31,40 +30,61 @@ bool is_whole(const std::vector<double>& values) {
 }
 
 /// What indices are worked out from.
-struct IndexSums {
-  explicit IndexSums(std::size_t parameters) : first(parameters), total(parameters) {}
+class IndexSums {
+ public:
+  IndexSums(std::size_t parameters, bool second_order)
+      : parameters_(parameters),
+        first_(parameters),
+        total_(parameters),
+        together_(second_order ? parameters * parameters : 0) {}
 
-  double weight = 0.0, sum = 0.0, squares = 0.0;
-  std::vector<double> first, total;
-
+  bool empty() const { return weight_ == 0.0; }
   /// centred: values of a sample less about their mean, so that the products lose no digits to it.
   void add(const std::vector<double>& centred) {
     const double a = centred[0], b = centred[1];
-    weight += 1.0;
-    sum += a + b;
-    squares += a * a + b * b;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      const double change = centred[k + 2] - a;
-      first[k] += b * change;
-      total[k] += 0.5 * change * change;
+    const std::span<const double> mostly_A = std::span(centred).subspan(2, parameters_),
+                                  mostly_B = std::span(centred).subspan(2 + parameters_);
+    weight_ += 1.0;
+    sum_ += a + b;
+    squares_ += a * a + b * b;
+    for (std::size_t k = 0; k < parameters_; ++k) {
+      const double change = mostly_A[k] - a;
+      first_[k] += b * change;
+      total_[k] += 0.5 * change * change;
+      if (together_.empty()) continue;
+      for (std::size_t j = 0; j < k; ++j)  // both share k and j alone
+        together_[k * parameters_ + j] += 0.5 * (mostly_B[j] * mostly_A[k] + mostly_B[k] * mostly_A[j]) - a * b;
     }
   }
   /// sign: +1 adds other sums, -1 takes them away.
   void add(const IndexSums& other, double sign) {
-    weight += sign * other.weight;
-    sum += sign * other.sum;
-    squares += sign * other.squares;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      first[k] += sign * other.first[k];
-      total[k] += sign * other.total[k];
-    }
+    weight_ += sign * other.weight_;
+    sum_ += sign * other.sum_;
+    squares_ += sign * other.squares_;
+    const auto add_all = [sign](std::vector<double>& to, const std::vector<double>& from) {
+      for (std::size_t k = 0; k < to.size(); ++k) to[k] += sign * from[k];
+    };
+    add_all(first_, other.first_);
+    add_all(total_, other.total_);
+    add_all(together_, other.together_);
   }
+  double first(std::size_t k) const { return first_[k] / (weight_ * variance()); }
+  double total(std::size_t k) const { return total_[k] / (weight_ * variance()); }
+  /// Of a pair, j < k.
+  double pair(std::size_t j, std::size_t k) const {
+    return together_[k * parameters_ + j] / (weight_ * variance()) - first(j) - first(k);
+  }
+
+ private:
   double variance() const {
-    const double mean = sum / (2.0 * weight);
-    return squares / (2.0 * weight) - mean * mean;
+    const double mean = sum_ / (2.0 * weight_);
+    return squares_ / (2.0 * weight_) - mean * mean;
   }
-  double first_index(std::size_t k) const { return first[k] / (weight * variance()); }
-  double total_index(std::size_t k) const { return total[k] / (weight * variance()); }
+
+  std::size_t parameters_;
+  double weight_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+  std::vector<double> first_, total_;
+  std::vector<double> together_;  ///< of every pair; none where these have no indices
 };
 
 /// Standard error of a value from what it is without one of the parts in turn; infinite where these have none.
@@ -79,11 +99,12 @@ double jackknife_error(const std::vector<double>& without) {
 
 }  // namespace
 
-SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
+SobolIndices sobol_indices(const Column& values, const Saltelli& design, std::size_t parameters) {
   SobolIndices indices;
+  const std::uint64_t rows = design.rows(parameters);
   double centre = 0.0, some = 0.0;
   bool constant = true;
-  for_each_sample(values, parameters, [&](std::uint64_t, const std::vector<double>& f) {
+  for_each_sample(values, rows, [&](std::uint64_t, const std::vector<double>& f) {
     if (!is_whole(f)) {
       ++indices.left_out;
       return;
@@ -94,15 +115,15 @@ SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
   });
   if (constant) return indices;
 
-  IndexSums all(parameters);
-  std::vector<IndexSums> parts;
-  for (std::size_t r = 0; r < Saltelli::replicates; ++r) parts.emplace_back(parameters);
-  for_each_sample(values, parameters, [&](std::uint64_t sample, std::vector<double>& f) {
+  const IndexSums none(parameters, design.second_order);
+  IndexSums all = none;
+  std::vector<IndexSums> parts(Saltelli::replicates, none);
+  for_each_sample(values, rows, [&](std::uint64_t sample, std::vector<double>& f) {
     if (!is_whole(f)) return;
     for (double& value : f) value -= centre;
     parts[sample % Saltelli::replicates].add(f);
   });
-  std::erase_if(parts, [](const IndexSums& part) { return part.weight == 0.0; });
+  std::erase_if(parts, [](const IndexSums& part) { return part.empty(); });
   for (const IndexSums& part : parts) all.add(part, 1.0);
   if (parts.size() < 2) return indices;
   std::vector<IndexSums> without;
@@ -110,17 +131,19 @@ SobolIndices sobol_indices(const Column& values, std::size_t parameters) {
 
   const boost::math::students_t student(static_cast<double>(parts.size() - 1));
   const double widths = quantile(student, 0.975);  // of half an interval, in standard errors
-  const auto index = [&](double (IndexSums::*of)(std::size_t) const, std::size_t k, double& error) {
+  const auto estimate = [&](auto&& of, double* error = nullptr) {
     std::vector<double> resampled;
-    for (const IndexSums& sums : without) resampled.push_back((sums.*of)(k));
-    error = jackknife_error(resampled);
-    const double value = (all.*of)(k);
-    return SampleEstimate{value, value - widths * error, value + widths * error};
+    for (const IndexSums& sums : without) resampled.push_back(of(sums));
+    const double deviation = jackknife_error(resampled), value = of(all);
+    if (error) *error = deviation;
+    return SampleEstimate{value, value - widths * deviation, value + widths * deviation};
   };
   for (std::size_t k = 0; k < parameters; ++k) {
     SobolIndex& found = indices.of.emplace_back();
-    found.first = index(&IndexSums::first_index, k, found.first_deviation);
-    found.total = index(&IndexSums::total_index, k, found.total_deviation);
+    found.first = estimate([k](const IndexSums& sums) { return sums.first(k); }, &found.first_deviation);
+    found.total = estimate([k](const IndexSums& sums) { return sums.total(k); }, &found.total_deviation);
+    for (std::size_t j = 0; design.second_order && j < k; ++j)
+      indices.pairs.push_back({j, k, estimate([j, k](const IndexSums& sums) { return sums.pair(j, k); })});
   }
   return indices;
 }

@@ -50,21 +50,4 @@ SampleEstimate probability(std::uint64_t k, std::uint64_t n);
 /// over n - 3 [BonettWright2000]; none for fewer than four pairs, or where ranks agree completely.
 SampleEstimate rank_correlation_estimate(double r, std::uint64_t n);
 
-/// What share of a metric's variance a parameter makes.
-struct SobolIndex {
-  SampleEstimate first, total;              ///< alone; with all it takes part in
-  double first_deviation, total_deviation;  ///< standard errors
-};
-
-/// Sobol indices of every parameter, in their order.
-struct SobolIndices {
-  std::vector<SobolIndex> of;        ///< none if fewer than two samples are left or the metric is constant
-  std::uint64_t used{}, left_out{};  ///< samples; those are left out of which a value is not finite
-};
-
-/// Sobol indices from a Saltelli design: values of one metric in the order of its trials, from the first one on.
-/// Estimators of Saltelli 2010 for the first and Jansen 1999 for the total index. Intervals are those of Student's t
-/// from the jackknife over the design's replicates [Owen1997]: draws within one are not independent, replicates are.
-SobolIndices sobol_indices(const Column& values, std::size_t parameters);
-
 }  // namespace wormdrive

@@ -25,7 +25,6 @@ class Summariser {
     if (settings_.ranked_by.empty()) settings_.ranked_by = default_ranking(study_);
     if (std::find(names.begin(), names.end(), settings_.ranked_by) == names.end())
       reject({sweep.path()}, "has no metric '" + settings_.ranked_by + "'; " + suggestion(settings_.ranked_by, names));
-    if (std::holds_alternative<Saltelli>(study_.design)) stride_ = study_.parameters.size() + 2;
   }
 
   SweepSummary operator()() const {
@@ -53,9 +52,9 @@ class Summariser {
   bool is_told(const Block& block, std::size_t row) const {
     return settings_.done_only ? done(block, row) : block.status[row] != 0.0;
   }
-  /// Whether it stands for the distribution of the parameters too: in a Saltelli design A and B alone do.
+  /// Whether it stands for the distribution of the parameters too.
   bool counts(const Block& block, std::size_t row) const {
-    return is_told(block, row) && (stride_ == 1 || (block.first + row) % stride_ < 2);
+    return is_told(block, row) && is_draw(study_.design, study_.parameters.size(), block.first + row);
   }
   /// An interval is for a sample alone.
   SampleEstimate told(const SampleEstimate& estimate) const {
@@ -167,15 +166,24 @@ class Summariser {
     if (is_condition) summary.conditions.push_back(condition);
   }
 
+  /// What the design is made for.
+  void of_design(SweepSummary& summary) const {
+    const std::size_t parameters = study_.parameters.size();
+    if (const auto* const saltelli = std::get_if<Saltelli>(&study_.design))
+      summary.sobol = sobol_indices(of_all_trials(settings_.ranked_by), *saltelli, parameters);
+    for (const Metric& m : study_.metrics) {
+      if (std::holds_alternative<Morris>(study_.design))
+        summary.screenings.push_back(elementary_effects(of_all_trials(m.name), study_.design, parameters, study_.seed));
+      if (std::holds_alternative<Shapley>(study_.design))
+        summary.shapley.push_back(shapley_effects(of_all_trials(m.name), study_.design, parameters, study_.seed));
+    }
+  }
+
   void influences(SweepSummary& summary) const {
     const std::string& ranked_by = settings_.ranked_by;
-    if (stride_ > 1 && sweep_.range().first == 0)
-      summary.sobol = sobol_indices(of_all_trials(ranked_by), study_.parameters.size());
-    if (std::holds_alternative<Morris>(study_.design) && sweep_.range().first == 0)
-      for (const Metric& m : study_.metrics)
-        summary.screenings.push_back(
-            elementary_effects(of_all_trials(m.name), study_.design, study_.parameters.size(), study_.seed));
-    const MorrisScreening* const screening = summary.screening_of(ranked_by);
+    if (sweep_.range().first == 0) of_design(summary);
+    const MorrisScreening* const screening = summary.find(summary.screenings, ranked_by);
+    const ShapleyEffects* const shapley = summary.find(summary.shapley, ranked_by);
     const std::vector<SobolIndex>& sobol = summary.sobol.of;
     const MetricSummary& any = summary.metrics.front();
     const std::uint64_t count = any.count + any.without;
@@ -190,9 +198,10 @@ class Summariser {
           metric, parameter);
       const bool varies = metric.squares() > 0.0 && parameter.squares() > 0.0;
       const SampleEstimate estimate = told(rank_correlation_estimate(correlation, count));
-      Influence influence{study_.parameters[k].path, varies ? estimate : estimate.without_interval(), {}, {}};
+      Influence influence{study_.parameters[k].path, varies ? estimate : estimate.without_interval(), {}, {}, {}};
       if (!sobol.empty()) influence.sobol = sobol[k];
       if (screening && !screening->of.empty()) influence.effects = screening->of[k];
+      if (shapley && !shapley->of.empty()) influence.shapley = shapley->of[k];
       summary.influences.push_back(std::move(influence));
     }
     std::stable_sort(summary.influences.begin(), summary.influences.end(),
@@ -228,16 +237,9 @@ class Summariser {
   const SweepReader& sweep_;
   const Study& study_;
   SummarySettings settings_;
-  std::size_t stride_ = 1;
 };
 
 }  // namespace
-
-const MorrisScreening* SweepSummary::screening_of(const std::string& metric) const {
-  for (std::size_t k = 0; k < screenings.size(); ++k)
-    if (metrics[k].metric.name == metric) return &screenings[k];
-  return nullptr;
-}
 
 std::string default_ranking(const Study& study) {
   if (!study.thresholds.empty()) return study.thresholds.front().metric;

@@ -7,6 +7,8 @@
 
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/summary/elementary_effects.hpp"
+#include "sweep/summary/shapley_effects.hpp"
+#include "sweep/summary/sobol_indices.hpp"
 #include "sweep/summary/statistics.hpp"
 
 namespace wormdrive {
@@ -53,8 +55,12 @@ struct Influence {
   SampleEstimate rank_correlation{};
   std::optional<SobolIndex> sobol;
   std::optional<ElementaryEffects> effects;  ///< of a Morris design
+  std::optional<SampleEstimate> shapley;     ///< of a Shapley design
   double size() const {
-    return sobol ? sobol->total.value : effects ? effects->mu_star.value : std::abs(rank_correlation.value);
+    return sobol     ? sobol->total.value
+           : effects ? effects->mu_star.value
+           : shapley ? shapley->value
+                     : std::abs(rank_correlation.value);
   }
 };
 
@@ -76,12 +82,18 @@ struct SweepSummary {
   /// Elementary effects of every metric, in their order, on parameters as the study states them; none of another
   /// design than Morris.
   std::vector<MorrisScreening> screenings;
+  std::vector<ShapleyEffects> shapley;       ///< the same of a Shapley design
   SobolIndices sobol;                        ///< of the parameters as the study states them; none of another design
   std::vector<Trial> worst;                  ///< the worst first
   std::vector<ConditionSummary> conditions;  ///< every one, in the order of the metrics
 
-  /// Null if there are none.
-  const MorrisScreening* screening_of(const std::string& metric) const;
+  /// What every metric has, of one of them; null if there is none.
+  template <class PerMetric>
+  const PerMetric* find(const std::vector<PerMetric>& of_metrics, const std::string& metric) const {
+    for (std::size_t k = 0; k < of_metrics.size(); ++k)
+      if (metrics[k].metric.name == metric) return &of_metrics[k];
+    return nullptr;
+  }
   std::uint64_t with(TrialStatus status) const {
     switch (status) {
       case TrialStatus::done: return done;

@@ -48,10 +48,23 @@ nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summar
       influence["rank_correlation_interval"] = {r.low, r.high};
     if (i.sobol) influence["sobol"] = {{"first", as_json(i.sobol->first)}, {"total", as_json(i.sobol->total)}};
     if (i.effects) influence["morris"] = as_json(*i.effects);
+    if (i.shapley) influence["shapley"] = as_json(*i.shapley);
     json["influences"].push_back(std::move(influence));
   }
   if (!summary.sobol.of.empty())
     json["sobol"] = {{"samples", summary.sobol.used}, {"left_out", summary.sobol.left_out}};
+  for (const PairIndex& pair : summary.sobol.pairs) {
+    nlohmann::json found = as_json(pair.index);
+    found["between"] = {study.parameters[pair.first].path, study.parameters[pair.second].path};
+    json["sobol"]["pairs"].push_back(std::move(found));
+  }
+  for (std::size_t m = 0; m < summary.shapley.size(); ++m) {
+    const ShapleyEffects& effects = summary.shapley[m];
+    nlohmann::json& found = json["shapley"][summary.metrics[m].metric.name];
+    found = {{"permutations", effects.used}, {"left_out", effects.left_out}};
+    for (std::size_t k = 0; k < effects.of.size(); ++k)
+      found["parameters"][study.parameters[k].path] = as_json(effects.of[k]);
+  }
   for (std::size_t m = 0; m < summary.screenings.size(); ++m) {
     const MorrisScreening& screening = summary.screenings[m];
     nlohmann::json& found = json["morris"][summary.metrics[m].metric.name];

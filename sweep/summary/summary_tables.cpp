@@ -1,27 +1,14 @@
 #include "sweep/summary/summary_tables.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include "output/hdf5/fixed_table.hpp"
 #include "output/hdf5/stored_table.hpp"
+#include "sweep/summary/summary_table.hpp"
 
 namespace wormdrive {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// A table of the summary: its columns, texts beside them, and rows as they are filled.
-struct SummaryTable {
-  std::string name;
-  std::uint64_t rows;
-  std::vector<ColumnDescription> columns;
-  std::vector<std::pair<std::string, std::string>> texts;  ///< name, long name
-
-  std::string group() const { return "summary/" + name; }
-};
 
 /// An estimate takes three columns.
 void add_estimate(SummaryTable& table, const std::string& name, const std::string& units, const std::string& meaning) {
@@ -29,12 +16,15 @@ void add_estimate(SummaryTable& table, const std::string& name, const std::strin
   table.columns.push_back({name + "_low", units, "lower end of its 95 % interval; not a number if it has none"});
   table.columns.push_back({name + "_high", units, "upper end of its 95 % interval"});
 }
-void append(std::vector<double>& row, const SampleEstimate& e) { row.insert(row.end(), {e.value, e.low, e.high}); }
-
 std::uint64_t conditions_of(const Study& study) {
   return static_cast<std::uint64_t>(std::count_if(study.metrics.begin(), study.metrics.end(),
                                                   [](const Metric& m) { return m.condition.has_value(); }));
 }
+
+/// The rows of a table with one for each metric and parameter.
+std::uint64_t effects_of(const Study& study) { return study.metrics.size() * study.parameters.size(); }
+
+}  // namespace
 
 SummaryTable status_table() {
   return {"statuses",
@@ -113,7 +103,7 @@ SummaryTable condition_table(const Study& study) {
 SummaryTable screening_table(const Study& study) {
   const bool screens = std::holds_alternative<Morris>(study.design);
   SummaryTable table{"morris",
-                     screens ? study.metrics.size() * study.parameters.size() : 0,
+                     screens ? effects_of(study) : 0,
                      {{"index", "1", "number of the row"}, {"mu", "", "mean of the elementary effects"}},
                      {{"metric", "name of the metric"}, {"parameter", "path of the parameter"}}};
   add_estimate(table, "mu_star", "", "mean of the absolute elementary effects, in the unit of the metric");
@@ -121,118 +111,35 @@ SummaryTable screening_table(const Study& study) {
   return table;
 }
 
+SummaryTable shapley_table(const Study& study) {
+  SummaryTable table{"shapley",
+                     std::holds_alternative<Shapley>(study.design) ? effects_of(study) : 0,
+                     {{"index", "1", "number of the row"}},
+                     {{"metric", "name of the metric"}, {"parameter", "path of the parameter"}}};
+  add_estimate(table, "share", "1", "Shapley effect: share of the variance of the metric");
+  return table;
+}
+
+SummaryTable pair_table(const Study& study) {
+  const auto* const saltelli = std::get_if<Saltelli>(&study.design);
+  const std::uint64_t parameters = study.parameters.size();
+  SummaryTable table{"pairs",
+                     saltelli && saltelli->second_order ? parameters * (parameters - 1) / 2 : 0,
+                     {{"index", "1", "number of the row"}},
+                     {{"first", "path of a parameter"}, {"second", "path of another one"}}};
+  add_estimate(table, "interaction", "1", "second-order Sobol index");
+  return table;
+}
+
+namespace {
+
 /// Those that a study has.
 std::vector<SummaryTable> summary_tables(const Study& study) {
-  std::vector<SummaryTable> tables{status_table(),         metric_table(study), threshold_table(study),
-                                   influence_table(study), worst_table(study),  condition_table(study),
-                                   screening_table(study)};
+  std::vector<SummaryTable> tables{status_table(),         metric_table(study),  threshold_table(study),
+                                   influence_table(study), worst_table(study),   condition_table(study),
+                                   screening_table(study), shapley_table(study), pair_table(study)};
   std::erase_if(tables, [](const SummaryTable& table) { return table.rows == 0; });
   return tables;
-}
-
-/// Writes rows that are given one after the other.
-class Rows {
- public:
-  Rows(hid_t file, const SummaryTable& table) : table_(file, table.group(), table.columns) {
-    for (const auto& text : table.texts) texts_.emplace_back(file, table.group() + "/" + text.first);
-  }
-  void add(const std::vector<double>& values, const std::vector<std::string>& texts = {}) {
-    for (std::size_t k = 0; k < values.size(); ++k) table_.write(k, row_, {values[k]});
-    for (std::size_t k = 0; k < texts.size(); ++k) texts_[k].write(row_, texts[k]);
-    ++row_;
-  }
-  double next() const { return static_cast<double>(row_); }
-
- private:
-  FixedTable table_;
-  std::vector<FixedTexts> texts_;
-  std::uint64_t row_ = 0;
-};
-
-void write_metrics(hid_t file, const SweepSummary& summary, const Study& study) {
-  Rows rows(file, metric_table(study));
-  for (const MetricSummary& m : summary.metrics) {
-    std::vector<double> row{rows.next(), static_cast<double>(m.count), static_cast<double>(m.without)};
-    if (m.count == 0) {
-      row.resize(metric_table(study).columns.size(), none);
-    } else {
-      row.insert(row.end(), {m.mean, m.deviation, m.least, m.greatest});
-      for (const SampleEstimate& quantile : m.quantiles) append(row, quantile);
-    }
-    rows.add(row, {m.metric.name, std::string(m.metric.unit.symbol)});
-  }
-}
-
-void write_thresholds(hid_t file, const SweepSummary& summary, const Study& study) {
-  if (study.thresholds.empty()) return;
-  Rows rows(file, threshold_table(study));
-  for (const ThresholdSummary& t : summary.thresholds) {
-    std::vector<double> row{rows.next(),
-                            t.threshold.limit,
-                            t.threshold.above ? 1.0 : 0.0,
-                            static_cast<double>(t.missed),
-                            static_cast<double>(t.refused),
-                            static_cast<double>(t.halted),
-                            static_cast<double>(t.kept()),
-                            static_cast<double>(t.of)};
-    append(row, t.share);
-    append(row, t.not_kept);
-    rows.add(row, {t.threshold.metric});
-  }
-}
-
-void write_influences(hid_t file, const SweepSummary& summary, const Study& study) {
-  Rows rows(file, influence_table(study));
-  for (const Influence& i : summary.influences) {
-    std::vector<double> row{rows.next(), i.rank_correlation.value};
-    const SampleEstimate unknown{none, none, none};
-    append(row, i.sobol ? i.sobol->first : unknown);
-    append(row, i.sobol ? i.sobol->total : unknown);
-    rows.add(row, {i.parameter});
-  }
-}
-
-void write_worst(hid_t file, const SweepSummary& summary, const Study& study) {
-  const SummaryTable table = worst_table(study);
-  Rows rows(file, table);
-  const auto ranked = std::find_if(study.metrics.begin(), study.metrics.end(),
-                                   [&](const Metric& m) { return m.name == summary.ranked_by; });
-  for (std::uint64_t k = 0; k < table.rows; ++k) {
-    std::vector<double> row{rows.next(), -1.0};
-    if (k < summary.worst.size()) {
-      const Trial& trial = summary.worst[k];
-      row = {rows.next(), static_cast<double>(trial.index), static_cast<double>(trial.status),
-             trial.metrics[static_cast<std::size_t>(ranked - study.metrics.begin())]};
-      row.insert(row.end(), trial.parameters.begin(), trial.parameters.end());
-    }
-    row.resize(table.columns.size(), none);
-    rows.add(row);
-  }
-}
-
-void write_conditions(hid_t file, const SweepSummary& summary, const Study& study) {
-  if (conditions_of(study) == 0) return;
-  Rows rows(file, condition_table(study));
-  for (const ConditionSummary& c : summary.conditions)
-    rows.add({rows.next(), static_cast<double>(c.trials), static_cast<double>(c.of)}, {c.rule});
-}
-
-void write_screenings(hid_t file, const SweepSummary& summary, const Study& study) {
-  const SummaryTable table = screening_table(study);
-  if (table.rows == 0) return;
-  Rows rows(file, table);
-  for (std::size_t m = 0; m < study.metrics.size(); ++m)
-    for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-      std::vector<double> row{rows.next()};
-      if (m < summary.screenings.size() && !summary.screenings[m].of.empty()) {
-        const ElementaryEffects& effects = summary.screenings[m].of[k];
-        row.push_back(effects.mu);
-        append(row, effects.mu_star);
-        row.push_back(effects.sigma);
-      }
-      row.resize(table.columns.size(), none);
-      rows.add(row, {study.metrics[m].name, study.parameters[k].path});
-    }
 }
 
 }  // namespace
@@ -257,18 +164,6 @@ void check_summary_tables(hid_t file, const Study& study) {
       stored.column(table.columns.front().name)
           .reject(fmt::format("has {} rows instead of {}", stored.rows(), table.rows));
   }
-}
-
-void write_summary_tables(hid_t file, const SweepSummary& summary, const Study& study) {
-  Rows statuses(file, status_table());
-  for (const TrialStatus status : trial_statuses)
-    statuses.add({static_cast<double>(status), static_cast<double>(summary.with(status))});
-  write_metrics(file, summary, study);
-  write_thresholds(file, summary, study);
-  write_influences(file, summary, study);
-  write_worst(file, summary, study);
-  write_conditions(file, summary, study);
-  write_screenings(file, summary, study);
 }
 
 }  // namespace wormdrive

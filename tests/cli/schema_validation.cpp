@@ -198,8 +198,9 @@ TEST_CASE("the schema of studies accepts what the reader accepts, and every dist
     CHECK(why(begin + draws + path + "distribution = " + keys + "\nmedain = 1\n") != "");
   }
   for (const char* const keys :
-       {"\"latin_hypercube\"\ntrials = 5", "\"sobol\"\ntrials = 5", "\"saltelli\"\nsamples = 2", "\"grid\"",
-        "\"one_at_a_time\"\nlevels = 2", "\"morris\"\ntrajectories = 4\nlevels = 6"}) {
+       {"\"latin_hypercube\"\ntrials = 5", "\"sobol\"\ntrials = 5", "\"saltelli\"\nsamples = 2\nsecond_order = true",
+        "\"grid\"", "\"shapley\"\npermutations = 8", "\"one_at_a_time\"\nlevels = 2",
+        "\"morris\"\ntrajectories = 4\nlevels = 6"}) {
     INFO(keys);
     CHECK(why(begin + "[sweep]\ndesign = " + keys + "\n" + uniform) == "");
     CHECK(why(begin + "[sweep]\nsead = 1\ndesign = " + keys + "\n" + uniform) != "");

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "numbers.hpp"
 #include "output/hdf5/fixed_table.hpp"
 #include "sweep/studies.hpp"
 #include "sweep/study/distribution.hpp"
@@ -196,6 +197,28 @@ TEST_CASE("the worst case is the expected corner of the box", "[sweep]") {
   const double there = read_column(open_hdf5(folder / "corner.h5"), "trajectory/gear_speed").back();
   CHECK(std::abs(speed - there) <= 1e-5 * std::abs(there));
   CHECK(outcome.out.find("  referee  cvode: final_gear_speed ") != std::string::npos);
+}
+
+TEST_CASE("the whole box is searched for the worst case, not only where the sweep's worst trials are", "[sweep]") {
+  // under sin(w t) for a second an inertia of 1 ends at (1 - cos w)/w: a lobe for each hertz, the first the highest
+  const auto varied = [](int k) {
+    return fmt::format(
+        "[[parameter]]\npath = \"motor.torque[{}].frequency_Hz\"\ndistribution = \"uniform\"\nlow = 0.2\nhigh = 10\n",
+        k);
+  };
+  const StudyFolder folder("scenario = \"free.toml\"\n[sweep]\ndesign = \"monte_carlo\"\ntrials = 4\nseed = 4\n" +
+                           varied(0) + varied(1));
+  const std::string torque =
+      "[[motor.torque]]\nkind = \"sinusoid\"\namplitude_Nm = 1\nfrequency_Hz = 5\nphase_deg = -90\n";
+  folder.write("free.toml", "[mesh]\nkind = \"none\"\ninertia_kgm2 = 1\n" + torque + torque +
+                                "[run]\nduration_s = 1\nreport_interval_s = 1\n");
+  REQUIRE(folder.sweep({"-o", "o.h5"}).exit == 0);
+  const Outcome outcome =
+      folder.run({"worst", "o.h5", "-o", "worst.h5", "--metric", "final_gear_speed", "--evaluations", "400"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit == 0);
+  const double speed = read_column(open_hdf5(folder / "worst.h5"), "trajectory/gear_speed").back();
+  CHECK(close(speed, 2.0 * (1.0 - std::cos(2.331122)) / 2.331122, 1e-4));
 }
 
 TEST_CASE("a sweep is drawn, alone and with runs of its trials", "[sweep][slow]") {

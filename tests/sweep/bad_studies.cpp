@@ -99,7 +99,7 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
       {"seed = 3", "seed = 1.5", "study.toml:7:8: error: sweep.seed = 1.5 must be a whole number"},
       {"design = \"monte_carlo\"", "design = \"random\"",
        "study.toml:5:10: error: sweep.design = \"random\" must be one of \"monte_carlo\", \"latin_hypercube\", "
-       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\", \"morris\""},
+       "\"sobol\", \"saltelli\", \"grid\", \"one_at_a_time\", \"table\", \"morris\", \"shapley\""},
       {"distribution = \"lognormal\"", "distribution = \"gauss\"",
        "study.toml:16:16: error: parameter[1].distribution = \"gauss\" must be one of \"uniform\", \"normal\", "
        "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\", "
@@ -164,7 +164,7 @@ TEST_CASE("Sobol indices of correlated parameters are rejected", "[sweep]") {
                            "coefficient = 0.5\n");
   CHECK(folder.sweep({}).err ==
         "study.toml:5:10: error: sweep.design = \"saltelli\" needs independent parameters, but there is a "
-        "[[correlation]]; Sobol indices of dependent parameters do not add up to the variance\n");
+        "[[correlation]]; Sobol indices of dependent parameters do not add up to the variance; use \"shapley\"\n");
 }
 
 TEST_CASE("a whole number cannot have a continuous distribution", "[sweep]") {

@@ -153,16 +153,21 @@ TEST_CASE("a Latin hypercube and a Sobol sequence find a mean better than indepe
   CHECK(sobol < 0.1 * random);
 }
 
-TEST_CASE("a Saltelli design has A, B, and A with one column of B", "[sweep]") {
-  const auto all = points(Saltelli{8}, 3, 2);
-  REQUIRE(all.size() == 40);
-  for (std::size_t j = 0; j < 8; ++j) {
-    const auto &A = all[5 * j], &B = all[5 * j + 1];
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::vector<double> mixed = A;
-      mixed[k] = B[k];
-      CHECK(A[k] != B[k]);
-      CHECK(all[5 * j + 2 + k] == mixed);
+TEST_CASE("a Saltelli design has A, B, and A with one column of B; for pairs also B with one column of A", "[sweep]") {
+  for (const bool pairs : {false, true}) {
+    const auto all = points(Saltelli{8, pairs}, 3, 2);
+    const std::size_t rows = pairs ? 8 : 5;
+    REQUIRE(all.size() == 8 * rows);
+    for (std::size_t j = 0; j < 8; ++j) {
+      const auto &A = all[rows * j], &B = all[rows * j + 1];
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> mixed = A, other = B;
+        mixed[k] = B[k];
+        other[k] = A[k];
+        CHECK(A[k] != B[k]);
+        CHECK(all[rows * j + 2 + k] == mixed);
+        if (pairs) CHECK(all[rows * j + 5 + k] == other);
+      }
     }
   }
 }
@@ -177,7 +182,8 @@ TEST_CASE("a grid has every combination, one at a time every parameter alone", "
 
 TEST_CASE("a point does not depend on the order in which points are computed", "[sweep]") {
   const DesignSettings designs[] = {MonteCarlo{100}, LatinHypercube{100}, SobolSequence{100},
-                                    Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}, {0.5, 0.5, 0.5}}};
+                                    Saltelli{20},    Grid{{4, 5, 5}},     OneAtATime{{30, 30, 39}, {0.5, 0.5, 0.5}},
+                                    Shapley{25, {}}};
   for (const DesignSettings& settings : designs) {
     const auto forward = points(settings, 3, 11);
     Design design(settings, 3, 11);

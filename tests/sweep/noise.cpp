@@ -91,10 +91,13 @@ TEST_CASE("a study that varies the noise seed determines the noise of each trial
   CHECK(std::set<double>(found.begin(), found.end()).size() == 2);
 }
 
-TEST_CASE("in a Saltelli design A with one parameter from B keeps the noise of A", "[sweep]") {
+TEST_CASE("trials that differ by parameters alone have the same noise", "[sweep]") {
   CHECK(noise_of(Saltelli{4}, 3, 0) == 0);
   CHECK(noise_of(Saltelli{4}, 3, 1) == 1);
   for (const std::uint64_t row : {2, 3, 4}) CHECK(noise_of(Saltelli{4}, 3, 5 + row) == 5);
+  for (const std::uint64_t row : {2, 3, 4}) CHECK(noise_of(Saltelli{4, true}, 3, 8 + row) == 8);
+  for (const std::uint64_t row : {1, 5, 6, 7}) CHECK(noise_of(Saltelli{4, true}, 3, 8 + row) == 9);
+  for (const std::uint64_t row : {0, 1, 2, 3}) CHECK(noise_of(Shapley{4, {}}, 3, 8 + row) == 8);
   CHECK(noise_of(MonteCarlo{40}, 3, 7) == 7);
 }
 

@@ -14,6 +14,7 @@
 #include "statistics/rank_correlation.hpp"
 #include "sweep/study/design.hpp"
 #include "sweep/study/random.hpp"
+#include "sweep/summary/sobol_indices.hpp"
 
 namespace wormdrive::test::sweep_statistics {
 
@@ -40,10 +41,10 @@ double spearman(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 template <class Function>
-std::vector<double> evaluated(Function&& f, std::size_t parameters, std::uint64_t samples, std::uint64_t seed = 4) {
-  Design design(Saltelli{samples}, parameters, seed);
+std::vector<double> evaluated(Function&& f, std::size_t parameters, const Saltelli& saltelli, std::uint64_t seed = 4) {
+  Design design(saltelli, parameters, seed);
   std::vector<double> values;
-  for (std::uint64_t k = 0; k < samples * (parameters + 2); ++k) values.push_back(f(design.point(k)));
+  for (std::uint64_t k = 0; k < size(saltelli, parameters); ++k) values.push_back(f(design.point(k)));
   return values;
 }
 
@@ -91,13 +92,14 @@ void check_indices(const SobolIndices& indices, const std::vector<double>& first
 }  // namespace
 
 TEST_CASE("Sobol indices of the Ishigami function", "[sweep]") {
-  check_indices(sobol_indices(column(evaluated(ishigami.of, 3, 8192)), 3), ishigami.first, ishigami.total);
+  check_indices(sobol_indices(column(evaluated(ishigami.of, 3, Saltelli{8192})), Saltelli{8192}, 3), ishigami.first,
+                ishigami.total);
 }
 
 TEST_CASE("Sobol indices of a linear model, far from zero", "[sweep]") {
   const auto linear = [](const std::vector<double>& u) { return 1e6 + 3.0 * u[0] + 2.0 * u[1] + u[2] + 0.0 * u[3]; };
   const std::vector<double> exact{9.0 / 14, 4.0 / 14, 1.0 / 14, 0.0};
-  check_indices(sobol_indices(column(evaluated(linear, 4, 4096)), 4), exact, exact);
+  check_indices(sobol_indices(column(evaluated(linear, 4, Saltelli{4096})), Saltelli{4096}, 4), exact, exact);
 }
 
 TEST_CASE("intervals of Sobol indices contain the true value as often as stated", "[sweep]") {
@@ -106,8 +108,8 @@ TEST_CASE("intervals of Sobol indices contain the true value as often as stated"
     const std::size_t parameters = function->first.size();
     std::vector<int> first(parameters), total(parameters);
     for (std::uint64_t seed = 1; seed <= designs; ++seed) {
-      const auto values = evaluated(function->of, parameters, static_cast<std::uint64_t>(samples), seed);
-      const SobolIndices found = sobol_indices(column(values), parameters);
+      const auto values = evaluated(function->of, parameters, Saltelli{static_cast<std::uint64_t>(samples)}, seed);
+      const SobolIndices found = sobol_indices(column(values), Saltelli{}, parameters);
       for (std::size_t k = 0; k < parameters; ++k) {
         const auto holds = [](const SampleEstimate& e, double truth) { return e.low <= truth && truth <= e.high; };
         if (holds(found.of[k].first, function->first[k])) ++first[k];
@@ -124,15 +126,62 @@ TEST_CASE("intervals of Sobol indices contain the true value as often as stated"
   }
 }
 
+TEST_CASE("second-order Sobol indices tell which parameters act together", "[sweep]") {
+  const Saltelli design{8192, true};
+  const SobolIndices found = sobol_indices(column(evaluated(ishigami.of, 3, design)), design, 3);
+  check_indices(found, ishigami.first, ishigami.total);
+  REQUIRE(found.pairs.size() == 3);
+  for (const PairIndex& pair : found.pairs) {
+    const double exact = pair.first == 0 && pair.second == 2 ? ishigami.total[2] : 0.0;
+    INFO(pair.first << " with " << pair.second << ": " << pair.index.value << ", exactly " << exact);
+    CHECK(pair.first < pair.second);
+    CHECK(std::abs(pair.index.value - exact) < 1.5 * (pair.index.high - pair.index.value));
+    CHECK(pair.index.high - pair.index.low < 0.1);
+  }
+  CHECK(sobol_indices(column(evaluated(ishigami.of, 3, Saltelli{64})), Saltelli{64}, 3).pairs.empty());
+
+  // three that act together as well
+  const Known product{[](const std::vector<double>& u) {
+                        const double x = u[0] - 0.5, y = u[1] - 0.5, z = u[2] - 0.5;
+                        return x + 6.0 * x * y + 12.0 * x * y * z;
+                      },
+                      {},
+                      {}};
+  const double own = 1.0 / 12, of_two = 36.0 / 144, of_three = 144.0 / 1728, all = own + of_two + of_three;
+  const SobolIndices of_product = sobol_indices(column(evaluated(product.of, 3, design)), design, 3);
+  check_indices(of_product, {own / all, 0.0, 0.0}, {1.0, (of_two + of_three) / all, of_three / all});
+  const SampleEstimate& together = of_product.pairs.front().index;
+  CHECK(std::abs(together.value - of_two / all) < 1.5 * (together.high - together.value));
+}
+
+TEST_CASE("intervals of second-order indices contain the true value as often as stated", "[sweep]") {
+  constexpr int designs = 500;
+  const Saltelli design{256, true};
+  std::vector<int> caught(3);
+  for (std::uint64_t seed = 1; seed <= designs; ++seed) {
+    const SobolIndices found = sobol_indices(column(evaluated(ishigami.of, 3, design, seed)), design, 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PairIndex& pair = found.pairs[k];
+      const double exact = pair.first == 0 && pair.second == 2 ? ishigami.total[2] : 0.0;
+      caught[k] += pair.index.low <= exact && exact <= pair.index.high;
+    }
+  }
+  for (const int count : caught) {
+    INFO(count << " of " << designs);
+    CHECK(count >= 0.90 * designs);
+    CHECK(count <= 0.98 * designs);
+  }
+}
+
 TEST_CASE("samples of a Saltelli design with a failed trial are left out, and counted", "[sweep]") {
   const auto linear = [](const std::vector<double>& u) { return 3.0 * u[0] + 2.0 * u[1]; };
-  std::vector<double> values = evaluated(linear, 2, 4096);
+  std::vector<double> values = evaluated(linear, 2, Saltelli{4096});
   for (std::size_t k = 0; k < values.size(); k += 37) values[k] = std::numeric_limits<double>::quiet_NaN();
-  const SobolIndices found = sobol_indices(column(values), 2);
+  const SobolIndices found = sobol_indices(column(values), Saltelli{}, 2);
   check_indices(found, {9.0 / 13, 4.0 / 13}, {9.0 / 13, 4.0 / 13});
   CHECK(found.left_out == 443);  // every 37th of 16384 values fails, each in another sample
   CHECK(found.used == 4096 - 443);
-  CHECK(sobol_indices(column(std::vector<double>(40, 1.0)), 2).of.empty());
+  CHECK(sobol_indices(column(std::vector<double>(40, 1.0)), Saltelli{}, 2).of.empty());
 }
 
 TEST_CASE("Clopper and Pearson's intervals", "[sweep]") {

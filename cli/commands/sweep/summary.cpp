@@ -103,6 +103,25 @@ void print_thresholds(const SweepSummary& summary, const Study& study) {
   }
 }
 
+/// What several parameters do together: the largest of the second-order indices.
+void print_pairs(const SweepSummary& summary, const Study& study) {
+  constexpr std::size_t most = 5;
+  std::vector<PairIndex> pairs = summary.sobol.pairs;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const PairIndex& a, const PairIndex& b) { return a.index.value > b.index.value; });
+  for (std::size_t k = 0; k < std::min(most, pairs.size()); ++k)
+    fmt::print("  {:<44} {} {}\n", k == 0 ? "interactions, the largest first" : "", with_interval(pairs[k].index),
+               study.parameters[pairs[k].first].path + " with " + study.parameters[pairs[k].second].path);
+}
+
+/// How many of the blocks of a design are not evaluated.
+template <class Effects>
+void print_left_out(std::string_view blocks, const Effects* found) {
+  if (found && found->left_out > 0)
+    fmt::print("  {} of {} {} are left out because one of their trials has no value\n", found->left_out,
+               found->used + found->left_out, blocks);
+}
+
 void print_influences(const SweepSummary& summary) {
   fmt::print("\n  influence on {}, the largest first\n", summary.ranked_by);
   const auto ranked = std::find_if(summary.metrics.begin(), summary.metrics.end(),
@@ -111,6 +130,8 @@ void print_influences(const SweepSummary& summary) {
     if (i.sobol)
       fmt::print("  {:<44} Sobol index total {:<24} first {}\n", i.parameter, with_interval(i.sobol->total),
                  with_interval(i.sobol->first));
+    else if (i.shapley)
+      fmt::print("  {:<44} Shapley effect {}\n", i.parameter, with_interval(*i.shapley));
     else if (i.effects)
       fmt::print("  {:<44} mu* {:<30} mu {:<12.4g} sigma {:.4g}{}\n", i.parameter, with_interval(i.effects->mu_star),
                  i.effects->mu, i.effects->sigma, in_unit(ranked->metric.unit));
@@ -122,9 +143,8 @@ void print_influences(const SweepSummary& summary) {
   if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
     fmt::print("  {} of {} samples are left out of the Sobol indices because one of their trials has no value\n",
                sobol.left_out, sobol.used + sobol.left_out);
-  if (const MorrisScreening* const found = summary.screening_of(summary.ranked_by); found && found->left_out > 0)
-    fmt::print("  {} of {} trajectories are left out because one of their trials has no value\n", found->left_out,
-               found->used + found->left_out);
+  print_left_out("trajectories", summary.find(summary.screenings, summary.ranked_by));
+  print_left_out("permutations", summary.find(summary.shapley, summary.ranked_by));
 }
 
 void print_worst(const SweepReader& sweep, const SweepSummary& summary, const std::string& path) {
@@ -170,6 +190,7 @@ int summary_command(const SummaryOptions& options) {
   print_metrics(summary);
   print_conditions(summary);
   print_influences(summary);
+  print_pairs(summary, sweep.study());
   print_worst(sweep, summary, options.sweep);
   if (!sweep.verdicts().empty()) fmt::print("\n");
   print_verdicts(sweep.verdicts(), sweep.study());
