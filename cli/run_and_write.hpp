@@ -10,8 +10,9 @@ namespace wormdrive {
 /// Runs a scenario into a result file, to its end; listeners may look on. Throws SimulationFailure or OutputFault.
 RunSummary run_into(RunFile& file, const Scenario& scenario, RunListeners listeners);
 
-/// Runs a scenario into a result file and tells what it comes to. Throws SimulationFailure, the part kept, or
-/// OutputFault.
-RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options);
+/// Runs a scenario into a result file and tells what it comes to; listeners may look on. Throws SimulationFailure, the
+/// part kept, or OutputFault.
+RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options,
+                         RunListeners listeners = {});
 
 }  // namespace wormdrive

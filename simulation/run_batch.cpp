@@ -118,12 +118,6 @@ class LaneGroup {
   alignas(64) std::array<double, LaneBatch::most * lane_fields> memory_{};
 };
 
-BatchResult run_alone(const Scenario& scenario) {
-  BatchResult result;
-  if (const auto fault = fault_of([&] { result = run_scenario(scenario); })) result = *fault;
-  return result;
-}
-
 /// Whether one kernel can take both.
 bool share_a_kernel(LaneVariant a, const LaneVariant& b) {
   a.ideal = b.ideal;
@@ -131,6 +125,12 @@ bool share_a_kernel(LaneVariant a, const LaneVariant& b) {
 }
 
 }  // namespace
+
+BatchResult run_alone(const Scenario& scenario, const RunListeners& listeners) {
+  BatchResult result;
+  if (const auto fault = fault_of([&] { result = run_scenario(scenario, listeners); })) result = *fault;
+  return result;
+}
 
 int runs_together(const Scenario& scenario) { return fits_lane(scenario) ? LaneBatch::most : 1; }
 

@@ -13,6 +13,9 @@ namespace wormdrive {
 /// What a run amounts to, or why it could not go on.
 using BatchResult = std::variant<RunSummary, std::string>;
 
+/// Simulates a scenario as run_scenario() does, with what stops it as an answer.
+BatchResult run_alone(const Scenario& scenario, const RunListeners& listeners = {});
+
 /// How many scenarios that differ from this one in numbers alone are best run together; 1 if each runs alone anyway.
 int runs_together(const Scenario& scenario);
 

@@ -25,7 +25,7 @@ Trials::Trials(const Study& study, LaneKind lanes)
     : study_(study),
       design_(study.design, study.parameters.size(), study.seed, study.strata),
       lanes_(lanes),
-      scenarios_(runs_together(study.scenario), study.scenario) {
+      scenarios_(study.own_metrics.empty() ? runs_together(study.scenario) : 1, study.scenario) {
   for (Scenario& scenario : scenarios_) {
     const std::vector<Variable> all = variables(scenario);
     std::vector<Variable>& chosen = variables_.emplace_back();
@@ -86,11 +86,11 @@ bool Trials::prepare(std::size_t place, Trial& trial, const std::vector<double>&
 }
 
 void Trials::run(std::vector<Trial>& prepared, const std::function<void(Trial)>& take) {
-  const auto finish = [&](std::size_t place, BatchResult result) {
+  const auto finish = [&](std::size_t place, BatchResult result, std::vector<double> own = {}) {
     Trial& trial = prepared[place];
     if (auto* const summary = std::get_if<RunSummary>(&result)) {
       trial.status = TrialStatus::done;
-      const Outcome outcome{std::move(*summary), lemma1_conditions(scenarios_[place])};
+      const Outcome outcome{std::move(*summary), lemma1_conditions(scenarios_[place]), std::move(own)};
       for (std::size_t k = 0; k < study_.metrics.size(); ++k) trial.metrics[k] = study_.metrics[k].of(outcome);
     } else {
       trial.status = TrialStatus::halted;
@@ -98,7 +98,15 @@ void Trials::run(std::vector<Trial>& prepared, const std::function<void(Trial)>&
     }
     take(std::move(trial));
   };
-  run_batch(std::span(scenarios_).first(prepared.size()), finish, lanes_);
+  if (study_.own_metrics.empty()) {
+    run_batch(std::span(scenarios_).first(prepared.size()), finish, lanes_);
+  } else {  // one after the other, for rows are asked for
+    for (std::size_t place = 0; place < prepared.size(); ++place) {
+      OwnMeters meters(study_.own_metrics, scenarios_[place]);
+      BatchResult result = run_alone(scenarios_[place], meters.listeners());
+      finish(place, std::move(result), meters.values());
+    }
+  }
   prepared.clear();
 }
 

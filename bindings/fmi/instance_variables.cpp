@@ -14,17 +14,11 @@ namespace {
   throw std::invalid_argument(fmt::format("there is no variable with the value reference {}", reference));
 }
 
-/// Calls use(field, path, value) with the parameter of a value reference; false where there is none.
-template <class ScenarioRef, class Use>
-bool with_parameter(ScenarioRef& scenario, unsigned reference, Use&& use) {
-  unsigned k = first_parameter;
-  bool found = false;
-  for_each_plant_parameter(scenario, [&](const std::string& path, const auto& field, auto& value) {
-    if (k++ != reference) return;
-    found = true;
-    use(field, path, value);
-  });
-  return found;
+/// The parameter of a value reference.
+PlantParameter<double> parameter(Scenario& scenario, unsigned reference) {
+  std::vector<PlantParameter<double>> all = plant_parameters(scenario);
+  if (reference < first_parameter || reference - first_parameter >= all.size()) unknown(reference);
+  return std::move(all[reference - first_parameter]);
 }
 
 constexpr auto motor_torque = static_cast<unsigned>(ScalarVariable::motor_torque);
@@ -38,12 +32,7 @@ ReferencePoint FmuInstance::reference_point(unsigned reference) const {
 }
 
 double FmuInstance::real(unsigned reference) {
-  if (reference >= first_parameter) {
-    double found = 0.0;
-    if (!with_parameter(model_.scenario, reference, [&](const auto&, const auto&, double value) { found = value; }))
-      unknown(reference);
-    return found;
-  }
+  if (reference >= first_parameter) return *parameter(model_.scenario, reference).value;
   const auto variable = static_cast<ScalarVariable>(reference);
   if (variable == ScalarVariable::time) return state_.time;
   if (variable == ScalarVariable::motor_torque && model_.kind == FmuKind::plant) return state_.torque;
@@ -86,13 +75,9 @@ void FmuInstance::reject_unsettable(unsigned reference, double value) {
     if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("motor_torque = {} must be finite", value));
     return;
   }
-  const auto reject_value = [&](const auto& field, const std::string& path, double) {
-    const bool fits = std::isfinite(value) && field.bounds.contain(value);
-    if (!fits || (field.unit.whole && value != std::floor(value)))
-      throw std::invalid_argument(
-          fmt::format("{}.{} = {} is not an allowed value", path, si_spelling(field, model_.scenario.axis).key, value));
-  };
-  if (reference < first_parameter || !with_parameter(model_.scenario, reference, reject_value)) unknown(reference);
+  const PlantParameter<double> set = parameter(model_.scenario, reference);
+  if (!set.is_allowed(value))
+    throw std::invalid_argument(fmt::format("{} = {} is not an allowed value", set.name, value));
   if (!before_run.contain(phase()))
     throw std::logic_error("parameters can be set before the end of the initialization mode only");
 }
@@ -101,7 +86,7 @@ void FmuInstance::set_reals(std::span<const unsigned> references, std::span<cons
   for (std::size_t k = 0; k < references.size(); ++k) reject_unsettable(references[k], values[k]);
   for (std::size_t k = 0; k < references.size(); ++k) {
     if (references[k] >= first_parameter)
-      with_parameter(model_.scenario, references[k], [&](const auto&, const auto&, double& set) { set = values[k]; });
+      *parameter(model_.scenario, references[k]).value = values[k];
     else
       state_.torque = values[k];
   }

@@ -38,7 +38,7 @@ std::vector<double> FmuInstance::to_numbers(const Kept& kept) const {
                               s.torque,
                               double(s.takes_sample),
                               double(s.run.has_value())};
-  for_each_plant_parameter(kept.set, [&](const auto&, const auto&, double value) { numbers.push_back(value); });
+  for (const auto& parameter : plant_parameters(kept.set)) numbers.push_back(*parameter.value);
   if (s.run) std::visit([&](const auto& run) { run.write(numbers); }, *s.run);
   numbers.push_back(digest_of(numbers));
   return numbers;
@@ -63,7 +63,7 @@ FmuInstance::Kept FmuInstance::from_numbers(std::span<const double> numbers) con
   s.torque = next();
   s.takes_sample = next() != 0.0;
   const bool runs = next() != 0.0;
-  for_each_plant_parameter(made.model_.scenario, [&](const auto&, const auto&, double& value) { value = next(); });
+  for (const auto& parameter : plant_parameters(made.model_.scenario)) *parameter.value = next();
   s.time = s.experiment.start;
   if (runs) {
     made.begin();

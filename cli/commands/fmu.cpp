@@ -38,8 +38,7 @@ int fmu_command(const FmuOptions& options) {
   const Offered has = offered(model);
   const InterfaceNames ports(has_elastic_teeth(scenario.effects));
   const std::size_t indicators = has.model_exchange ? ports.indicators.size() : 0;
-  int parameters = 0;
-  for_each_plant_parameter(model.scenario, [&](const std::string&, const auto&, const double&) { ++parameters; });
+  const std::size_t parameters = plant_parameters(model.scenario).size();
   if (options.scenario.json)
     print_json({{"title", scenario.title},
                 {"output", output},

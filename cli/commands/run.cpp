@@ -39,10 +39,12 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
 }
 
 /// With a bar of progress; what there is stays where the run cannot go on.
-RunSummary run_in_sight(RunFile& file, const Scenario& scenario, const RunOptions& options) {
+RunSummary run_in_sight(RunFile& file, const Scenario& scenario, const RunOptions& options, RunListeners listeners) {
   Progress progress(scenario.run.duration, options.scenario.quiet || options.scenario.json);
+  listeners.time = [&](double t) { progress.at(t); };
+  listeners.audit = options.audit;
   try {
-    return run_into(file, scenario, {.time = [&](double t) { progress.at(t); }, .audit = options.audit});
+    return run_into(file, scenario, std::move(listeners));
   } catch (const SimulationFailure& halt) {
     file.file().keep();
     throw SimulationFailure(fmt::format("{}; the run up to there is in {}", halt.what(), file.file().part_path()));
@@ -53,15 +55,22 @@ RunSummary run_in_sight(RunFile& file, const Scenario& scenario, const RunOption
 
 RunSummary run_into(RunFile& file, const Scenario& scenario, RunListeners listeners) {
   write_drive(file.file().file(), scenario);
-  listeners.rows = [&](const Trajectory& part) { file.append(part); };
-  listeners.samples = [&](const auto& part) { file.append(part); };
+  listeners.rows = [&file, also = std::move(listeners.rows)](const Trajectory& part) {
+    file.append(part);
+    if (also) also(part);
+  };
+  listeners.samples = [&file, also = std::move(listeners.samples)](const std::vector<ControlRecord>& part) {
+    file.append(part);
+    if (also) also(part);
+  };
   RunSummary summary = run_scenario(scenario, listeners);
   if (summary.control) file.describe(*summary.control);
   file.finish(describe_solver(scenario.run), summary.statistics);
   return summary;
 }
 
-RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options) {
+RunSummary run_and_write(const Scenario& scenario, const std::string& output, const RunOptions& options,
+                         RunListeners listeners) {
   const bool talk = !options.scenario.quiet && !options.scenario.json;
   if (talk) {
     fmt::print("{}\n", scenario.title);
@@ -71,7 +80,7 @@ RunSummary run_and_write(const Scenario& scenario, const std::string& output, co
   }
   RunFile file(output, {"run", scenario.title, to_toml(scenario), options.scenario.command_line}, scenario.axis,
                contents_of(scenario), options.replace);
-  RunSummary summary = run_in_sight(file, scenario, options);
+  RunSummary summary = run_in_sight(file, scenario, options, std::move(listeners));
   if (options.scenario.json) print_json(as_json(scenario, summary, output));
   if (!talk) return summary;
   print_item("run",

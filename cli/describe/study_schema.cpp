@@ -1,6 +1,7 @@
 #include "cli/describe/study_schema.hpp"
 
 #include "cli/describe/schema_table.hpp"
+#include "description/variant_kinds.hpp"
 #include "sweep/study/study.hpp"
 
 namespace wormdrive {
@@ -126,6 +127,15 @@ nlohmann::ordered_json study_schema() {
                   .with("coefficient", {{"type", "number"}, {"exclusiveMinimum", -1.0}, {"exclusiveMaximum", 1.0}})
                   .requires_key("coefficient")
                   .json()));
+  // further keys hang on the kind, their unit on the column
+  root.with("metric", several({{"type", "object"},
+                               {"properties",
+                                {{"name", any_text("small letters, digits and _")},
+                                 {"table", {{"enum", {"trajectory", "controller"}}, {"default", "trajectory"}}},
+                                 {"column", any_text("of the result of a run")},
+                                 {"kind", {{"enum", kinds_of<MetricKind>()}}}}},
+                               {"required", Json::array({"name", "column", "kind"})},
+                               {"description", "a number that a column of a run comes to"}}));
   // the unit of above and below is that of the metric
   root.with("threshold", several({{"type", "object"},
                                   {"properties", {{"metric", any_text("metric with a limit")}}},

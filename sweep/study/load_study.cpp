@@ -15,6 +15,7 @@
 #include "description/toml/table_reader.hpp"
 #include "output/resource.hpp"
 #include "simulation/load_scenario.hpp"
+#include "sweep/metrics/read_metrics.hpp"
 #include "sweep/study/read_design.hpp"
 #include "sweep/study/read_parameters.hpp"
 #include "sweep/study/variable.hpp"
@@ -61,6 +62,7 @@ class StudyReader {
       read_thresholds();
     } else {
       root_.texts("metrics");
+      root_.tables("metric");
       root_.tables("threshold");
     }
     root_.finish();
@@ -110,6 +112,8 @@ class StudyReader {
     std::vector<Metric> all = metrics_of(study_.scenario);
     std::vector<std::string> names;
     for (const Metric& metric : all) names.push_back(metric.name);
+    study_.own_metrics = read_own_metrics(root_, study_.scenario, names);
+    for (const OwnMetric& own : study_.own_metrics) names.push_back(own.name);
     const std::vector<std::string> wanted = root_.texts("metrics");
     for (const std::string& name : wanted)
       if (std::find(names.begin(), names.end(), name) == names.end())
@@ -117,6 +121,8 @@ class StudyReader {
     if (root_.has("metrics") && faults_.empty())
       std::erase_if(all,
                     [&](const Metric& m) { return std::find(wanted.begin(), wanted.end(), m.name) == wanted.end(); });
+    for (std::size_t k = 0; faults_.empty() && k < study_.own_metrics.size(); ++k)
+      all.push_back(as_metric(study_.own_metrics, k, study_.scenario));
     if (all.empty() && faults_.empty()) root_.fault("metrics", "metrics must name at least one metric");
     study_.metrics = std::move(all);
   }

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "description/scenario.hpp"
+#include "sweep/metrics/metric.hpp"
+#include "sweep/metrics/own_metric.hpp"
 #include "sweep/study/correlation.hpp"
 #include "sweep/study/design.hpp"
 #include "sweep/study/distribution.hpp"
-#include "sweep/study/metric.hpp"
 
 namespace wormdrive {
 
@@ -52,6 +53,7 @@ struct Study {
   std::uint64_t seed = 0;
   bool common_random_numbers = false;  ///< all trials have the noise of the scenario, instead of each its own
   std::vector<Metric> metrics;
+  std::vector<OwnMetric> own_metrics;  ///< of columns of the runs; each is among the metrics
   std::vector<Threshold> thresholds;
   Kept kept;
   double referee_tolerance = 1e-6;  ///< of the gear angle [rad], beyond which the referee disagrees

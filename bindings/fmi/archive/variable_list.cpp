@@ -90,20 +90,19 @@ class VariableLister {
   }
   void parameters() {
     unsigned reference = first_parameter;
-    for_each_plant_parameter(scenario_, [&](const std::string& path, const auto& field, const double& value) {
-      const Spelling s = si_spelling(field, scenario_.axis);
-      VariableInfo one{path + "." + s.key,
+    for (const PlantParameter<const double>& parameter : plant_parameters(scenario_)) {
+      VariableInfo one{parameter.name,
                        reference++,
                        "parameter",
                        "fixed",
-                       in_words_of(scenario_.axis, field.meaning),
+                       in_words_of(scenario_.axis, parameter.meaning),
                        false,
-                       std::string(s.unit.symbol),
-                       value};
-      if (std::isfinite(field.bounds.low)) one.min = field.bounds.low;
-      if (std::isfinite(field.bounds.high)) one.max = field.bounds.high;
+                       std::string(parameter.unit.symbol),
+                       *parameter.value};
+      if (std::isfinite(parameter.bounds.low)) one.min = parameter.bounds.low;
+      if (std::isfinite(parameter.bounds.high)) one.max = parameter.bounds.high;
       list_.push_back(one);
-    });
+    }
   }
 
   const FmuModel& model_;

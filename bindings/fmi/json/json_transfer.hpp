@@ -51,7 +51,7 @@ void transfer(const Direction& pass, Json& at, Parameters& parameters) {
   });
   if constexpr (requires { P::fields(); }) {
     for_each_field<P>(
-        [&](const auto& field) { pass(at, si_spelling(field, pass.axis).key, parameters.*field.member); });
+        [&](const auto& field) { pass(at, si_spelling(field.name, field.unit, pass.axis).key, parameters.*field.member); });
   } else if constexpr (requires { parameters.times; }) {
     pass(at, "times", parameters.times);
     pass(at, "values", parameters.values);

@@ -19,7 +19,9 @@ namespace {
 std::string second_opinion_on(const Scenario& scenario, const Study& study, const std::string& metric) {
   Scenario again = scenario;
   again.run.solver = SolverKind::cvode;
-  const Outcome outcome{run_scenario(again), lemma1_conditions(again)};
+  OwnMeters meters(study.own_metrics, again);
+  Outcome outcome{run_scenario(again, meters.listeners()), lemma1_conditions(again)};
+  outcome.own = meters.values();
   std::string said;
   for (const Metric& m : study.metrics)
     if (m.name == metric) said = fmt::format("cvode: {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));

@@ -1,4 +1,4 @@
-#include "sweep/study/metric.hpp"
+#include "sweep/metrics/metric.hpp"
 
 #include <cmath>
 

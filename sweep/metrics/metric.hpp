@@ -15,6 +15,7 @@ namespace wormdrive {
 struct Outcome {
   RunSummary run;
   std::vector<Condition> conditions;  ///< of Lemma 1, for the values of this run
+  std::vector<double> own = {};       ///< of the metrics that the study makes of columns, in their order
 };
 
 /// One number that a trial comes to.
