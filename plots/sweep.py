@@ -6,7 +6,7 @@ import numpy as np
 
 import controller
 import style
-from result import NotAResult, attribute, column, columns, dataset, group, text, units
+from result import NotAResult, attribute, column, columns, dataset, group, number, text, units
 
 DONE = 1  # status of a trial with metrics
 LEADING = 3  # parameters in the scatter matrix
@@ -39,12 +39,23 @@ def texts(table, name):
     return [text(value.rstrip(b"\0")) for value in dataset(table, name)[:]]
 
 
+def draws(result, count):
+    """Returns which trials are draws of their own; others differ from one of them by some parameters alone."""
+    if "block_trials" not in result.attrs:  # of an older version
+        return np.ones(count, dtype=bool)
+    first, block, own = (number(result, name) for name in ("first_trial", "block_trials", "block_draws"))
+    if not block >= 1:
+        raise NotAResult("its attribute 'block_trials' is less than 1")
+    return (first + np.arange(count)) % block < own
+
+
 def ranked(result):
     """Returns the ranked metric and which rows of /trials it is of."""
     trials, summary = group(result, "trials"), group(result, "summary")
     name = text(attribute(summary, "ranked_by"))
     values, status = columns(trials, name, "status")
-    rows = np.flatnonzero((status == DONE) & np.isfinite(values))
+    is_draw = draws(result, status.size)
+    rows = np.flatnonzero((status == DONE) & np.isfinite(values) & is_draw)
     limits = []
     if "thresholds" in summary:
         table = summary["thresholds"]
@@ -52,7 +63,7 @@ def ranked(result):
                   zip(texts(table, "metric"), *columns(table, "limit", "above")) if metric == name]
     if rows.size == 0:
         raise NotAResult(f"no trial has a finite '{name}'")
-    return Ranked(name, units(trials, name), values[rows], limits, np.count_nonzero(status) - rows.size), rows
+    return Ranked(name, units(trials, name), values[rows], limits, np.count_nonzero(status[is_draw]) - rows.size), rows
 
 
 def influences(result):

@@ -133,9 +133,17 @@ nlohmann::ordered_json study_schema() {
                                 {{"name", any_text("small letters, digits and _")},
                                  {"table", {{"enum", {"trajectory", "controller"}}, {"default", "trajectory"}}},
                                  {"column", any_text("of the result of a run")},
-                                 {"kind", {{"enum", kinds_of<MetricKind>()}}}}},
+                                 {"kind", {{"enum", kinds_of<MetricKind>()}}},
+                                 {"from_s", number_from(0, "start of the part of the run that counts")},
+                                 {"to_s", number_from(0, "its end")},
+                                 {"at_s", number_from(0, "of a value")},
+                                 {"time_percent", number_from(0, "of a quantile: share of the time")},
+                                 {"direction", {{"enum", {"either", "rising", "falling"}}}},
+                                 {"number", number_from(1, "of a crossing")}}},
                                {"required", Json::array({"name", "column", "kind"})},
-                               {"description", "a number that a column of a run comes to"}}));
+                               {"description",
+                                "a number that a column of a run comes to; level_UNIT, band_UNIT and target_UNIT have "
+                                "the unit of the column"}}));
   // the unit of above and below is that of the metric
   root.with("threshold", several({{"type", "object"},
                                   {"properties", {{"metric", any_text("metric with a limit")}}},

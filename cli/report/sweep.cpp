@@ -16,16 +16,19 @@ constexpr std::size_t most_metrics = 10, most_parameters = 4;  ///< that are dra
 constexpr std::size_t dots_shown = 2000;                       ///< of a cloud, and of a distribution
 constexpr std::size_t bins = 25;                               ///< in which a cloud's quantiles are taken
 
-/// A metric of the trials that are there; infinite where one without it counts as the worst.
+/// A metric of the draws that are there; infinite where one without it counts as the worst.
 struct Values {
   std::vector<double> values;
   std::vector<std::size_t> rows;
 };
-Values values_of(const ResultFile& file, const std::vector<double>& status, const Ranking& ranking,
+Values values_of(const ResultFile& file, const SweepReader& sweep, const std::vector<double>& status,
                  const std::string& metric) {
+  const Study& study = sweep.study();
+  const Ranking ranking = ranking_of(study, metric);
+  const Block block = block_of(study.design, study.parameters.size());
   Values of{file.column("trials/" + metric), {}};
   for (std::size_t k = 0; k < status.size(); ++k) {
-    if (status[k] == 0.0) continue;
+    if (status[k] == 0.0 || !block.is_draw(sweep.range().first + k)) continue;
     of.values[k] = ranking(of.values[k], status[k] == static_cast<double>(TrialStatus::done));
     of.rows.push_back(k);
   }
@@ -195,11 +198,10 @@ ReportPage report_of_sweep(const ResultFile& file) {
   const std::vector<double> status = file.column("trials/status");
   ReportGroup spread{"Distribution: the value that a share of the drives stays below", "share of drives", "1", {}};
   for (const MetricSummary* m : drawn)
-    spread.panels.push_back(
-        distribution(values_of(file, status, ranking_of(study, m->metric.name), m->metric.name), summary, *m));
+    spread.panels.push_back(distribution(values_of(file, sweep, status, m->metric.name), summary, *m));
   if (!spread.panels.empty()) page.groups.push_back(std::move(spread));
   if (!drawn.empty() && drawn.front()->metric.name == summary.ranked_by) {
-    const Values ranked = values_of(file, status, ranking_of(study, summary.ranked_by), summary.ranked_by);
+    const Values ranked = values_of(file, sweep, status, summary.ranked_by);
     for (std::size_t k = 0; k < std::min(most_parameters, summary.influences.size()); ++k) {
       const auto parameter =
           std::find_if(study.parameters.begin(), study.parameters.end(),

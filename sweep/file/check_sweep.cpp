@@ -24,6 +24,19 @@ TrialRange stored_range(hid_t file, const Study& study) {
   return {static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(end)};
 }
 
+/// Those of the study, where a file states them: older files do not.
+void check_blocks(hid_t file, const Study& study) {
+  if (H5Aexists(file, "block_trials") <= 0) return;
+  const Block block = block_of(study.design, study.parameters.size());
+  const std::int64_t trials = read_integer_attribute(file, "block_trials"),
+                     draws = read_integer_attribute(file, "block_draws");
+  if (trials != static_cast<std::int64_t>(block.trials) || draws != static_cast<std::int64_t>(block.draws))
+    throw ReadFault(file_of(file),
+                    fmt::format("its blocks of {} trials with {} draws are not those of its study, of {} "
+                                "with {}",
+                                trials, draws, block.trials, block.draws));
+}
+
 /// Calls visit(trial, value, whether it is there) for the rows of a column.
 template <class Visit>
 void for_each_row(const StoredTable& trials, const std::string& name, TrialRange range, Visit&& visit) {
@@ -72,6 +85,7 @@ void check_referee(const StoredTable& referee, TrialRange range) {
 
 TrialRange check_sweep(hid_t file, const Study& study) {
   const TrialRange range = stored_range(file, study);
+  check_blocks(file, study);
   for (const char* const name : {"title", "command_line"}) read_text_attribute(file, name);
   if (H5Aexists(file, "sources") > 0) read_text_attribute(file, "sources");  // older files have none
   const StoredTable trials(file, "trials"), referee(file, "referee");

@@ -66,6 +66,9 @@ void SweepFile::create(const std::string& path, const Study& study, TrialRange r
   write_attribute(file.file(), "build", program_identity());
   write_attribute(file.file(), "first_trial", static_cast<std::int64_t>(range.first));
   write_attribute(file.file(), "end_trial", static_cast<std::int64_t>(range.end));
+  const Block block = block_of(study.design, study.parameters.size());
+  write_attribute(file.file(), "block_trials", static_cast<std::int64_t>(block.trials));
+  write_attribute(file.file(), "block_draws", static_cast<std::int64_t>(block.draws));
   FixedTexts::create(file.file(), "reasons", "of each kind of reasons why trials are not done the first one",
                      ReasonTable::most);
   FixedTable::create(file.file(), "trials", trial_columns(study), range.size());

@@ -29,9 +29,14 @@ Course Course::between(double from, double to) const {
   if (empty() || from > points.back().t || to < begin()) return part;
   const bool cut = from > begin();
   if (cut) part.points.push_back({from, at(from)});
+  const bool ends_before = to < points.back().t;
   for (const Point& p : points)
-    if ((!cut || p.t > from) && p.t <= to) part.points.push_back(p);
-  if (to < points.back().t && part.points.back().t < to) part.points.push_back({to, at(to)});
+    if ((!cut || p.t > from) && (ends_before ? p.t < to : p.t <= to)) part.points.push_back(p);
+  if (ends_before) {  // as it is before a jump there
+    const auto there =
+        std::lower_bound(points.begin(), points.end(), to, [](const Point& p, double t) { return p.t < t; });
+    part.points.push_back({to, there->t == to ? there->y : at(to)});
+  }
   return part;
 }
 
@@ -65,6 +70,9 @@ double Course::root_mean_square() const {
 
 double Course::quantile(double share) const {
   if (!(duration() > 0.0)) return points.back().y;
+  // but for the rounding of a sum of so many times
+  const double wanted =
+      (share - std::numeric_limits<double>::epsilon() * static_cast<double>(points.size())) * duration();
   const auto time_below = [&](double level) {
     double sum = 0.0;
     for_each_line(points, [&](const Point& a, const Point& b) {
@@ -75,11 +83,11 @@ double Course::quantile(double share) const {
   };
   double low = least(), high = greatest();
   if (share >= 1.0) return high;
-  if (time_below(low) >= share * duration()) return low;
+  if (time_below(low) >= wanted) return low;
   for (;;) {
     const double middle = low + 0.5 * (high - low);
     if (middle <= low || middle >= high) return high;
-    (time_below(middle) >= share * duration() ? high : low) = middle;
+    (time_below(middle) >= wanted ? high : low) = middle;
   }
 }
 

@@ -14,7 +14,7 @@ struct Course {
   double begin() const { return points.front().t; }
   double duration() const { return points.back().t - points.front().t; }
 
-  /// The part from a time to another one [s]; none if these are not within it.
+  /// The part from a time to another one [s], from behind a jump to before one; none if these are not within it.
   Course between(double from, double to) const;
 
   double at(double t) const;  ///< behind a jump, if there is one

@@ -65,7 +65,7 @@ struct OwnMetric {
   std::string name, column;
   bool of_controller = false;  ///< a column of /controller, held from sample to sample; else of /trajectory
   MetricKind kind;
-  double from = 0.0, to = std::numeric_limits<double>::infinity();  ///< the part of the run that counts [s]
+  double from = 0.0, to = 0.0;  ///< the part of the run that counts [s]
 
   /// Not a number where there is none: of something that never happens.
   double of(const Course& whole) const;

@@ -59,17 +59,17 @@ class MetricReader {
   OwnMetric read(const std::vector<std::string>& taken) {
     OwnMetric metric;
     metric.name = required_text("name", "the name of the metric");
-    if (!metric.name.empty() && !is_name(metric.name))
+    if (table_.has("name") && !is_name(metric.name))
       table_.fault("name",
                    fmt::format("'{}' cannot be the name of a metric; use small letters, digits and _", metric.name));
     if (std::find(taken.begin(), taken.end(), metric.name) != taken.end())
-      table_.fault("name", fmt::format("there is a metric '{}' already; choose another name", metric.name));
+      table_.fault("name", fmt::format("the name '{}' is taken; choose another one", metric.name));
     metric.of_controller = table_.choice("table", {"trajectory", "controller"}, Presence::optional) == "controller";
     metric.column = required_text("column", "a column of the result of a run");
-    std::string units;
+    std::optional<Unit> unit;
     if (metric.of_controller && !scenario_.control) {
       table_.fault("table", "the scenario has no controller; its runs have the columns of the trajectory alone");
-    } else if (!metric.column.empty()) {
+    } else if (table_.has("column")) {
       const std::vector<ColumnDescription> columns = columns_of(scenario_, metric.of_controller);
       std::vector<std::string> names;
       for (const ColumnDescription& c : columns) names.push_back(c.name);
@@ -78,14 +78,14 @@ class MetricReader {
         table_.fault("column",
                      fmt::format("runs have no column '{}'; {}", metric.column, suggestion(metric.column, names)));
       else
-        units = columns[static_cast<std::size_t>(found - names.begin())].units;
+        unit = unit_of(columns[static_cast<std::size_t>(found - names.begin())].units).own;
     }
     read_window(metric);
     const auto kind = table_.choice("kind", kinds_of<MetricKind>(), Presence::required);
-    if (!kind || !table_.faults().empty()) {
+    if (!kind || !unit) {
       table_.ignore_unknown();  // which keys it may have, and in which unit, hangs on its kind and column
     } else {
-      unit_ = unit_of(units).own;
+      unit_ = *unit;
       metric.kind = make_kind<MetricKind>(*kind);
       std::visit([&](auto& what) { read_kind(what, metric); }, metric.kind);
     }
@@ -108,9 +108,12 @@ class MetricReader {
     const double end = scenario_.run.duration;
     metric.from =
         number("from", unit::second, bounds::not_negative, Presence::optional, "start of what counts").value_or(0.0);
-    metric.to =
-        number("to", unit::second, bounds::positive, Presence::optional, "end of what counts").value_or(metric.to);
-    if (!(metric.from < std::min(metric.to, end)))
+    metric.to = number("to", unit::second, bounds::positive, Presence::optional, "end of what counts").value_or(end);
+    if (table_.has("to_s") && metric.to > end)
+      table_.fault("to_s", fmt::format("{} = {} s must be at most the duration of the run, {} s",
+                                       table_.path_of("to_s"), metric.to, end));
+    metric.to = std::min(metric.to, end);
+    if (!(metric.from < metric.to))
       table_.fault("from_s", fmt::format("{} = {} s must be less than {}", table_.path_of("from_s"), metric.from,
                                          metric.to < end ? fmt::format("to_s = {} s", metric.to)
                                                          : fmt::format("the duration of the run, {} s", end)));
@@ -121,9 +124,9 @@ class MetricReader {
   void read_kind(ValueAt& value, const OwnMetric& metric) {
     value.time =
         number("at", unit::second, bounds::not_negative, Presence::required, "time of the value").value_or(0.0);
-    if (value.time < metric.from || value.time > std::min(metric.to, scenario_.run.duration))
+    if (value.time < metric.from || value.time > metric.to)
       table_.fault("at_s", fmt::format("{} = {} s is not within what counts, {} s to {} s", table_.path_of("at_s"),
-                                       value.time, metric.from, std::min(metric.to, scenario_.run.duration)));
+                                       value.time, metric.from, metric.to));
   }
   void read_kind(TimeQuantile& quantile, const OwnMetric&) {
     quantile.share = number("time", unit::percent, bounds::between(0, 1), Presence::required,
@@ -155,6 +158,7 @@ std::vector<OwnMetric> read_own_metrics(TableReader& root, const Scenario& scena
                                         const std::vector<std::string>& taken) {
   std::vector<OwnMetric> list;
   std::vector<std::string> names = taken;
+  names.insert(names.end(), {"index", "reason", "status"});  // columns of /trials
   const std::vector<const toml::table*> tables = root.tables("metric");
   for (std::size_t k = 0; k < tables.size(); ++k) {
     TableReader table(tables[k], fmt::format("metric[{}]", k), Axis::rotary, root.faults(), root.where());

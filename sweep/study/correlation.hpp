@@ -33,8 +33,8 @@ class Copula {
   /// matrix: correlation of the normal scores, with ones on the diagonal, for which exists().
   explicit Copula(const Eigen::MatrixXd& matrix) : factor_(lower_factor(matrix).value()) {}
 
-  /// Whether such correlations can be: the matrix is positive definite.
-  static bool exists(const Eigen::MatrixXd& matrix) { return lower_factor(matrix).has_value(); }
+  /// Whether such correlations can be: the matrix is positive definite, and stays so in any order in spite of rounding.
+  static bool exists(const Eigen::MatrixXd& matrix);
   bool independent() const { return factor_.size() == 0; }
   std::size_t size() const { return static_cast<std::size_t>(factor_.rows()); }
 

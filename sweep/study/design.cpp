@@ -46,10 +46,10 @@ bool is_sample(const DesignSettings& settings) {
   return allows_correlation(settings) || std::holds_alternative<Saltelli>(settings);
 }
 
-bool is_draw(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {
-  if (std::holds_alternative<Shapley>(settings)) return trial % (parameters + 1) == 0;
-  const auto* const saltelli = std::get_if<Saltelli>(&settings);
-  return !saltelli || trial % saltelli->rows(parameters) < 2;
+Block block_of(const DesignSettings& settings, std::size_t parameters) {
+  if (std::holds_alternative<Shapley>(settings)) return {parameters + 1, 1};
+  if (const auto* const saltelli = std::get_if<Saltelli>(&settings)) return {saltelli->rows(parameters), 2};
+  return {};
 }
 
 std::uint64_t noise_of(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial) {

@@ -92,9 +92,15 @@ bool allows_correlation(const DesignSettings& settings);
 /// How many trials a design has with so many parameters.
 std::uint64_t size(const DesignSettings& settings, std::size_t parameters);
 
-/// Whether a trial counts as a draw of its own from the distribution of the parameters: in a Saltelli design A and B
-/// alone do, and of a permutation its first trial. Where the design is no sample, every trial counts.
-bool is_draw(const DesignSettings& settings, std::size_t parameters, std::uint64_t trial);
+/// Trials that belong together, and how many of them, the first ones, are draws of their own from the distribution of
+/// the parameters: in a Saltelli design A and B, of a permutation one. Where the design is no sample, every trial
+/// counts.
+struct Block {
+  std::uint64_t trials = 1, draws = 1;
+
+  bool is_draw(std::uint64_t trial) const { return trial % trials < draws; }
+};
+Block block_of(const DesignSettings& settings, std::size_t parameters);
 
 /// The trial whose noise a trial has: itself, but where a row of a Saltelli design is A or B with one parameter from
 /// the other one that of A or B, and of a trajectory of Morris or a permutation its first one, so that nothing but

@@ -113,6 +113,7 @@ class StudyReader {
     std::vector<std::string> names;
     for (const Metric& metric : all) names.push_back(metric.name);
     study_.own_metrics = read_own_metrics(root_, study_.scenario, names);
+    own_are_sound_ = faults_.empty();
     for (const OwnMetric& own : study_.own_metrics) names.push_back(own.name);
     const std::vector<std::string> wanted = root_.texts("metrics");
     for (const std::string& name : wanted)
@@ -127,11 +128,17 @@ class StudyReader {
     study_.metrics = std::move(all);
   }
 
+  /// Whether it is the name of an own metric of which it is not known what it will be.
+  bool is_in_doubt(const std::string& name) const {
+    return !own_are_sound_ && std::any_of(study_.own_metrics.begin(), study_.own_metrics.end(),
+                                          [&](const OwnMetric& own) { return own.name == name; });
+  }
+
   void check_kept() {
     const std::string& by = study_.kept.worst_by;
     std::vector<std::string> names;
     for (const Metric& metric : study_.metrics) names.push_back(metric.name);
-    if (by.empty() || std::find(names.begin(), names.end(), by) != names.end()) return;
+    if (by.empty() || is_in_doubt(by) || std::find(names.begin(), names.end(), by) != names.end()) return;
     faults_.add({name_}, fmt::format("sweep.keep_worst_by = \"{}\": this study has no such metric; {}", by,
                                      suggestion(by, names)));
   }
@@ -144,7 +151,9 @@ class StudyReader {
       for (const Metric& metric : study_.metrics) names.push_back(metric.name);
       if (const auto name = table.text("metric")) {
         const auto found = std::find(names.begin(), names.end(), *name);
-        if (found == names.end()) {
+        if (is_in_doubt(*name)) {
+          table.ignore_unknown();
+        } else if (found == names.end()) {
           table.fault("metric", fmt::format("this study has no metric '{}'; {}", *name, suggestion(*name, names)));
           table.ignore_unknown();
         } else {
@@ -163,6 +172,7 @@ class StudyReader {
       return table.number(name, metric.unit, bounds::any, Presence::optional, "limit");
     };
     const auto above = limit("above"), below = limit("below");
+    if (!above && !below) table.ignore_unknown();
     const std::string key = spellings("above", metric.unit, Axis::rotary).front().key;
     if (above.has_value() == below.has_value() && faults_.empty())
       table.fault("metric", fmt::format("a threshold states either {} or {}", key,
@@ -176,6 +186,7 @@ class StudyReader {
   DataColumns& data_;
   bool in_table_;  ///< the parameters have the values of a table
   Study study_;
+  bool own_are_sound_ = true;  ///< no fault was found in a [[metric]]
   std::vector<Setting> settings_;
   std::vector<StatedParameter> stated_;
 };

@@ -19,7 +19,10 @@ namespace {
 class Summariser {
  public:
   Summariser(const SweepReader& sweep, const SummarySettings& settings)
-      : sweep_(sweep), study_(sweep.study()), settings_(settings) {
+      : sweep_(sweep),
+        study_(sweep.study()),
+        settings_(settings),
+        together_(block_of(study_.design, study_.parameters.size())) {
     std::vector<std::string> names;
     for (const Metric& metric : study_.metrics) names.push_back(metric.name);
     if (settings_.ranked_by.empty()) settings_.ranked_by = default_ranking(study_);
@@ -44,17 +47,17 @@ class Summariser {
   }
 
  private:
-  using Block = SweepReader::Block;
+  using Rows = SweepReader::Block;
 
-  static TrialStatus status(const Block& block, std::size_t row) { return static_cast<TrialStatus>(block.status[row]); }
-  static bool done(const Block& block, std::size_t row) { return status(block, row) == TrialStatus::done; }
+  static TrialStatus status(const Rows& block, std::size_t row) { return static_cast<TrialStatus>(block.status[row]); }
+  static bool done(const Rows& block, std::size_t row) { return status(block, row) == TrialStatus::done; }
   /// Whether a trial is there and not left out.
-  bool is_told(const Block& block, std::size_t row) const {
+  bool is_told(const Rows& block, std::size_t row) const {
     return settings_.done_only ? done(block, row) : block.status[row] != 0.0;
   }
   /// Whether it stands for the distribution of the parameters too.
-  bool counts(const Block& block, std::size_t row) const {
-    return is_told(block, row) && is_draw(study_.design, study_.parameters.size(), block.first + row);
+  bool counts(const Rows& block, std::size_t row) const {
+    return is_told(block, row) && together_.is_draw(block.first + row);
   }
   /// An interval is for a sample alone.
   SampleEstimate told(const SampleEstimate& estimate) const {
@@ -62,11 +65,12 @@ class Summariser {
   }
 
   void count_statuses(SweepSummary& summary) const {
-    sweep_.for_each_block({}, [&](const Block& block) {
-      for (const double status : block.status) {
-        summary.done += status == static_cast<double>(TrialStatus::done);
-        summary.refused += status == static_cast<double>(TrialStatus::refused);
-        summary.halted += status == static_cast<double>(TrialStatus::halted);
+    sweep_.for_each_block({}, [&](const Rows& block) {
+      for (std::size_t row = 0; row < block.status.size(); ++row) {
+        summary.done += block.status[row] == static_cast<double>(TrialStatus::done);
+        summary.refused += block.status[row] == static_cast<double>(TrialStatus::refused);
+        summary.halted += block.status[row] == static_cast<double>(TrialStatus::halted);
+        summary.draws += counts(block, row);
       }
     });
   }
@@ -76,7 +80,7 @@ class Summariser {
   void for_each_part(const std::vector<std::string>& names, Take&& take) const {
     const Ranking ranking = ranking_of(study_, names.front());
     std::vector<std::vector<double>> chosen(names.size());
-    sweep_.for_each_block(names, [&](const Block& block) {
+    sweep_.for_each_block(names, [&](const Rows& block) {
       for (std::vector<double>& column : chosen) column.clear();
       for (std::size_t row = 0; row < block.status.size(); ++row) {
         if (!counts(block, row)) continue;
@@ -142,7 +146,7 @@ class Summariser {
     if (thresholds.empty() && !is_condition) return;
     ConditionSummary condition{is_condition ? in_words(*metric.condition) : "", 0, 0};
     std::uint64_t refused = 0, halted = 0;
-    sweep_.for_each_block({metric.name}, [&](const Block& block) {
+    sweep_.for_each_block({metric.name}, [&](const Rows& block) {
       for (std::size_t row = 0; row < block.status.size(); ++row) {
         if (!counts(block, row)) continue;
         refused += status(block, row) == TrialStatus::refused;
@@ -210,7 +214,7 @@ class Summariser {
   /// A metric, not a number where a trial is missing or not done.
   Column of_all_trials(const std::string& metric) const {
     return [this, metric](const TakeValues& take) {
-      sweep_.for_each_block({metric}, [&](const Block& block) {
+      sweep_.for_each_block({metric}, [&](const Rows& block) {
         std::vector<double> values = block.columns.front();
         for (std::size_t row = 0; row < values.size(); ++row)
           if (!done(block, row)) values[row] = std::numeric_limits<double>::quiet_NaN();
@@ -222,7 +226,7 @@ class Summariser {
   void find_worst(SweepSummary& summary) const {
     const Ranking ranking = ranking_of(study_, settings_.ranked_by);
     std::set<std::pair<double, std::uint64_t>> first;  // the worst first, of equals the earlier
-    sweep_.for_each_block({settings_.ranked_by}, [&](const Block& block) {
+    sweep_.for_each_block({settings_.ranked_by}, [&](const Rows& block) {
       for (std::size_t row = 0; row < block.status.size(); ++row) {
         if (!is_told(block, row)) continue;
         const double merit = -ranking.sign * ranking(block.columns.front()[row], done(block, row));
@@ -237,6 +241,7 @@ class Summariser {
   const SweepReader& sweep_;
   const Study& study_;
   SummarySettings settings_;
+  Block together_;
 };
 
 }  // namespace

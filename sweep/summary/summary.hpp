@@ -73,6 +73,7 @@ struct ConditionSummary {
 /// What a sweep comes to.
 struct SweepSummary {
   std::uint64_t trials{}, done{}, refused{}, halted{};
+  std::uint64_t draws{};   ///< that are not left out; of these alone metrics and thresholds tell
   bool sample = true;      ///< shares are probabilities, for the design is a sample; else nothing has an interval
   bool done_only = false;  ///< refused and halted trials are left out of all below
   std::vector<MetricSummary> metrics;

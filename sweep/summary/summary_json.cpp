@@ -18,11 +18,12 @@ nlohmann::json as_json(const ElementaryEffects& e) {
 
 nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summary, bool running) {
   const Study& study = sweep.study();
-  nlohmann::json json{{"title", study.title},           {"trials", summary.trials},
-                      {"of", sweep.range().size()},     {"running", running},
-                      {"done", summary.done},           {"refused", summary.refused},
-                      {"halted", summary.halted},       {"sample", summary.sample},
-                      {"done_only", summary.done_only}, {"ranked_by", summary.ranked_by}};
+  nlohmann::json json{{"title", study.title},          {"trials", summary.trials},
+                      {"of", sweep.range().size()},    {"running", running},
+                      {"done", summary.done},          {"refused", summary.refused},
+                      {"halted", summary.halted},      {"sample", summary.sample},
+                      {"draws", summary.draws},        {"done_only", summary.done_only},
+                      {"ranked_by", summary.ranked_by}};
   for (const MetricSummary& m : summary.metrics) {
     nlohmann::json& metric = json["metrics"][m.metric.name];
     metric = {{"unit", m.metric.unit.symbol}, {"count", m.count}, {"without", m.without},  {"mean", m.mean},

@@ -83,8 +83,17 @@ TEST_CASE("what straight lines and jumps come to is exact", "[sweep]") {
   CHECK(part.begin() == 1.0);
   CHECK(part.duration() == 1.5);
   CHECK(part.integral() == 3.0 + 0.5);
+  CHECK(course.between(0.0, 2.0).points.back().y == 4.0);
+  CHECK(course.between(2.0, 3.0).greatest() == 1.0);
   CHECK(course.between(5.0, 6.0).empty());
   CHECK(course.between(0.0, 9.0).points.size() == 5);
+}
+
+TEST_CASE("a share of the time that is met but for rounding is met", "[sweep]") {
+  Course steps;  // 1000 steps of a thousandth, each higher than the one before
+  for (int k = 0; k < 1000; ++k)
+    for (const int end : {k, k + 1}) steps.points.push_back({end * 0.001, static_cast<double>(k)});
+  for (int share = 1; share < 100; ++share) CHECK(close(steps.quantile(share / 100.0), share * 10.0 - 1.0, 1e-9));
 }
 
 TEST_CASE("metrics of columns have the values of the motion's closed form", "[sweep]") {
@@ -200,7 +209,15 @@ TEST_CASE("a faulty metric of a study gives one line that tells the remedy", "[s
     return outcome.err;
   };
   CHECK(why(metric("final_gear_speed", "mean", "")) ==
-        "study.toml:11:8: error: there is a metric 'final_gear_speed' already; choose another name\n");
+        "study.toml:11:8: error: the name 'final_gear_speed' is taken; choose another one\n");
+  CHECK(why(metric("status", "mean", "")) ==
+        "study.toml:11:8: error: the name 'status' is taken; choose another one\n");
+  CHECK(why(metric("", "mean", "")) ==
+        "study.toml:11:8: error: '' cannot be the name of a metric; use small letters, digits and _\n");
+  CHECK(
+      why(metric("way", "mean", "", "")).starts_with("study.toml:12:10: error: runs have no column ''; "));
+  CHECK(why(metric("way", "mean", "to_s = 3")) ==
+        "study.toml:14:8: error: metric[0].to_s = 3 s must be at most the duration of the run, 2 s\n");
   CHECK(why(metric("Way", "mean", "")) ==
         "study.toml:11:8: error: 'Way' cannot be the name of a metric; use small letters, digits and _\n");
   CHECK(why(metric("way", "mean", "", "gear_sped")) ==
@@ -216,6 +233,13 @@ TEST_CASE("a faulty metric of a study gives one line that tells the remedy", "[s
         "study.toml:14:10: error: metric[0].from_s = 1 s must be less than to_s = 0.5 s\n");
   CHECK(why(metric("way", "value", "at_s = 3")) ==
         "study.toml:14:8: error: metric[0].at_s = 3 s is not within what counts, 0 s to 2 s\n");
+  // a fault of one metric neither hides those of others nor makes its limits faults
+  CHECK(why(metric("way", "value", "at_s = 3") + metric("other", "value", "at_s = 4") +
+            "[[threshold]]\nmetric = \"way\"\nabove_rad_per_s = 1\n") ==
+        "study.toml:14:8: error: metric[0].at_s = 3 s is not within what counts, 0 s to 2 s\n"
+        "study.toml:19:8: error: metric[1].at_s = 4 s is not within what counts, 0 s to 2 s\n");
+  CHECK(why(metric("way", "mean", "") + "[[threshold]]\nmetric = \"way\"\nabove_s = 1\n") ==
+        "study.toml:16:10: error: a threshold states either above_rad_per_s or below_rad_per_s\n");
   CHECK(why(metric("way", "settling_time", "band_rad = 1")).find("did you mean 'band_rad_per_s'?") !=
         std::string::npos);
 }

@@ -197,6 +197,22 @@ TEST_CASE("a permutation without a value is left out, and a constant metric has 
   CHECK(shapley_effects(column, design, 2, 1).of.empty());
 }
 
+TEST_CASE("correlations that only rounding keeps apart are rejected before any order needs them", "[sweep]") {
+  // the last of these three is a sum of the others
+  Eigen::Matrix3d matrix;
+  for (const auto& [a, b, c] : {std::array{0.8, 0.936, 0.96}, {0.6, -0.6, 0.28}}) {
+    matrix << 1.0, a, b, a, 1.0, c, b, c, 1.0;
+    CHECK_FALSE(Copula::exists(matrix));
+    matrix(0, 1) = matrix(1, 0) = a * (1.0 - 1e-9);
+    matrix(0, 2) = matrix(2, 0) = b * (1.0 - 1e-9);
+    REQUIRE(Copula::exists(matrix));
+    const Copula copula(matrix);
+    for (const std::vector<std::size_t>& order :
+         {std::vector<std::size_t>{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}})
+      CHECK_NOTHROW(copula.reordered(order));
+  }
+}
+
 TEST_CASE("a Shapley sweep of dependent parameters is the same in shards, and its summary tells the effects",
           "[sweep]") {
   const StudyFolder folder(
@@ -215,6 +231,8 @@ TEST_CASE("a Shapley sweep of dependent parameters is the same in shards, and it
   const nlohmann::json all = nlohmann::json::parse(folder.run({"summary", "a.h5", "--json"}).out),
                        found = all["shapley"]["final_gear_speed"]["parameters"];
   CHECK(all["metrics"]["final_gear_speed"]["count"] == 20);  // one draw of each permutation
+  CHECK(all["draws"] == 20);
+  CHECK(summary.out.find("  draws    20 of these trials, of which limits and metrics tell") != std::string::npos);
   const double sum =
       found["mesh.friction"]["value"].get<double>() + found["effect.worm_coulomb.torque_Nm"]["value"].get<double>();
   CHECK(close(sum, 1.0, 1e-12));

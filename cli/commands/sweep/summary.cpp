@@ -116,13 +116,13 @@ void print_pairs(const SweepSummary& summary, const Study& study) {
 
 /// How many of the blocks of a design are not evaluated.
 template <class Effects>
-void print_left_out(std::string_view blocks, const Effects* found) {
+void print_left_out(std::string_view blocks, const Effects* found, std::string_view indices, bool complete) {
   if (found && found->left_out > 0)
-    fmt::print("  {} of {} {} are left out because one of their trials has no value\n", found->left_out,
-               found->used + found->left_out, blocks);
+    fmt::print("  {} of {} {} are left out{} because one of their trials has {}no value\n", found->left_out,
+               found->used + found->left_out, blocks, indices, complete ? "" : "not run or has ");
 }
 
-void print_influences(const SweepSummary& summary) {
+void print_influences(const SweepSummary& summary, bool complete) {
   fmt::print("\n  influence on {}, the largest first\n", summary.ranked_by);
   const auto ranked = std::find_if(summary.metrics.begin(), summary.metrics.end(),
                                    [&](const MetricSummary& m) { return m.metric.name == summary.ranked_by; });
@@ -140,11 +140,9 @@ void print_influences(const SweepSummary& summary) {
                  i.rank_correlation.has_interval()
                      ? fmt::format(" [{:+.3f}, {:+.3f}]", i.rank_correlation.low, i.rank_correlation.high)
                      : "");
-  if (const SobolIndices& sobol = summary.sobol; sobol.left_out > 0)
-    fmt::print("  {} of {} samples are left out of the Sobol indices because one of their trials has no value\n",
-               sobol.left_out, sobol.used + sobol.left_out);
-  print_left_out("trajectories", summary.find(summary.screenings, summary.ranked_by));
-  print_left_out("permutations", summary.find(summary.shapley, summary.ranked_by));
+  print_left_out("samples", &summary.sobol, " of the Sobol indices", complete);
+  print_left_out("trajectories", summary.find(summary.screenings, summary.ranked_by), "", complete);
+  print_left_out("permutations", summary.find(summary.shapley, summary.ranked_by), "", complete);
 }
 
 void print_worst(const SweepReader& sweep, const SweepSummary& summary, const std::string& path) {
@@ -187,9 +185,13 @@ int summary_command(const SummaryOptions& options) {
                                          ? fmt::format("all other lines describe the {} completed trials", summary.done)
                                          : "they count as the worst (--done-only leaves them out)"));
   for (const std::string& reason : sweep.reasons()) print_item("", reason);
+  if (const Block block = block_of(sweep.study().design, sweep.study().parameters.size()); block.draws < block.trials)
+    print_item("draws", fmt::format("{} of these trials, of which limits and metrics tell; the others differ from one "
+                                    "of them by some parameters alone",
+                                    summary.draws));
   print_metrics(summary);
   print_conditions(summary);
-  print_influences(summary);
+  print_influences(summary, sweep.complete());
   print_pairs(summary, sweep.study());
   print_worst(sweep, summary, options.sweep);
   if (!sweep.verdicts().empty()) fmt::print("\n");

@@ -24,7 +24,9 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   outcome.own = meters.values();
   std::string said;
   for (const Metric& m : study.metrics)
-    if (m.name == metric) said = fmt::format("cvode: {} {:.6g}{}", metric, m.of(outcome), in_unit(m.unit));
+    if (const double value = m.name == metric ? m.of(outcome) : 0.0; m.name == metric)
+      said = std::isnan(value) ? fmt::format("cvode: without {}", metric)
+                               : fmt::format("cvode: {} {:.6g}{}", metric, value, in_unit(m.unit));
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = cross_check(scenario);
   return said + fmt::format("; under the same {}, {} agree within {:.2g} {}", in_words_of(scenario.axis, "torque"),
