@@ -6,6 +6,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "sweep/summary/blocks.hpp"
+
 namespace wormdrive {
 namespace {
 
@@ -28,14 +30,13 @@ MorrisScreening elementary_effects(const Column& values, const DesignSettings& s
   MorrisScreening screening;
   Design design(settings, parameters, seed);
   std::vector<RunningMoments> effects(parameters), sizes(parameters);
-  std::vector<double> trajectory;
-  std::uint64_t first = 0;
-  const auto add = [&] {
-    if (!std::all_of(trajectory.begin(), trajectory.end(), [](double v) { return std::isfinite(v); })) {
+  for_each_block(values, parameters + 1, [&](std::uint64_t number, const std::vector<double>& trajectory) {
+    if (!is_whole(trajectory)) {
       ++screening.left_out;
       return;
     }
     ++screening.used;
+    const std::uint64_t first = number * (parameters + 1);
     std::vector<double> before = design.point(first);
     for (std::size_t step = 1; step <= parameters; ++step) {
       const std::vector<double> after = design.point(first + step);
@@ -45,15 +46,6 @@ MorrisScreening elementary_effects(const Column& values, const DesignSettings& s
       effects[changed].add(effect);
       sizes[changed].add(std::abs(effect));
       before = after;
-    }
-  };
-  values([&](std::span<const double> part) {
-    for (const double value : part) {
-      trajectory.push_back(value);
-      if (trajectory.size() <= parameters) continue;
-      add();
-      first += parameters + 1;
-      trajectory.clear();
     }
   });
   if (screening.used < 2) return screening;

@@ -5,6 +5,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "sweep/summary/blocks.hpp"
+
 namespace wormdrive {
 namespace {
 
@@ -27,10 +29,9 @@ ShapleyEffects shapley_effects(const Column& values, const DesignSettings& setti
   const Design design(settings, parameters, seed);
   std::vector<ShareSums> sums(parameters);
   double v = 0.0, vv = 0.0;
-  std::vector<double> f;  // the first draw, and with all parameters from each place of the order on drawn anew
-  std::uint64_t permutation = 0;
-  const auto add = [&] {
-    if (!std::all_of(f.begin(), f.end(), [](double value) { return std::isfinite(value); })) {
+  // f: the first draw, and with all parameters from each place of the order on drawn anew
+  for_each_block(values, parameters + 1, [&](std::uint64_t permutation, const std::vector<double>& f) {
+    if (!is_whole(f)) {
       ++effects.left_out;
       return;
     }
@@ -46,15 +47,6 @@ ShapleyEffects shapley_effects(const Column& values, const DesignSettings& setti
     const std::vector<std::size_t> order = design.order(permutation);
     for (std::size_t place = 0; place < parameters; ++place)
       sums[order[place]].add(variance_from(place) - variance_from(place + 1), variance);
-  };
-  values([&](std::span<const double> part) {
-    for (const double value : part) {
-      f.push_back(value);
-      if (f.size() <= parameters) continue;
-      add();
-      ++permutation;
-      f.clear();
-    }
   });
   if (effects.used < 2 || v == 0.0) return effects;
   const auto used = static_cast<double>(effects.used);

@@ -6,28 +6,13 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "sweep/summary/blocks.hpp"
+
 namespace wormdrive {
 namespace {
 
-/// Calls visit(sample, values) for every sample that is there; its values are those at A, at B, at A with one parameter
-/// after the other from B, and at B with one after the other from A where pairs have indices.
-template <class Visit>
-void for_each_sample(const Column& column, std::uint64_t rows, Visit&& visit) {
-  std::vector<double> values;
-  std::uint64_t sample = 0;
-  column([&](std::span<const double> part) {
-    for (const double value : part) {
-      values.push_back(value);
-      if (values.size() < rows) continue;
-      visit(sample++, values);
-      values.clear();
-    }
-  });
-}
-
-bool is_whole(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
+// The values of a sample are those at A, at B, at A with one parameter after the other from B, and at B with one after
+// the other from A where pairs have indices.
 
 /// What indices are worked out from.
 class IndexSums {
@@ -104,7 +89,7 @@ SobolIndices sobol_indices(const Column& values, const Saltelli& design, std::si
   const std::uint64_t rows = design.rows(parameters);
   double centre = 0.0, some = 0.0;
   bool constant = true;
-  for_each_sample(values, rows, [&](std::uint64_t, const std::vector<double>& f) {
+  for_each_block(values, rows, [&](std::uint64_t, const std::vector<double>& f) {
     if (!is_whole(f)) {
       ++indices.left_out;
       return;
@@ -118,7 +103,7 @@ SobolIndices sobol_indices(const Column& values, const Saltelli& design, std::si
   const IndexSums none(parameters, design.second_order);
   IndexSums all = none;
   std::vector<IndexSums> parts(Saltelli::replicates, none);
-  for_each_sample(values, rows, [&](std::uint64_t sample, std::vector<double>& f) {
+  for_each_block(values, rows, [&](std::uint64_t sample, std::vector<double>& f) {
     if (!is_whole(f)) return;
     for (double& value : f) value -= centre;
     parts[sample % Saltelli::replicates].add(f);

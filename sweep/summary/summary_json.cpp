@@ -14,6 +14,19 @@ nlohmann::json as_json(const ElementaryEffects& e) {
   return {{"mu", e.mu}, {"mu_star", as_json(e.mu_star)}, {"sigma", e.sigma}};
 }
 
+/// What a design finds out of every metric and parameter, from so many of its blocks.
+template <class Effects>
+void add_effects(nlohmann::json& json, const char* design, const SweepSummary& summary,
+                 const std::vector<Effects>& of_metrics, const char* blocks, const Study& study) {
+  for (std::size_t m = 0; m < of_metrics.size(); ++m) {
+    const Effects& effects = of_metrics[m];
+    nlohmann::json& found = json[design][summary.metrics[m].metric.name];
+    found = {{blocks, effects.used}, {"left_out", effects.left_out}};
+    for (std::size_t k = 0; k < effects.of.size(); ++k)
+      found["parameters"][study.parameters[k].path] = as_json(effects.of[k]);
+  }
+}
+
 }  // namespace
 
 nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summary, bool running) {
@@ -59,20 +72,8 @@ nlohmann::json summary_json(const SweepReader& sweep, const SweepSummary& summar
     found["between"] = {study.parameters[pair.first].path, study.parameters[pair.second].path};
     json["sobol"]["pairs"].push_back(std::move(found));
   }
-  for (std::size_t m = 0; m < summary.shapley.size(); ++m) {
-    const ShapleyEffects& effects = summary.shapley[m];
-    nlohmann::json& found = json["shapley"][summary.metrics[m].metric.name];
-    found = {{"permutations", effects.used}, {"left_out", effects.left_out}};
-    for (std::size_t k = 0; k < effects.of.size(); ++k)
-      found["parameters"][study.parameters[k].path] = as_json(effects.of[k]);
-  }
-  for (std::size_t m = 0; m < summary.screenings.size(); ++m) {
-    const MorrisScreening& screening = summary.screenings[m];
-    nlohmann::json& found = json["morris"][summary.metrics[m].metric.name];
-    found = {{"trajectories", screening.used}, {"left_out", screening.left_out}};
-    for (std::size_t k = 0; k < screening.of.size(); ++k)
-      found["parameters"][study.parameters[k].path] = as_json(screening.of[k]);
-  }
+  add_effects(json, "shapley", summary, summary.shapley, "permutations", study);
+  add_effects(json, "morris", summary, summary.screenings, "trajectories", study);
   for (const Trial& trial : summary.worst) {
     nlohmann::json worst{{"trial", trial.index}, {"status", name(trial.status)}};
     if (!trial.reason.empty()) worst["reason"] = trial.reason;
