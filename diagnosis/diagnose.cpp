@@ -20,6 +20,7 @@
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
+#include "diagnosis/representative_pieces.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"
 #include "diagnosis/rules/recordings.hpp"
@@ -64,9 +65,8 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
   return all;
 }
 
-InnovationLayout with_nothing_held_out(const InnovationLayout& layout) {
-  std::vector<PreparedRecording> all;
-  for (const PreparedRecording& r : layout.recordings) all.push_back(with_all_data(r));
+InnovationLayout with_nothing_held_out(std::vector<PreparedRecording> all) {
+  for (PreparedRecording& r : all) r = with_all_data(std::move(r));
   return InnovationLayout(std::move(all));
 }
 
@@ -210,11 +210,13 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, stated_mesh(scenario).i);
+  const double ratio = stated_mesh(scenario).i;
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, ratio);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Candidate> all = everything(scenario, all_prepared, sizes, stated);
-  const Evaluation evaluation(scenario, InnovationLayout(std::move(all_prepared)), settings.threads);
+  const std::vector<Recording> searched = representative_pieces(recordings);
+  const Evaluation evaluation(scenario, InnovationLayout(prepared_all(searched, ratio)), settings.threads);
 
   const Hypothesis base = stated_hypothesis(scenario.effects, stated);
   Selection found = search(evaluation, all, base, sizes.torque, settings);
@@ -231,7 +233,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   describe(d, evaluation, before, found.model);
 
   tell("fitting all data");
-  const Evaluation by_all(scenario, with_nothing_held_out(evaluation.layout()), settings.threads);
+  const Evaluation by_all(scenario, with_nothing_held_out(std::move(all_prepared)), settings.threads);
   Hypothesis last = found.model;
   evaluate(by_all, last);
   restart_noise(by_all, last);
@@ -284,6 +286,11 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
           fmt::format("{}: one in {} readings is used: a step of the encoder, {:.2g} {}, is longer than "
                       "the way between two samples",
                       r.data.name, r.every, r.data.gear_resolution, units_on(scenario.axis, "rad")));
+  if (evaluation.layout().samples < by_all.layout().samples)
+    d.remarks.push_back(
+        fmt::format("causes were sought in {} of the {} samples, in pieces from all of the time; what was found is "
+                    "fitted to all samples",
+                    evaluation.layout().samples, by_all.layout().samples));
   for (const NotExamined& n : not_examined(scenario.effects, sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
   d.passes = evaluation.passes() + by_all.passes();

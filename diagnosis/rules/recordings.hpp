@@ -109,6 +109,11 @@ inline constexpr double burn_in = 0.1;
 inline constexpr double block = 0.5;
 /// blocks | standard | one in three is held out
 inline constexpr std::size_t held_out_every = 3;
+/// samples | set | the search for causes takes so many, five times what the recordings of the benchmark have; more are
+/// for the fit of what it has found
+inline constexpr std::size_t most_searched = 120'000;
+/// s | set | pieces of long recordings have twenty blocks each
+inline constexpr double piece = 10.0;
 /// s | set | the speed is the slope of a line over as much on either side
 inline constexpr double slope_half_width = 0.012;
 /// samples | derived | a slope over fewer is the noise of its readings
