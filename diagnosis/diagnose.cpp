@@ -48,7 +48,7 @@ std::vector<Recording> in_their_own_order(std::vector<Recording> recordings) {
   return recordings;
 }
 
-std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, double ratio) {
+std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, const Scenario& scenario) {
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
   std::vector<PreparedRecording> all;
   std::size_t blocks = 0;
@@ -57,7 +57,7 @@ std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& record
         static_cast<double>(r.samples()) * r.period < rules::least_duration - 1e-9)
       throw std::invalid_argument(fmt::format("a diagnosis needs recordings of at least {} s and {} samples",
                                               rules::least_duration, rules::least_samples));
-    all.push_back(prepared(r, blocks, ratio));
+    all.push_back(prepared(r, blocks, stated_mesh(scenario).i));
     blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
@@ -210,13 +210,13 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  const double ratio = stated_mesh(scenario).i;
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, ratio);
+  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, scenario);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Candidate> all = everything(scenario, all_prepared, sizes, stated);
-  const std::vector<Recording> searched = representative_pieces(recordings);
-  const Evaluation evaluation(scenario, InnovationLayout(prepared_all(searched, ratio)), settings.threads);
+  const bool is_long = samples_of(recordings) > rules::most_searched;
+  auto searched = is_long ? prepared_all(representative_pieces(recordings), scenario) : all_prepared;
+  const Evaluation evaluation(scenario, InnovationLayout(std::move(searched)), settings.threads);
 
   const Hypothesis base = stated_hypothesis(scenario.effects, stated);
   Selection found = search(evaluation, all, base, sizes.torque, settings);

@@ -23,7 +23,8 @@ Window liveliest(const std::vector<double>& way, std::size_t begin, std::size_t 
 
 std::vector<Window> pieces_of(const Recording& recording, std::size_t most) {
   const std::size_t n = recording.samples();
-  const auto length = std::max(rules::least_samples, static_cast<std::size_t>(std::lround(rules::piece / recording.period)));
+  const auto length =
+      std::max(rules::least_samples, static_cast<std::size_t>(std::lround(rules::piece / recording.period)));
   const std::size_t count = std::max<std::size_t>(1, most / length);
   if (n <= most || count * length >= n) return {{0, n}};
   std::vector<double> way(n);  // until a sample
@@ -62,9 +63,13 @@ Recording cut(const Recording& whole, const std::vector<Window>& pieces) {
 
 }  // namespace
 
+std::size_t samples_of(const std::vector<Recording>& recordings) {
+  return std::accumulate(recordings.begin(), recordings.end(), std::size_t{0},
+                         [](std::size_t sum, const Recording& r) { return sum + r.samples(); });
+}
+
 std::vector<Recording> representative_pieces(const std::vector<Recording>& recordings, std::size_t most) {
-  const std::size_t all = std::accumulate(recordings.begin(), recordings.end(), std::size_t{0},
-                                          [](std::size_t sum, const Recording& r) { return sum + r.samples(); });
+  const std::size_t all = samples_of(recordings);
   if (all <= most) return recordings;
   std::vector<Recording> cut_down;
   for (const Recording& r : recordings) {

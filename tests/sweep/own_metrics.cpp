@@ -214,8 +214,7 @@ TEST_CASE("a faulty metric of a study gives one line that tells the remedy", "[s
         "study.toml:11:8: error: the name 'status' is taken; choose another one\n");
   CHECK(why(metric("", "mean", "")) ==
         "study.toml:11:8: error: '' cannot be the name of a metric; use small letters, digits and _\n");
-  CHECK(
-      why(metric("way", "mean", "", "")).starts_with("study.toml:12:10: error: runs have no column ''; "));
+  CHECK(why(metric("way", "mean", "", "")).starts_with("study.toml:12:10: error: runs have no column ''; "));
   CHECK(why(metric("way", "mean", "to_s = 3")) ==
         "study.toml:14:8: error: metric[0].to_s = 3 s must be at most the duration of the run, 2 s\n");
   CHECK(why(metric("Way", "mean", "")) ==

@@ -50,8 +50,9 @@ void transfer(const Direction& pass, Json& at, Parameters& parameters) {
       at[std::string(one.key)] = one.word(parameters);
   });
   if constexpr (requires { P::fields(); }) {
-    for_each_field<P>(
-        [&](const auto& field) { pass(at, si_spelling(field.name, field.unit, pass.axis).key, parameters.*field.member); });
+    for_each_field<P>([&](const auto& field) {
+      pass(at, si_spelling(field.name, field.unit, pass.axis).key, parameters.*field.member);
+    });
   } else if constexpr (requires { parameters.times; }) {
     pass(at, "times", parameters.times);
     pass(at, "values", parameters.values);
