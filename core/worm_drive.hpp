@@ -271,9 +271,9 @@ class WormDrive : public TorqueBalance<T, Load> {
   bool starts(const Instant& now, Motion motion) const {
     Instant rest{now.t, now.x, {}, now.since};
     rest.x[1] = T(0);
+    if (T(sign(motion)) * release_acceleration(moment(rest), motion) <= T(0)) return false;  // mostly, at less cost
     const Series<Rounded, 1> a = release_acceleration(ahead<1, Rounded>(rest), motion);
-    if (!(std::abs(a[0].value) > blur(a, 0, time_resolution(now.t)))) return false;
-    return (a[0].value > 0.0) == (motion == Motion::forward);
+    return sign(motion) * a[0].value > blur(a, 0, time_resolution(now.t));
   }
 
   /// The moving mode just after now: flank by the first derivative of the surface distance that does not vanish.
