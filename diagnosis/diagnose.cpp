@@ -76,22 +76,21 @@ InnovationLayout with_nothing_held_out(std::vector<PreparedRecording> all) {
 Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all, const Hypothesis& base, double torque,
                  const DiagnosisSettings& settings) {
   if (settings.progress) settings.progress("fitting what is stated");
-  const Start start = fitted_start(evaluation, all, base);
+  Start start = fitted_start(evaluation, all, base);
   std::optional<Start> plain;
-  const auto start_plainly = [&] {
+  const auto start_plainly = [&]() -> Start& {
     if (!plain) plain = fitted_start(evaluation, all, without_noise_model(base));
-    return &*plain;
+    return *plain;
   };
   CauseSearch found(evaluation, all, settings.most_causes, settings.progress);
-  found.select(start, hides_what_is_slow(start.base.noise_model) ? start_plainly() : nullptr);
+  const Start* other = hides_what_is_slow(start.base.noise_model) ? &start_plainly() : nullptr;
+  found.select(std::move(start), other);
   if (!gap_of(found.model()) && noise_sizes(evaluation, found.model()).torque > torque) return found.confirmed();
   CauseSearch second(evaluation, all, settings.most_causes, settings.progress);
   CauseSearch* better = &found;
   if (hides_what_is_slow(found.model().noise_model)) {
-    second.select(*start_plainly(), nullptr);
-    const auto error = [&](const CauseSearch& s) {
-      return error_ahead(evaluation, s.model(), rules::reported_horizon);
-    };
+    second.select(std::move(start_plainly()), nullptr);
+    const auto error = [&](auto& s) { return error_ahead(evaluation, s.model(), rules::reported_horizon); };
     if (error(second) < rules::clearly_better * error(found)) better = &second;
   }
   better->try_pairs();
@@ -133,7 +132,7 @@ std::vector<RankedCandidate> ranking(const Evaluation& evaluation, const Selecti
     if (!c.named && c.outcome == "named") c.outcome = "another one explains it better";
     list.push_back(std::move(c));
   }
-  for (const Screened& s : selection.screening.found) {
+  for (const Screened& s : selection.screened) {
     if (std::any_of(list.begin(), list.end(),
                     [&](const RankedCandidate& c) { return c.effect.effect == all[s.candidate].effect; }))
       continue;

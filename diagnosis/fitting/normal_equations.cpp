@@ -14,12 +14,6 @@ WeightedColumns::WeightedColumns(std::span<const double> weights) {
     }
 }
 
-Eigen::VectorXd WeightedColumns::operator()(std::span<const double> column) const {
-  Eigen::VectorXd weighted(static_cast<Eigen::Index>(rows_.size()));
-  for (std::size_t q = 0; q < rows_.size(); ++q) weighted[static_cast<Eigen::Index>(q)] = root_[q] * column[rows_[q]];
-  return weighted;
-}
-
 Eigen::VectorXd solve_normal(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double damping) {
   Eigen::MatrixXd damped = A;
   damped.diagonal() += damping * A.diagonal() + Eigen::VectorXd::Constant(A.rows(), 1e-12);

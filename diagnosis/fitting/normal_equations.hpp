@@ -12,7 +12,19 @@ class WeightedColumns {
   /// weights: curvature of every sample, 0 where it is not fitted.
   explicit WeightedColumns(std::span<const double> weights);
 
-  Eigen::VectorXd operator()(std::span<const double> column) const;
+  /// How many samples are fitted.
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(rows_.size()); }
+  Eigen::VectorXd operator()(const std::vector<double>& column) const { return (*this)(column, 0, rows()); }
+  /// So many rows of it.
+  template <class Number>
+  Eigen::VectorXd operator()(const std::vector<Number>& column, Eigen::Index begin, Eigen::Index rows) const {
+    Eigen::VectorXd weighted(rows);
+    for (Eigen::Index q = 0; q < rows; ++q) {
+      const auto at = static_cast<std::size_t>(begin + q);
+      weighted[q] = root_[at] * column[rows_[at]];
+    }
+    return weighted;
+  }
 
  private:
   std::vector<std::size_t> rows_;

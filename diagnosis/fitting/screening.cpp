@@ -29,10 +29,11 @@ class Trial {
       return;
     }
     collect_signatures();
-    const auto old = J.cols(), fresh = static_cast<Eigen::Index>(result_.signatures.size());
+    for (const auto& signature : signatures_) result_.signatures.emplace_back(signature.begin(), signature.end());
+    const auto old = J.cols(), fresh = static_cast<Eigen::Index>(signatures_.size());
     Eigen::MatrixXd all(J.rows(), old + fresh);
     all.leftCols(old) = J;
-    for (Eigen::Index k = 0; k < fresh; ++k) all.col(old + k) = weigh(result_.signatures[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < fresh; ++k) all.col(old + k) = weigh(signatures_[static_cast<std::size_t>(k)]);
     Eigen::MatrixXd A = all.transpose() * all;
     Eigen::VectorXd b = -all.transpose() * residual;
     Hypothesis tolerances = with_;  // signatures stand for the new coordinates, which have none
@@ -72,15 +73,15 @@ class Trial {
     size_ = old;
     if (candidate_.finite) {
       const bool moves = evaluate(evaluation_, with_);
-      result_.signatures.push_back(moves ? difference(evaluation_, h_, with_.innovations)
-                                         : std::vector<double>(h_.innovations.size(), 0.0));
+      signatures_.push_back(moves ? difference(evaluation_, h_, with_.innovations)
+                                  : std::vector<double>(h_.innovations.size(), 0.0));
       return;
     }
     Hypothesis moved = with_;
     moved.innovations = h_.innovations;
     moved.noise_model = h_.noise_model;
     for (std::size_t k = old; k < with_.free.size(); ++k)
-      result_.signatures.push_back(sensitivity(evaluation_, moved, k, 5.0 * derivative_step));
+      signatures_.push_back(sensitivity(evaluation_, moved, k, 5.0 * derivative_step));
   }
 
   /// What the coordinates that are free here and not in the hypothesis cost, as BIC.
@@ -102,7 +103,7 @@ class Trial {
     };
     for (std::size_t k = 0; k < h_.free.size(); ++k)
       move(k, share * std::clamp(step[static_cast<Eigen::Index>(k)], -20.0, 20.0));
-    for (std::size_t q = 0; q < result_.signatures.size(); ++q) {
+    for (std::size_t q = 0; q < signatures_.size(); ++q) {
       const double length = share * std::clamp(step[static_cast<Eigen::Index>(h_.free.size() + q)], -30.0, 30.0);
       if (!candidate_.finite) {
         move(size_ + q, length);
@@ -126,6 +127,7 @@ class Trial {
   const Candidate& candidate_;
   Screened& result_;
   Hypothesis with_;
+  std::vector<std::vector<double>> signatures_{};
   std::size_t size_ = 0;  ///< the candidate's first coordinate among the free ones
 };
 
@@ -153,8 +155,10 @@ Screening screen(const Evaluation& evaluation, const Hypothesis& h, const std::v
     if (!all[c].alone && !is_in(h, all, c))
       for (std::size_t start = 0; start < all[c].starts.size() + all[c].far.size(); ++start)
         s.found.push_back({.candidate = c, .start = start, .is_far = start >= all[c].starts.size()});
-  parallel_for(s.found.size(), evaluation.threads(),
-               [&](std::size_t k) { Trial(evaluation, h, all, s.found[k])(weigh, J, residual); });
+  parallel_for(s.found.size(), evaluation.threads(), [&](std::size_t k) {
+    Trial(evaluation, h, all, s.found[k])(weigh, J, residual);
+    s.found[k].model.innovations = s.found[k].model.residuals = {};
+  });
   std::stable_sort(s.found.begin(), s.found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return s;
 }

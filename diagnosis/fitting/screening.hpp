@@ -9,9 +9,10 @@ namespace wormdrive {
 struct Screened {
   std::size_t candidate, start;
   double gain = -std::numeric_limits<double>::infinity();  ///< of the BIC
-  Hypothesis model{};                                      ///< after the step
-  /// Changes of the whitened innovations, per scale or by the start; none of what is free already or of a far value.
-  std::vector<std::vector<double>> signatures{};
+  Hypothesis model{};                                      ///< after the step; its innovations are not kept
+  /// Changes of the whitened innovations, per scale or by the start; none of what is free already or of a far value. In
+  /// single precision: of long recordings they take most of the memory.
+  std::vector<std::vector<float>> signatures{};
   bool is_far = false;  ///< a far value, of which no slope is known
 };
 

@@ -44,9 +44,8 @@ Start fitted_start(const Evaluation& evaluation, const std::vector<Candidate>& a
   return {std::move(base), std::move(screening)};
 }
 
-void CauseSearch::select(const Start& start, const Start* other) {
+void CauseSearch::select(Start start, const Start* other) {
   s_.base = s_.model = start.base;
-  s_.screening = start.screening;
   const auto removed = [&] {  // an effect that is taken away leaves room for another
     return std::count_if(s_.causes.begin(), s_.causes.end(),
                          [&](const Found& found) { return is_removed(s_.model, all_[found.candidate]); });
@@ -54,15 +53,20 @@ void CauseSearch::select(const Start& start, const Start* other) {
   for (int round = 0; round < most_causes_ + removed(); ++round) {
     tell(fmt::format("trying candidates, round {}", round + 1));
     const bool first = round == 0;
-    std::vector<Tried> tried =
-        first ? try_candidates(start, other) : try_candidates({s_.model, screen(evaluation_, s_.model, all_)}, nullptr);
+    if (!first) start = {s_.model, screen(evaluation_, s_.model, all_)};
+    std::vector<Tried> tried = try_candidates(start, first ? other : nullptr);
     if (first) s_.tried = tried;
     const double before = s_.model.bic;
-    if (tried.empty() || !take_best(tried, first)) break;
+    const bool any = !tried.empty() && take_best(tried, first);
+    if (first) {  // of long recordings signatures take most of the memory
+      s_.linear = linear_system(evaluation_, s_.base, start.screening);
+      for (Screened& s : start.screening.found) s.signatures = {};
+      s_.screened = std::move(start.screening.found);
+    }
+    if (!any) break;
     eliminate(before);
   }
   simplify();
-  s_.linear = linear_system(evaluation_, s_.base, s_.screening);
 }
 
 Selection CauseSearch::confirmed() {

@@ -37,8 +37,8 @@ struct Selection {
   Hypothesis model;  ///< with the causes
   std::vector<Found> causes;
   std::vector<Tried> tried;                   ///< candidates beside the base, the best first
-  Screening screening;                        ///< of the base
-  LinearSystem linear{};                      ///< of the base with it
+  std::vector<Screened> screened{};           ///< beside the base, the best first; without their signatures
+  LinearSystem linear{};                      ///< of the base with these
   std::optional<std::size_t> beyond_bound{};  ///< the candidate that does far best, beyond what it can be
 };
 
@@ -51,7 +51,7 @@ class CauseSearch {
 
   /// Forward selection with backward elimination. The candidates that do best at another start, if there is one, are
   /// tried as well.
-  void select(const Start& start, const Start* other);
+  void select(Start start, const Start* other);
   /// Tries pairs of candidates that mask each other.
   void try_pairs();
   /// The causes with what does as well as each of them; nothing can be done after that.
