@@ -5,6 +5,7 @@
 
 #include "sweep/ensemble.hpp"
 #include "sweep/referee.hpp"
+#include "sweep/stopping_rule.hpp"
 
 namespace wormdrive {
 
@@ -14,16 +15,27 @@ SweepResult::SweepResult(Study study)
 void SweepResult::run(unsigned threads, const std::function<void()>& between) {
   std::optional<TrialRange> all = TrialRange{0, study_.trials()};
   for (std::vector<double>& column : values_) column.resize(all->size());
+  StoppingRule rule(study_);
   run_ensemble(
       study_, [&] { return std::exchange(all, std::nullopt); }, threads,
       [&](const Trial& trial) {
         between();
         take(trial);
+        rule.take(trial);
       },
-      [] { return false; });
+      [&] { return rule.end().has_value(); });
+  if (rule.end()) end_before(*rule.end());
   const std::vector<std::size_t> numbers = reasons_.put_in_order();
   for (double& number : *(values_.rbegin() + 1))
     number = static_cast<double>(numbers[static_cast<std::size_t>(number)]);
+}
+
+void SweepResult::end_before(std::size_t row) {
+  for (std::vector<double>& column : values_) column.resize(row);
+  ReasonTable left;  // of threads that were ahead there may be reasons that are not
+  for (std::size_t k = 0; k < row; ++k)
+    (*(values_.rbegin() + 1))[k] = static_cast<double>(left.code(trial(k).reason, k));
+  reasons_ = std::move(left);
 }
 
 void SweepResult::restore(std::vector<std::vector<double>> columns, const std::vector<std::string>& reasons) {
@@ -72,7 +84,7 @@ std::vector<std::string> SweepResult::reasons() const {
 
 void SweepResult::write(const std::string& name, const std::string& command_line, std::size_t judged, unsigned threads,
                         Replace replace) const {
-  const TrialRange all{0, study_.trials()};
+  const TrialRange all{0, values_.front().size()};
   const std::string path = followed(name);
   const OutputLock lock(path);
   SweepFile::create(path, study_, all, command_line, replace);

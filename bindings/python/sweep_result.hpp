@@ -32,6 +32,7 @@ class SweepResult {
 
  private:
   void take(const Trial& trial);
+  void end_before(std::size_t row);
   Trial trial(std::size_t row) const;
 
   Study study_;

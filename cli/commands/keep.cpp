@@ -18,7 +18,8 @@ std::set<std::uint64_t> wanted(const SweepReader& sweep) {
   std::set<std::uint64_t> trials;
   for (const std::uint64_t trial : kept.trials)
     if (sweep.has(trial)) trials.insert(trial);
-  if (kept.worst > 0 && sweep.trials() == sweep.study().trials())
+  const bool has_all = sweep.study().may_end_early() ? sweep.complete() : sweep.trials() == sweep.study().trials();
+  if (kept.worst > 0 && has_all)
     for (const Trial& trial :
          summarise(sweep, {.ranked_by = kept.worst_by, .worst = static_cast<unsigned>(kept.worst), .done_only = true})
              .worst)

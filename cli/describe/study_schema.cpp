@@ -146,7 +146,9 @@ nlohmann::ordered_json study_schema() {
                                 "the unit of the column"}}));
   // the unit of above and below is that of the metric
   root.with("threshold", several({{"type", "object"},
-                                  {"properties", {{"metric", any_text("metric with a limit")}}},
+                                  {"properties",
+                                   {{"metric", any_text("metric with a limit")},
+                                    {"until_percent", number_from(0.01, "the sweep ends at an interval so narrow")}}},
                                   {"required", Json::array({"metric"})},
                                   {"description", "either above_UNIT or below_UNIT"}}));
   root.with("data", {{"type", "object"}, {"description", "columns of the CSV files, where the study carries them"}});

@@ -34,13 +34,16 @@ std::string with_interval(const SampleEstimate& e, double scale) {
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
 }
 
+std::string with_value(const Metric& metric, double value) {
+  return std::isnan(value) ? fmt::format("without {}", metric.name)
+                           : fmt::format("{} {:.6g}{}", metric.name, value, in_unit(metric.unit));
+}
+
 std::string how_it_ended(const Study& study, const std::string& metric_name, const Trial& trial) {
   if (trial.status != TrialStatus::done) return fmt::format("{}: {}", name(trial.status), trial.reason);
   for (std::size_t k = 0; k < study.metrics.size(); ++k)
     if (const Metric& metric = study.metrics[k]; metric.name == metric_name)
-      return std::isnan(trial.metrics[k])
-                 ? fmt::format("without {}", metric.name)
-                 : fmt::format("{} {:.6g}{}", metric.name, trial.metrics[k], in_unit(metric.unit));
+      return with_value(metric, trial.metrics[k]);
   return "";
 }
 
@@ -48,10 +51,10 @@ void print_study(const Study& study, TrialRange range) {
   fmt::print("{}\n", study.title);
   const std::string part =
       range.size() == study.trials() ? "" : fmt::format(", here {} to {}", range.first, range.end - 1);
-  print_item("study", fmt::format("{} of {} parameter{}, {} trials{}, seed {}",
+  print_item("study", fmt::format("{} of {} parameter{}, {}{} trials{}, seed {}",
                                   std::visit([](const auto& design) { return design.kind; }, study.design),
-                                  study.parameters.size(), study.parameters.size() == 1 ? "" : "s", study.trials(),
-                                  part, study.seed));
+                                  study.parameters.size(), study.parameters.size() == 1 ? "" : "s",
+                                  study.may_end_early() ? "at most " : "", study.trials(), part, study.seed));
   print_item("scenario", study.scenario.title);
 }
 

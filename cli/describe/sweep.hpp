@@ -15,6 +15,9 @@ std::string in_unit(const Unit& unit);
 /// An estimate and its interval, if it has one, times a scale: "0.12 [0.11, 0.13]".
 std::string with_interval(const SampleEstimate& e, double scale = 1.0);
 
+/// "error_max 0.002 rad", or "without error_max" where the value is not a number.
+std::string with_value(const Metric& metric, double value);
+
 /// A trial's value of a metric, or why it has none: "error_max 0.002 rad", "halted: cannot go on at t = 0.3 s: ...".
 std::string how_it_ended(const Study& study, const std::string& metric, const Trial& trial);
 

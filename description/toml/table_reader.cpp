@@ -195,6 +195,11 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
   return list;
 }
 
+std::optional<std::string> TableReader::required_text(const std::string& key, std::string_view meaning) {
+  if (!find(key)) lacks(fmt::format("'{}' ({})", key, meaning));
+  return text(key);
+}
+
 std::optional<bool> TableReader::truth(const std::string& key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

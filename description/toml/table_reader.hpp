@@ -50,6 +50,8 @@ class TableReader {
   /// A list of numbers in SI.
   std::optional<std::vector<double>> numbers(const Spelling& spelling);
   std::optional<std::string> text(const std::string& key);
+  /// A text that must not be missing.
+  std::optional<std::string> required_text(const std::string& key, std::string_view meaning);
   /// A text that may stand in every kind of file: one line of characters that can be shown.
   std::optional<std::string> line(const std::string& key);
   /// A list of strings; empty if it is not there.

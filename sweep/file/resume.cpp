@@ -60,7 +60,7 @@ OpenSweep open_sweep(const std::string& path, OutputLock lock, const Study& stud
   } else {
     if (resume && std::filesystem::exists(path)) {
       const SweepReader done(path);
-      reject_another_sweep(done, study, range);
+      reject_another_sweep(done, study, study.may_end_early() ? done.range() : range);
       return {};
     }
     SweepFile::create(path, study, range, command_line, replace);

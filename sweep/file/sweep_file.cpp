@@ -163,6 +163,12 @@ void SweepFile::drop_from(std::uint64_t trial) {
   file_.flush();
 }
 
+void SweepFile::end_before(std::uint64_t trial) {
+  drop_from(trial);
+  range_.end = trial;
+  ends_early_ = true;
+}
+
 void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
   const std::size_t count = std::min(verdicts.size(), most_verdicts);
   std::vector<std::vector<double>> columns(verdict_columns(axis_).size());
@@ -181,7 +187,7 @@ void SweepFile::write(const std::vector<RefereeVerdict>& verdicts) {
 
 void SweepFile::finish() {
   flush();
-  if (!reasons_.in_order()) {
+  if (ends_early_ || !reasons_.in_order()) {
     finish_in_order();
     return;
   }

@@ -42,10 +42,12 @@ class SweepFile {
   void flush();
   /// Drops every trial from this one on.
   void drop_from(std::uint64_t trial);
+  /// Drops every trial from this one on, and lets the file be complete without them.
+  void end_before(std::uint64_t trial);
   /// Writes what a referee found.
   void write(const std::vector<RefereeVerdict>& verdicts);
-  /// Sums up the trials in /summary and gives the file its final name. Where trials came in another order than that of
-  /// their indices, and kinds of reasons with them, the file is written once more, in order.
+  /// Sums up the trials in /summary and gives the file its final name. Where it ends early, or where trials came in
+  /// another order than that of their indices, and kinds of reasons with them, the file is written once more, in order.
   void finish();
 
   const std::string& part_path() const { return file_.part_path(); }
@@ -68,6 +70,7 @@ class SweepFile {
   std::vector<Trial> waiting_;  ///< trials that are not in the table yet
   ReasonTable reasons_;
   std::vector<std::string> reasons_written_;
+  bool ends_early_ = false;  ///< the table has room for trials that are not to come
   Clock::time_point flushed_;
 };
 

@@ -1,7 +1,7 @@
 #include "sweep/metrics/own_metric.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <limits>
 
 #include "output/run_columns.hpp"
 #include "simulation/write_run.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,6 +65,8 @@ struct OwnMetric {
   bool of_controller = false;  ///< a column of /controller, held from sample to sample; else of /trajectory
   MetricKind kind;
   double from = 0.0, to = 0.0;  ///< the part of the run that counts [s]
+  Unit unit{};                  ///< of its value, SI
+  std::string meaning{};
 
   /// Not a number where there is none: of something that never happens.
   double of(const Course& whole) const;

@@ -58,15 +58,15 @@ class MetricReader {
 
   OwnMetric read(const std::vector<std::string>& taken) {
     OwnMetric metric;
-    metric.name = required_text("name", "the name of the metric");
+    metric.name = table_.required_text("name", "the name of the metric").value_or("");
     if (table_.has("name") && !is_name(metric.name))
       table_.fault("name",
                    fmt::format("'{}' cannot be the name of a metric; use small letters, digits and _", metric.name));
     if (std::find(taken.begin(), taken.end(), metric.name) != taken.end())
       table_.fault("name", fmt::format("the name '{}' is taken; choose another one", metric.name));
     metric.of_controller = table_.choice("table", {"trajectory", "controller"}, Presence::optional) == "controller";
-    metric.column = required_text("column", "a column of the result of a run");
-    std::optional<Unit> unit;
+    metric.column = table_.required_text("column", "a column of the result of a run").value_or("");
+    std::optional<ColumnDescription> column;
     if (metric.of_controller && !scenario_.control) {
       table_.fault("table", "the scenario has no controller; its runs have the columns of the trajectory alone");
     } else if (table_.has("column")) {
@@ -78,37 +78,33 @@ class MetricReader {
         table_.fault("column",
                      fmt::format("runs have no column '{}'; {}", metric.column, suggestion(metric.column, names)));
       else
-        unit = unit_of(columns[static_cast<std::size_t>(found - names.begin())].units).own;
+        column = columns[static_cast<std::size_t>(found - names.begin())];
     }
     read_window(metric);
     const auto kind = table_.choice("kind", kinds_of<MetricKind>(), Presence::required);
-    if (!kind || !unit) {
+    if (!kind || !column) {
       table_.ignore_unknown();  // which keys it may have, and in which unit, hangs on its kind and column
     } else {
-      unit_ = *unit;
+      const ColumnUnit units = unit_of(column->units);
+      unit_ = units.own;
       metric.kind = make_kind<MetricKind>(*kind);
       std::visit([&](auto& what) { read_kind(what, metric); }, metric.kind);
+      metric.unit = metric.is_time()                                ? unit::second
+                    : std::holds_alternative<Integral>(metric.kind) ? units.integral
+                                                                    : units.own;
+      metric.meaning = fmt::format("{} of {}", *kind, column->long_name);
     }
     table_.finish();
     return metric;
   }
 
  private:
-  std::string required_text(const std::string& key, const std::string& meaning) {
-    const auto text = table_.text(key);
-    if (!table_.has(key)) table_.lacks(fmt::format("'{}' ({})", key, meaning));
-    return text.value_or("");
-  }
-  std::optional<double> number(const char* name, const Unit& unit, const Bounds& bounds, Presence presence,
-                               std::string_view meaning) {
-    return table_.number(name, unit, bounds, presence, meaning);
-  }
-
   void read_window(OwnMetric& metric) {
     const double end = scenario_.run.duration;
-    metric.from =
-        number("from", unit::second, bounds::not_negative, Presence::optional, "start of what counts").value_or(0.0);
-    metric.to = number("to", unit::second, bounds::positive, Presence::optional, "end of what counts").value_or(end);
+    metric.from = table_.number("from", unit::second, bounds::not_negative, Presence::optional, "start of what counts")
+                      .value_or(0.0);
+    metric.to =
+        table_.number("to", unit::second, bounds::positive, Presence::optional, "end of what counts").value_or(end);
     if (table_.has("to_s") && metric.to > end)
       table_.fault("to_s", fmt::format("{} = {} s must be at most the duration of the run, {} s",
                                        table_.path_of("to_s"), metric.to, end));
@@ -123,28 +119,32 @@ class MetricReader {
   void read_kind(Plain&, const OwnMetric&) {}
   void read_kind(ValueAt& value, const OwnMetric& metric) {
     value.time =
-        number("at", unit::second, bounds::not_negative, Presence::required, "time of the value").value_or(0.0);
+        table_.number("at", unit::second, bounds::not_negative, Presence::required, "time of the value").value_or(0.0);
     if (value.time < metric.from || value.time > metric.to)
       table_.fault("at_s", fmt::format("{} = {} s is not within what counts, {} s to {} s", table_.path_of("at_s"),
                                        value.time, metric.from, metric.to));
   }
   void read_kind(TimeQuantile& quantile, const OwnMetric&) {
-    quantile.share = number("time", unit::percent, bounds::between(0, 1), Presence::required,
-                            "share of the time for which the column is below")
+    quantile.share = table_
+                         .number("time", unit::percent, bounds::between(0, 1), Presence::required,
+                                 "share of the time for which the column is below")
                          .value_or(0.0);
   }
   void read_kind(CrossingTime& crossing, const OwnMetric&) {
-    crossing.level = number("level", unit_, bounds::any, Presence::required, "level that is crossed").value_or(0.0);
+    crossing.level =
+        table_.number("level", unit_, bounds::any, Presence::required, "level that is crossed").value_or(0.0);
     const auto direction = table_.choice("direction", {"either", "rising", "falling"}, Presence::optional);
     crossing.rising = direction != "falling";
     crossing.falling = direction != "rising";
     crossing.number = static_cast<int>(
-        number("number", unit::whole, bounds::between(1, 1e9), Presence::optional, "which crossing").value_or(1.0));
+        table_.number("number", unit::whole, bounds::between(1, 1e9), Presence::optional, "which crossing")
+            .value_or(1.0));
   }
   void read_kind(SettlingTime& settling, const OwnMetric&) {
-    settling.band = number("band", unit_, bounds::positive, Presence::required, "half width of the band").value_or(0.0);
-    settling.target =
-        number("target", unit_, bounds::any, Presence::optional, "middle of the band; the last value if not stated");
+    settling.band =
+        table_.number("band", unit_, bounds::positive, Presence::required, "half width of the band").value_or(0.0);
+    settling.target = table_.number("target", unit_, bounds::any, Presence::optional,
+                                    "middle of the band; the last value if not stated");
   }
 
   TableReader& table_;
@@ -168,20 +168,9 @@ std::vector<OwnMetric> read_own_metrics(TableReader& root, const Scenario& scena
   return list;
 }
 
-Metric as_metric(const std::vector<OwnMetric>& own, std::size_t place, const Scenario& scenario) {
+Metric as_metric(const std::vector<OwnMetric>& own, std::size_t place) {
   const OwnMetric& metric = own[place];
-  const std::vector<ColumnDescription> columns = columns_of(scenario, metric.of_controller);
-  const ColumnDescription& column = *std::find_if(columns.begin(), columns.end(),
-                                                  [&](const ColumnDescription& c) { return c.name == metric.column; });
-  const ColumnUnit units = unit_of(column.units);
-  Metric made;
-  made.name = metric.name;
-  made.unit = metric.is_time()                                ? unit::second
-              : std::holds_alternative<Integral>(metric.kind) ? units.integral
-                                                              : units.own;
-  made.meaning =
-      fmt::format("{} of {}", std::visit([](const auto& what) { return what.kind; }, metric.kind), column.long_name);
-  made.of = [place](const Outcome& o) { return o.own[place]; };
+  Metric made{metric.name, metric.unit, metric.meaning, [place](const Outcome& o) { return o.own[place]; }};
   if (metric.is_time()) made.missing = std::numeric_limits<double>::infinity();
   return made;
 }

@@ -12,6 +12,6 @@ std::vector<OwnMetric> read_own_metrics(TableReader& root, const Scenario& scena
                                         const std::vector<std::string>& taken);
 
 /// The own metric at a place in the list of a study, as one of its metrics.
-Metric as_metric(const std::vector<OwnMetric>& own, std::size_t place, const Scenario& scenario);
+Metric as_metric(const std::vector<OwnMetric>& own, std::size_t place);
 
 }  // namespace wormdrive

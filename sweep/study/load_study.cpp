@@ -44,9 +44,7 @@ class StudyReader {
   /// source: gives the scenario with what the study makes of it.
   Study read(const ScenarioSource& source) {
     study_.title = root_.line("title").value_or(one_line(std::filesystem::path(name_).stem().string()));
-    root_.text("scenario");
-    if (!root_.has("scenario"))
-      root_.lacks("'scenario' (the file of the scenario, relative to the folder of the study)");
+    root_.required_text("scenario", "the file of the scenario, relative to the folder of the study");
     for (const std::string& assignment : root_.texts("set")) settings_.push_back({assignment, root_.where("set")});
     root_.table("data");
     stated_ = read_parameters(root_, data_, in_table_);
@@ -123,7 +121,7 @@ class StudyReader {
       std::erase_if(all,
                     [&](const Metric& m) { return std::find(wanted.begin(), wanted.end(), m.name) == wanted.end(); });
     for (std::size_t k = 0; faults_.empty() && k < study_.own_metrics.size(); ++k)
-      all.push_back(as_metric(study_.own_metrics, k, study_.scenario));
+      all.push_back(as_metric(study_.own_metrics, k));
     if (all.empty() && faults_.empty()) root_.fault("metrics", "metrics must name at least one metric");
     study_.metrics = std::move(all);
   }
@@ -177,7 +175,16 @@ class StudyReader {
     if (above.has_value() == below.has_value() && faults_.empty())
       table.fault("metric", fmt::format("a threshold states either {} or {}", key,
                                         spellings("below", metric.unit, Axis::rotary).front().key));
-    study_.thresholds.push_back({metric.name, above ? *above : below.value_or(0.0), above.has_value()});
+    const double until = table
+                             .number("until", unit::percent, bounds::between(1e-4, 1.0), Presence::optional,
+                                     "width of the interval at which the sweep ends")
+                             .value_or(0.0);
+    if (until > 0.0 && !std::holds_alternative<MonteCarlo>(study_.design))
+      table.fault("until_percent",
+                  fmt::format("{} is for sweep.design = \"monte_carlo\": the trials of another design belong together; "
+                              "remove one of the two",
+                              table.path_of("until_percent")));
+    study_.thresholds.push_back({metric.name, above ? *above : below.value_or(0.0), above.has_value(), until});
   }
 
   std::string name_;

@@ -51,9 +51,8 @@ class DesignReader {
   void read(Grid& design) { read_levels(design); }
   void read(OneAtATime& design) { read_levels(design); }
   void read(TableOfPoints& design) {
-    const auto file = table_.text("file");
-    if (!table_.has("file"))
-      table_.lacks("'file' (a CSV file with a column for each parameter, relative to the folder of the study)");
+    const auto file = table_.required_text(
+        "file", "a CSV file with a column for each parameter, relative to the folder of the study");
     for (std::size_t k = 0; file && k < stated_.size(); ++k) {
       Discrete column{data_.read(table_, "file", *file, stated_[k].column), {}};
       design.trials = column.values.size();

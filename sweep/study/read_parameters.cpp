@@ -27,9 +27,8 @@ void read_distribution(TableReader& table, QuantileTable& distribution, DataColu
 }
 
 void read_distribution(TableReader& table, Empirical& distribution, DataColumns& data) {
-  const auto file = table.text("file"), column = table.text("column");
-  if (!table.has("file")) table.lacks("'file' (a CSV file, relative to the folder of the study)");
-  if (!table.has("column")) table.lacks("'column' (the column of the file with the values)");
+  const auto file = table.required_text("file", "a CSV file, relative to the folder of the study");
+  const auto column = table.required_text("column", "the column of the file with the values");
   if (!file || !column) return;
   distribution.values = data.read(table, "file", *file, *column);
   std::sort(distribution.values.begin(), distribution.values.end());
@@ -37,9 +36,7 @@ void read_distribution(TableReader& table, Empirical& distribution, DataColumns&
 
 StatedParameter read_parameter(TableReader& table, const std::string& name, DataColumns& data, bool in_table) {
   StatedParameter stated{{}, table.where("path"), {}, {}};
-  const auto path = table.text("path");
-  if (!table.has("path")) table.lacks("'path' (the number that is uncertain, as --set takes it)");
-  stated.parameter.path = path.value_or("");
+  stated.parameter.path = table.required_text("path", "the number that is uncertain, as --set takes it").value_or("");
   if (in_table) {
     stated.column = table.text("column").value_or(stated.parameter.path);
     if (table.has("distribution")) {

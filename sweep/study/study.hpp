@@ -28,8 +28,9 @@ struct UncertainParameter {
 /// A limit that a metric should keep.
 struct Threshold {
   std::string metric;
-  double limit{};     ///< SI
-  bool above = true;  ///< it is missed above the limit, else below
+  double limit{};      ///< SI
+  bool above = true;   ///< it is missed above the limit, else below
+  double until = 0.0;  ///< the sweep may end when half of the interval is this share of the share missed; 0: never
 
   /// A value that is not a number keeps no limit.
   bool missed_by(double value) const { return !(above ? value <= limit : value >= limit); }
@@ -64,7 +65,11 @@ struct Study {
   }
   /// Whether the points of the design have the correlations already.
   bool has_correlated_points() const { return strata || std::holds_alternative<Shapley>(design); }
+  /// At most, where it may end before.
   std::uint64_t trials() const { return size(design, parameters.size()); }
+  bool may_end_early() const {
+    return std::any_of(thresholds.begin(), thresholds.end(), [](const Threshold& t) { return t.until > 0.0; });
+  }
 };
 
 }  // namespace wormdrive

@@ -45,8 +45,8 @@ void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::stri
   Scenario scenario = trials.scenario(index);
   scenario.title = fmt::format("{}, trial {}", sweep.study().title, index);
   OwnMeters meters(sweep.study().own_metrics, scenario);
-  Outcome outcome{run_and_write(scenario, output, options, meters.listeners()), lemma1_conditions(scenario)};
-  outcome.own = meters.values();
+  const Outcome outcome{run_and_write(scenario, output, options, meters.listeners()), lemma1_conditions(scenario),
+                        meters.values()};
   if (const std::string other = difference(sweep.study(), trial, outcome); !other.empty())
     throw SimulationFailure(fmt::format(
         "trial {} gives another result: {}; was {} made by another version or on another kind of processor?", index,

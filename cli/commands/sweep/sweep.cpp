@@ -18,6 +18,7 @@
 #include "statistics/threads.hpp"
 #include "sweep/file/resume.hpp"
 #include "sweep/ranks/rank_files.hpp"
+#include "sweep/stopping_rule.hpp"
 #include "sweep/study/load_study.hpp"
 
 namespace wormdrive {
@@ -46,7 +47,15 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const unsigned threads = threads_for(options.threads);
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0, failed = open.failed;
-  const auto too_many = [&] { return options.max_failures && failed > *options.max_failures; };
+  StoppingRule rule(study);
+  if (study.may_end_early() && before > 0) {
+    const SweepReader part(file.part_path());
+    for (const TrialRange& there : part.present())
+      for_each_trial(part, there, [&](const Trial& trial) { rule.take(trial); });
+  }
+  const auto too_many = [&] {  // threads that are ahead of the end may have failures of their own
+    return options.max_failures && (rule.end() ? rule.failed() : failed) > *options.max_failures;
+  };
   std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;
   SweepCost cost;
@@ -58,6 +67,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
     const auto take = [&](Trial trial) {
       failed += trial.status != TrialStatus::done;
+      rule.take(trial);
       file.append(std::move(trial));
       progress.at(static_cast<double>(++made), [&](double passed) {
         return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, failed);
@@ -69,13 +79,14 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
         file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
       else
         file.keep_safe();
-      return interrupted || too_many();
+      return interrupted || too_many() || rule.end();
     };
-    if (!too_many()) run_ensemble(study, source, threads, take, is_to_end);
+    if (!too_many() && !rule.end()) run_ensemble(study, source, threads, take, is_to_end);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cost.file = thread_cpu_time() - file_begin;  // this thread has done nothing else
     cost.trials = cpu_time() - cpu_begin - cost.file;
-    if (made == wanted && !too_many()) {
+    if (rule.end() && !too_many()) file.end_before(*rule.end());
+    if ((made == wanted || rule.end()) && !too_many()) {
       const double judge_begin = cpu_time();
       verdicts = judge(file, study, options, cost.trials, least_judged);
       cost.referee = cpu_time() - judge_begin;
@@ -95,7 +106,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     file.drop_from(early.end);
     throw SimulationFailure(fmt::format("{}; {} contains all of them", early.told, file.part_path()));
   }
-  if (made < wanted) {
+  if (made < wanted && !rule.end()) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, which are in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
     return 128 + Interruptible::signal();
@@ -105,6 +116,10 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} per second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were already complete", before) : ""));
+  if (study.may_end_early())
+    print_item("end", rule.end()
+                          ? fmt::format("{} of at most {} trials are enough", *rule.end(), range.size())
+                          : fmt::format("all {} trials are not enough for what until_percent asks", range.size()));
   print_cost(cost);
   print_failures(SweepReader(output).counted_reasons());
   print_verdicts(verdicts, study);
@@ -134,6 +149,9 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
     reject_overwriting(output, options.study);
     if (ranks.count() > 1 && !options.shard.empty())
       reject({"--shard " + options.shard}, "the ranks share all trials; remove the option");
+    if (read->may_end_early() && (ranks.count() > 1 || !options.shard.empty()))
+      reject({options.study},
+             "threshold.until_percent ends a sweep of one process; remove it, or run without mpirun and --shard");
   });
   if (!good) return bad_input;
   const Study study = read ? std::move(*read) : load_study(options.study);  // once: it may be a pipe

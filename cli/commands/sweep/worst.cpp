@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -20,13 +22,10 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   Scenario again = scenario;
   again.run.solver = SolverKind::cvode;
   OwnMeters meters(study.own_metrics, again);
-  Outcome outcome{run_scenario(again, meters.listeners()), lemma1_conditions(again)};
-  outcome.own = meters.values();
-  std::string said;
-  for (const Metric& m : study.metrics)
-    if (const double value = m.name == metric ? m.of(outcome) : 0.0; m.name == metric)
-      said = std::isnan(value) ? fmt::format("cvode: without {}", metric)
-                               : fmt::format("cvode: {} {:.6g}{}", metric, value, in_unit(m.unit));
+  const Outcome outcome{run_scenario(again, meters.listeners()), lemma1_conditions(again), meters.values()};
+  const Metric& m =
+      *std::find_if(study.metrics.begin(), study.metrics.end(), [&](const Metric& one) { return one.name == metric; });
+  const std::string said = "cvode: " + with_value(m, m.of(outcome));
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = cross_check(scenario);
   return said + fmt::format("; under the same {}, {} agree within {:.2g} {}", in_words_of(scenario.axis, "torque"),
