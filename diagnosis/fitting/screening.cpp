@@ -157,7 +157,8 @@ Screening screen(const Evaluation& evaluation, const Hypothesis& h, const std::v
         s.found.push_back({.candidate = c, .start = start, .is_far = start >= all[c].starts.size()});
   parallel_for(s.found.size(), evaluation.threads(), [&](std::size_t k) {
     Trial(evaluation, h, all, s.found[k])(weigh, J, residual);
-    s.found[k].model.innovations = s.found[k].model.residuals = {};
+    s.found[k].model.innovations = std::vector<double>();  // gives its memory back, as {} would not
+    s.found[k].model.residuals = std::vector<double>();
   });
   std::stable_sort(s.found.begin(), s.found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return s;
