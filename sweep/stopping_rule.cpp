@@ -1,7 +1,6 @@
 #include "sweep/stopping_rule.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sweep/summary/statistics.hpp"
 
@@ -10,9 +9,8 @@ namespace wormdrive {
 StoppingRule::StoppingRule(const Study& study) {
   for (const Threshold& threshold : study.thresholds) {
     if (threshold.until == 0.0) continue;
-    const auto metric = std::find_if(study.metrics.begin(), study.metrics.end(),
-                                     [&](const Metric& m) { return m.name == threshold.metric; });
-    watched_.push_back({threshold, static_cast<std::size_t>(metric - study.metrics.begin()), metric->missing});
+    const std::size_t place = study.place_of(threshold.metric);
+    watched_.push_back({threshold, place, study.metrics[place]});
   }
   if (watched_.empty()) return;
   missed_.resize(watched_.size());
@@ -28,8 +26,8 @@ void StoppingRule::take(const Trial& trial) {
   ++look->made;
   look->failed += trial.status != TrialStatus::done;
   for (std::size_t k = 0; k < watched_.size() && trial.status == TrialStatus::done; ++k) {
-    const double value = trial.metrics[watched_[k].metric];
-    look->missed[k] += watched_[k].threshold.missed_by(std::isnan(value) ? watched_[k].missing : value);
+    const Watched& one = watched_[k];
+    look->missed[k] += one.threshold.missed_by(one.metric.counted(trial.metrics[one.place]));
   }
   for (; !end_ && next_ < looks_.size(); ++next_) {
     const Look& due = looks_[next_];

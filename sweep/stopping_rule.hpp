@@ -27,8 +27,8 @@ class StoppingRule {
  private:
   struct Watched {
     Threshold threshold;
-    std::size_t metric;  ///< its place
-    double missing;      ///< what a trial without a value counts as
+    std::size_t place;  ///< of its metric
+    Metric metric;
   };
   struct Look {
     std::uint64_t end;                   ///< trials before it count

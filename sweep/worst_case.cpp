@@ -23,9 +23,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 class Search {
  public:
   Search(const Study& study, const std::string& metric, const WorstCaseSettings& settings)
-      : trials_(study), ranking_(ranking_of(study, metric)), settings_(settings) {
-    while (study.metrics[metric_].name != metric) ++metric_;
-  }
+      : trials_(study), ranking_(ranking_of(study, metric)), settings_(settings), metric_(study.place_of(metric)) {}
 
   /// Climbs from a trial.
   void from(std::uint64_t trial, std::uint64_t runs) {
@@ -87,7 +85,7 @@ class Search {
   Trials trials_;
   Ranking ranking_;
   const WorstCaseSettings& settings_;
-  std::size_t metric_ = 0;
+  std::size_t metric_;
   std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser_{nullptr, nlopt_destroy};
 };
 

@@ -33,8 +33,9 @@ void SweepResult::run(unsigned threads, const std::function<void()>& between) {
 void SweepResult::end_before(std::size_t row) {
   for (std::vector<double>& column : values_) column.resize(row);
   ReasonTable left;  // of threads that were ahead there may be reasons that are not
+  std::vector<double>& codes = *(values_.rbegin() + 1);
   for (std::size_t k = 0; k < row; ++k)
-    (*(values_.rbegin() + 1))[k] = static_cast<double>(left.code(trial(k).reason, k));
+    if (codes[k] > 0.0) codes[k] = static_cast<double>(left.code(trial(k).reason, k));
   reasons_ = std::move(left);
 }
 

@@ -41,10 +41,8 @@ std::string with_value(const Metric& metric, double value) {
 
 std::string how_it_ended(const Study& study, const std::string& metric_name, const Trial& trial) {
   if (trial.status != TrialStatus::done) return fmt::format("{}: {}", name(trial.status), trial.reason);
-  for (std::size_t k = 0; k < study.metrics.size(); ++k)
-    if (const Metric& metric = study.metrics[k]; metric.name == metric_name)
-      return with_value(metric, trial.metrics[k]);
-  return "";
+  const std::size_t place = study.place_of(metric_name);
+  return with_value(study.metrics[place], trial.metrics[place]);
 }
 
 void print_study(const Study& study, TrialRange range) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -30,6 +31,9 @@ struct Metric {
   bool least_is_worst = false;  ///< unless a threshold says otherwise
   /// Of Lemma 1, whose margin the metric is; its values are those of the scenario itself.
   std::optional<Condition> condition = std::nullopt;
+
+  /// What the value of a run that is done counts as, for thresholds.
+  double counted(double value) const { return std::isnan(value) ? missing : value; }
 };
 
 /// All that runs of a scenario come to, whatever the values of its numbers are.

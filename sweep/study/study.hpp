@@ -63,6 +63,12 @@ struct Study {
   bool varies(std::string_view path) const {
     return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.path == path; });
   }
+  /// The place of one of its metrics.
+  std::size_t place_of(std::string_view metric) const {
+    const auto named = [&](const Metric& m) { return m.name == metric; };
+    return static_cast<std::size_t>(std::find_if(metrics.begin(), metrics.end(), named) - metrics.begin());
+  }
+  const Metric& metric(std::string_view name) const { return metrics[place_of(name)]; }
   /// Whether the points of the design have the correlations already.
   bool has_correlated_points() const { return strata || std::holds_alternative<Shapley>(design); }
   /// At most, where it may end before.

@@ -152,7 +152,7 @@ class Summariser {
         refused += status(block, row) == TrialStatus::refused;
         halted += status(block, row) == TrialStatus::halted;
         if (!done(block, row)) continue;
-        const double stated = block.columns.front()[row], value = std::isnan(stated) ? metric.missing : stated;
+        const double value = metric.counted(block.columns.front()[row]);
         ++condition.of;
         if (!(value >= 0.0)) ++condition.trials;
         for (ThresholdSummary& t : thresholds)
@@ -255,8 +255,7 @@ std::string default_ranking(const Study& study) {
 }
 
 Ranking ranking_of(const Study& study, const std::string& name) {
-  const Metric& metric =
-      *std::find_if(study.metrics.begin(), study.metrics.end(), [&](const Metric& m) { return m.name == name; });
+  const Metric& metric = study.metric(name);
   std::size_t limits = 0, below = 0;
   for (const Threshold& threshold : study.thresholds)
     if (threshold.metric == name) {

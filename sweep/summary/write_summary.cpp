@@ -76,14 +76,12 @@ void write_influences(hid_t file, const SweepSummary& summary, const Study& stud
 void write_worst(hid_t file, const SweepSummary& summary, const Study& study) {
   const SummaryTable table = worst_table(study);
   Rows rows(file, table);
-  const auto ranked = std::find_if(study.metrics.begin(), study.metrics.end(),
-                                   [&](const Metric& m) { return m.name == summary.ranked_by; });
+  const std::size_t ranked = study.place_of(summary.ranked_by);
   for (std::uint64_t k = 0; k < table.rows; ++k) {
     std::vector<double> row{rows.next(), -1.0};
     if (k < summary.worst.size()) {
       const Trial& trial = summary.worst[k];
-      row = {rows.next(), static_cast<double>(trial.index), static_cast<double>(trial.status),
-             trial.metrics[static_cast<std::size_t>(ranked - study.metrics.begin())]};
+      row = {rows.next(), static_cast<double>(trial.index), static_cast<double>(trial.status), trial.metrics[ranked]};
       row.insert(row.end(), trial.parameters.begin(), trial.parameters.end());
     }
     row.resize(table.columns.size(), none);

@@ -14,10 +14,6 @@
 namespace wormdrive {
 namespace {
 
-const Metric& metric_of(const Study& study, const std::string& name) {
-  return *std::find_if(study.metrics.begin(), study.metrics.end(), [&](const Metric& m) { return m.name == name; });
-}
-
 std::string words_of(const RareEstimate& p) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}] (95 % interval)", p.probability, p.low, p.high);
 }
@@ -34,7 +30,7 @@ nlohmann::ordered_json as_json(const RareEvent& event, const Study& study) {
   nlohmann::ordered_json made{{"title", study.title},
                               {"metric", event.threshold.metric},
                               {event.threshold.above ? "above" : "below", event.threshold.limit},
-                              {"unit", metric_of(study, event.threshold.metric).unit.symbol},
+                              {"unit", study.metric(event.threshold.metric).unit.symbol},
                               {"subset_simulation", as_json(event.subset.estimate)},
                               {"levels", nlohmann::ordered_json::array()},
                               {"plain_trials", event.plain_trials()},
@@ -92,7 +88,7 @@ int rare_command(const RareOptions& options) {
   const RareEstimate& p = event.subset.estimate;
   fmt::print("{}\n", study.title);
   print_item("limit", fmt::format("{} at {} {:g}{}", limit.metric, limit.above ? "most" : "least", limit.limit,
-                                  in_unit(metric_of(study, limit.metric).unit)));
+                                  in_unit(study.metric(limit.metric).unit)));
   print_item("subset", fmt::format("missed with probability {}, {} levels, {} runs", words_of(p),
                                    event.subset.levels.size(), p.evaluations));
   print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));

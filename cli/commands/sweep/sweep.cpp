@@ -48,7 +48,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0, failed = open.failed;
   StoppingRule rule(study);
-  if (study.may_end_early() && before > 0) {
+  if (study.may_end_early()) {
     const SweepReader part(file.part_path());
     for (const TrialRange& there : part.present())
       for_each_trial(part, there, [&](const Trial& trial) { rule.take(trial); });
@@ -56,6 +56,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const auto too_many = [&] {  // threads that are ahead of the end may have failures of their own
     return options.max_failures && (rule.end() ? rule.failed() : failed) > *options.max_failures;
   };
+  const auto has_all = [&] { return made == wanted || rule.end(); };
   std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;
   SweepCost cost;
@@ -85,8 +86,8 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cost.file = thread_cpu_time() - file_begin;  // this thread has done nothing else
     cost.trials = cpu_time() - cpu_begin - cost.file;
-    if (rule.end() && !too_many()) file.end_before(*rule.end());
-    if ((made == wanted || rule.end()) && !too_many()) {
+    if (has_all() && !too_many()) {
+      if (rule.end()) file.end_before(*rule.end());
       const double judge_begin = cpu_time();
       verdicts = judge(file, study, options, cost.trials, least_judged);
       cost.referee = cpu_time() - judge_begin;
@@ -106,7 +107,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     file.drop_from(early.end);
     throw SimulationFailure(fmt::format("{}; {} contains all of them", early.told, file.part_path()));
   }
-  if (made < wanted && !rule.end()) {
+  if (!has_all()) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, which are in {}; {}\n", before + made,
                range.size(), file.part_path(), how_to_resume(options));
     return 128 + Interruptible::signal();

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -23,8 +21,7 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   again.run.solver = SolverKind::cvode;
   OwnMeters meters(study.own_metrics, again);
   const Outcome outcome{run_scenario(again, meters.listeners()), lemma1_conditions(again), meters.values()};
-  const Metric& m =
-      *std::find_if(study.metrics.begin(), study.metrics.end(), [&](const Metric& one) { return one.name == metric; });
+  const Metric& m = study.metric(metric);
   const std::string said = "cvode: " + with_value(m, m.of(outcome));
   if (scenario.run.solver == SolverKind::cvode) return said;
   const Disagreement found = cross_check(scenario);
