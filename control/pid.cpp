@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <complex>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
+#include "core/numbers/eigenvalues.hpp"
 #include "core/numbers/portable.hpp"
 
 namespace wormdrive {
@@ -25,14 +26,13 @@ PidGains lqr_gains(const PidParameters& weights, double M) {
   hamiltonian(4, 1) = -weights.angle_weight / (torque * p2 * p2);
   hamiltonian(5, 2) = -weights.speed_weight / (torque * p2);
   hamiltonian(4, 3) = hamiltonian(5, 4) = -1.0;
-  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> eigen(hamiltonian);
+  const auto [values, vectors] = eigenpairs(hamiltonian);
   Eigen::Matrix3cd X, Y;
   int stable = 0;
   for (int k = 0; k < 6 && stable < 3; ++k) {
-    if (!(eigen.eigenvalues()[k].real() < 0.0)) continue;
-    const Eigen::Matrix<std::complex<double>, 6, 1> v = eigen.eigenvectors().col(k);
-    X.col(stable) = v.head<3>();
-    Y.col(stable++) = v.tail<3>();
+    if (!(values[k].real() < 0.0)) continue;
+    X.col(stable) = vectors.col(k).head<3>();
+    Y.col(stable++) = vectors.col(k).tail<3>();
   }
   if (stable < 3) return {};  // no gains: stabilises() says no
   const Eigen::Matrix3d P = (Y * X.inverse()).real();

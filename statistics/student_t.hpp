@@ -1,9 +1,8 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
-
-#include <boost/math/distributions/students_t.hpp>
 
 namespace wormdrive {
 
@@ -49,8 +48,6 @@ struct StudentT {
 inline double bic(double nll, double parameters, double data) { return 2.0 * nll + parameters * std::log(data); }
 
 /// Standard deviations that hold 95 % of an estimate whose variance is known from so many free data.
-inline double t_quantile(std::size_t degrees) {
-  return boost::math::quantile(boost::math::students_t(static_cast<double>(std::max<std::size_t>(1, degrees))), 0.975);
-}
+double t_quantile(std::size_t degrees);
 
 }  // namespace wormdrive

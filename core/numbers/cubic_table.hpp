@@ -1,14 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
-
-// pchip of boost 1.74 uses the global isnan and forgets to include it
-// clang-format off
-#include <math.h>
-#include <boost/math/interpolators/pchip.hpp>
-// clang-format on
 
 namespace wormdrive {
 
@@ -16,11 +9,7 @@ namespace wormdrive {
 class CubicTable {
  public:
   CubicTable() = default;
-  CubicTable(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {
-    const boost::math::interpolators::pchip<std::vector<double>> spline(std::vector<double>(x_),
-                                                                        std::vector<double>(y_), 0.0, 0.0);
-    for (double point : x_) slopes_.push_back(spline.prime(point));
-  }
+  CubicTable(std::vector<double> x, std::vector<double> y);
 
   /// One of the cubics: value + s (slope + s (second + s third)), s = x - begin, up to where the next one begins.
   struct Cubic {

@@ -1,6 +1,6 @@
 #include "diagnosis/fitting/signature.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 
 namespace wormdrive {
 namespace {
@@ -28,7 +28,8 @@ double distinct(const std::vector<double>& signature, const std::vector<std::vec
   const Eigen::MatrixXd A = stacked(others, tolerances);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(A.rows());
   b.head(rows) = own;
-  const Eigen::VectorXd left = b - A * A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd best = A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd left = b - A * best;
   return left.squaredNorm();
 }
 

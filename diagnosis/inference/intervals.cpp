@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
+#include "statistics/symmetric_eigen.hpp"
 
 namespace wormdrive {
 
@@ -70,24 +69,23 @@ Eigen::MatrixXd sandwich(const Evaluation& evaluation, const Hypothesis& h, cons
     mean += b.slope / static_cast<double>(blocks.size());
   }
   // in coordinates in which the curvature is that of independent unit errors
-  using Eigendecomposition = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-  const Eigendecomposition of_curvature(H);
+  const SymmetricEigen of_curvature = symmetric_eigen(H);
   constexpr double flat = 1e-12;
   const Eigen::MatrixXd W =
-      of_curvature.eigenvectors() * of_curvature.eigenvalues().cwiseMax(flat).cwiseSqrt().cwiseInverse().asDiagonal();
+      of_curvature.vectors * of_curvature.values.cwiseMax(flat).cwiseSqrt().cwiseInverse().asDiagonal();
   Eigen::MatrixXd scatter = W.transpose() * tolerances * W;
   for (const BlockSlopes& b : blocks) {
     // what a block says is judged without what it has itself done to the fit
-    const Eigendecomposition own(Eigen::MatrixXd(W.transpose() * b.curvature * W));
-    const Eigen::ArrayXd left = 1.0 - own.eigenvalues().array().max(0.0).min(rules::most_own_curvature);
-    const Eigen::VectorXd y = own.eigenvectors().transpose() * (W.transpose() * (b.slope - mean));
-    const Eigen::VectorXd alone = own.eigenvectors() * (y.array() / left).matrix();
+    const SymmetricEigen own = symmetric_eigen(W.transpose() * b.curvature * W);
+    const Eigen::ArrayXd left = 1.0 - own.values.array().max(0.0).min(rules::most_own_curvature);
+    const Eigen::VectorXd y = own.vectors.transpose() * (W.transpose() * (b.slope - mean));
+    const Eigen::VectorXd alone = own.vectors * (y.array() / left).matrix();
     scatter += alone * alone.transpose();
   }
   // few blocks may scatter less than the likelihood allows
-  const Eigendecomposition of_scatter(scatter);
-  const Eigen::MatrixXd U = W * of_scatter.eigenvectors();
-  return U * of_scatter.eigenvalues().cwiseMax(1.0).asDiagonal() * U.transpose();
+  const SymmetricEigen of_scatter = symmetric_eigen(scatter);
+  const Eigen::MatrixXd U = W * of_scatter.vectors;
+  return U * of_scatter.values.cwiseMax(1.0).asDiagonal() * U.transpose();
 }
 
 }  // namespace

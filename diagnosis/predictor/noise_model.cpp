@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 namespace wormdrive {
 

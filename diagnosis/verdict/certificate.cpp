@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/inference/comparison.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/verdict.hpp"
+#include "statistics/symmetric_eigen.hpp"
 
 namespace wormdrive {
 
@@ -69,7 +69,7 @@ class Signatures {
       const Eigen::MatrixXd cross = gram_(others, of.columns);
       for (Eigen::Index k = 0; k < cross.cols(); ++k) gram.col(k) -= cross.transpose() * solve_normal(A, cross.col(k));
     }
-    return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvalues()[0]);
+    return std::max(0.0, symmetric_eigenvalues(gram)[0]);
   }
 
  private:

@@ -2,13 +2,12 @@
 
 #include <limits>
 
-#include <Eigen/Eigenvalues>
+#include "statistics/symmetric_eigen.hpp"
 
 namespace wormdrive {
 
 bool Copula::exists(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(matrix);
   // beyond this bound every order has a factor [Wilkinson1968]
   const auto n = static_cast<double>(matrix.rows());
   return eigenvalues.minCoeff() >

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <boost/random/sobol.hpp>
+
 #include "sweep/study/keyed_permutation.hpp"
 #include "sweep/study/random.hpp"
 
@@ -65,18 +67,24 @@ std::uint64_t size(const DesignSettings& settings, std::size_t parameters) {
   return std::visit([&](const auto& design) { return count(design, parameters); }, settings);
 }
 
+struct Design::Sequence : boost::random::sobol {
+  using boost::random::sobol::sobol;
+};
+
 Design::Design(DesignSettings settings, std::size_t parameters, std::uint64_t seed,
                std::shared_ptr<const CorrelatedStrata> strata)
     : settings_(std::move(settings)),
       parameters_(parameters),
       seed_(seed),
       strata_(std::move(strata)),
-      sequence_(sequence_dimension(settings_, parameters)) {
+      sequence_(std::make_unique<Sequence>(sequence_dimension(settings_, parameters))) {
   shifts_.resize(std::holds_alternative<Saltelli>(settings_) ? Saltelli::replicates : 1);
   for (std::uint64_t replicate = 0; replicate < shifts_.size(); ++replicate)
-    for (std::uint64_t k = 0; k < sequence_.dimension(); ++k)
+    for (std::uint64_t k = 0; k < sequence_->dimension(); ++k)
       shifts_[replicate].push_back(random_bits(seed, SweepStream::digital_shift, replicate, k)[0]);
 }
+
+Design::~Design() = default;
 
 std::vector<double> Design::point(std::uint64_t trial) {
   return std::visit([&](const auto& design) { return at(design, trial); }, settings_);
@@ -104,10 +112,10 @@ std::vector<double> Design::at(const LatinHypercube& design, std::uint64_t trial
 
 std::vector<double> Design::sobol(std::uint64_t row, std::uint64_t replicate) {
   // Boost leaves out the origin. Shifted it is a point like any other, and the first 2^m are even only with it.
-  if (row > 0) sequence_.seed(row - 1);
+  if (row > 0) sequence_->seed(row - 1);
   const std::vector<std::uint64_t>& shift = shifts_[replicate];
   std::vector<double> u(shift.size());
-  for (std::size_t k = 0; k < u.size(); ++k) u[k] = to_unit_interval((row > 0 ? sequence_() : 0) ^ shift[k]);
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = to_unit_interval((row > 0 ? (*sequence_)() : 0) ^ shift[k]);
   return u;
 }
 

@@ -6,8 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include <boost/random/sobol.hpp>
-
 #include "sweep/study/correlated_strata.hpp"
 
 namespace wormdrive {
@@ -113,6 +111,7 @@ class Design {
   /// strata: those of a Latin hypercube of correlated parameters, else none.
   Design(DesignSettings settings, std::size_t parameters, std::uint64_t seed,
          std::shared_ptr<const CorrelatedStrata> strata = nullptr);
+  ~Design();
 
   /// The coordinates of a trial, each in (0, 1).
   std::vector<double> point(std::uint64_t trial);
@@ -137,7 +136,8 @@ class Design {
   std::size_t parameters_;
   std::uint64_t seed_;
   std::shared_ptr<const CorrelatedStrata> strata_;
-  boost::random::sobol sequence_;
+  struct Sequence;  // of a library whose header takes seconds to read
+  std::unique_ptr<Sequence> sequence_;
   std::vector<std::vector<std::uint64_t>> shifts_;  ///< of each replicate and dimension of the sequence
 };
 

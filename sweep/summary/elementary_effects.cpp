@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include "statistics/student_t.hpp"
 #include "sweep/summary/blocks.hpp"
 
 namespace wormdrive {
@@ -50,7 +49,7 @@ MorrisScreening elementary_effects(const Column& values, const DesignSettings& s
   });
   if (screening.used < 2) return screening;
   const auto used = static_cast<double>(screening.used);
-  const double widths = quantile(boost::math::students_t(used - 1.0), 0.975) / std::sqrt(used);
+  const double widths = t_quantile(screening.used - 1) / std::sqrt(used);
   for (std::size_t k = 0; k < parameters; ++k) {
     const double mean = sizes[k].mean, half = widths * sizes[k].deviation();
     screening.of.push_back({effects[k].mean, {mean, mean - half, mean + half}, effects[k].deviation()});

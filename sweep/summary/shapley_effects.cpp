@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include "statistics/student_t.hpp"
 #include "sweep/summary/blocks.hpp"
 
 namespace wormdrive {
@@ -50,7 +49,7 @@ ShapleyEffects shapley_effects(const Column& values, const DesignSettings& setti
   });
   if (effects.used < 2 || v == 0.0) return effects;
   const auto used = static_cast<double>(effects.used);
-  const double widths = quantile(boost::math::students_t(used - 1.0), 0.975);
+  const double widths = t_quantile(effects.used - 1);
   for (const ShareSums& s : sums) {
     const double share = s.x / v;
     // a ratio of means varies as the mean of x - share v does, whose own mean is 0

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include "statistics/student_t.hpp"
 #include "sweep/summary/blocks.hpp"
 
 namespace wormdrive {
@@ -114,8 +113,7 @@ SobolIndices sobol_indices(const Column& values, const Saltelli& design, std::si
   std::vector<IndexSums> without;
   for (const IndexSums& part : parts) without.emplace_back(all).add(part, -1.0);
 
-  const boost::math::students_t student(static_cast<double>(parts.size() - 1));
-  const double widths = quantile(student, 0.975);  // of half an interval, in standard errors
+  const double widths = t_quantile(parts.size() - 1);  // of half an interval, in standard errors
   const auto estimate = [&](auto&& of, double* error = nullptr) {
     std::vector<double> resampled;
     for (const IndexSums& sums : without) resampled.push_back(of(sums));

@@ -94,7 +94,7 @@ TEST_CASE("what is planted is named, with its size within the interval, and pred
 }
 
 TEST_CASE("names that are withdrawn leave nothing in the extended scenario", "[slow]") {
-  Recording backward = record(nominal_arm(), {.duration = half_length});
+  Recording backward = record(nominal_arm(), {.duration = 5.0});
   std::reverse(backward.motor_torque.begin(), backward.motor_torque.end());
   const Diagnosis d = diagnose(nominal_arm(), {backward});
   REQUIRE(d.verdict == Verdict::unexplained);

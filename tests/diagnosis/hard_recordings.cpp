@@ -9,7 +9,8 @@
 #include "diagnosis/diagnose.hpp"
 #include "recovery/campaign.hpp"
 
-// Recordings of the recovery tests' own drive that once led a diagnosis astray, each for its own reason.
+// Recordings of the recovery tests' own drive that once led a diagnosis astray, each for its own reason. Most take ten
+// seconds of two processors each and run with the target hard_recordings alone, after any change to a diagnosis.
 
 namespace wormdrive::test::diagnosis_hard_recordings {
 
@@ -52,7 +53,7 @@ TEST_CASE("a limit far below the largest command is found, though all that it cu
 }
 
 TEST_CASE("a level of friction far from what is stated is named beside its fall, whose law is sought anew for it",
-          "[slow]") {
+          "[.][long]") {
   const Diagnosis below = named_exactly(hard(8544923407699674050U, {{"stribeck", 0.03}, {"mesh_friction", -0.015}}));
   CHECK(below.causes.size() == 2);
   const Diagnosis within = named_exactly(hard(17675402408226979046U, {{"mesh_friction", 0.015}, {"stribeck", 0.03}}));
@@ -60,19 +61,19 @@ TEST_CASE("a level of friction far from what is stated is named beside its fall,
 }
 
 TEST_CASE("what a fall of another shape than the catalogue's leaves over the speed makes no cause beside it",
-          "[slow]") {
+          "[.][long]") {
   named_exactly(hard(7590460569741094619U, {{"stribeck", 0.09}}));
 }
 
-TEST_CASE("a wide gap is named beside what hid it, though nobody can predict how its teeth bounce", "[slow]") {
+TEST_CASE("a wide gap is named beside what hid it, though nobody can predict how its teeth bounce", "[.][long]") {
   named_exactly(hard(12351327449815399994U, {{"worm_coulomb", 0.01}, {"backlash", 0.004}}));
 }
 
-TEST_CASE("a gap that was found later does not drop a cause without which nothing fits", "[slow]") {
+TEST_CASE("a gap that was found later does not drop a cause without which nothing fits", "[.][long]") {
   named_exactly(hard(3689283242906862325U, {{"worm_viscous", 9e-5}, {"backlash", 0.004}}));
 }
 
-TEST_CASE("of three causes that scale all torques alike, two remain that do as well", "[slow]") {
+TEST_CASE("of three causes that scale all torques alike, two remain that do as well", "[.][long]") {
   named_exactly(hard(5020412394954123531U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
 }
 
@@ -91,23 +92,23 @@ TEST_CASE("commands that are seldom exceeded are known") {
   CHECK(std::abs(m.rare_torques[2] - 0.949) < 1e-12);
 }
 
-TEST_CASE("two effects that nearly cancel are found though other ones were found first", "[slow]") {
+TEST_CASE("two effects that nearly cancel are found though other ones were found first", "[.][long]") {
   named_exactly(hard(7809331778440145391U, {{"mesh_friction", 0.015}, {"load_magnitude", -0.06}}));
 }
 
 TEST_CASE("what did as well as a cause when that was found is no class with it if it does not so in the end",
-          "[slow]") {
+          "[.][long]") {
   const Diagnosis d = named_exactly(hard(18133264718257835443U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
   CHECK(d.classes.empty());
 }
 
-TEST_CASE("two causes that do as well as three are the better explanation", "[slow]") {
+TEST_CASE("two causes that do as well as three are the better explanation", "[.][long]") {
   // less inertia of worm and gear and some of the load is the same motion
   named_exactly(hard(12987163819398539930U, {{"torque_gain", 0.03}, {"load_magnitude", 0.06}}));
 }
 
 TEST_CASE("friction at rest is named for all its break-aways, though one of those held out outweighs all others",
-          "[slow]") {
+          "[.][long]") {
   named_exactly(hard(16617251610193380410U, {{"static_friction", 0.09}}, "realistic"));
 }
 
@@ -116,13 +117,13 @@ TEST_CASE("friction at rest is found between the sizes that are tried: much less
   named_exactly(hard(5367963912548052634U, {{"static_friction", 0.156}}));
 }
 
-TEST_CASE("a wide gap is found though the noise without it passes for most of the motion", "[slow]") {
+TEST_CASE("a wide gap is found though the noise without it passes for most of the motion", "[.][long]") {
   const Diagnosis d = named_exactly(hard(11050129810103917130U, {{"backlash", 0.004}}));
   REQUIRE(d.causes.size() == 1);
   CHECK(std::abs(d.causes[0].parameters[0].value - 0.004) < 0.15 * 0.004);
 }
 
-TEST_CASE("what impacts leave in single blocks makes no cause beside a gap", "[slow]") {
+TEST_CASE("what impacts leave in single blocks makes no cause beside a gap", "[.][long]") {
   named_exactly(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
 }
 
@@ -130,11 +131,11 @@ TEST_CASE("a gap keeps its name though its teeth cannot be followed as far as th
   named_exactly(hard(8559633916621165583U, {{"backlash", 0.004}}));
 }
 
-TEST_CASE("what is of no certain size beside a gap is no cause, for all that it adds to the likelihood", "[slow]") {
+TEST_CASE("what is of no certain size beside a gap is no cause, for all that it adds to the likelihood", "[.][long]") {
   named_exactly(hard(4253192110446129441U, {{"backlash", 0.004}}));
 }
 
-TEST_CASE("candidates beside a gap are compared by impacts that suit each of them", "[slow]") {
+TEST_CASE("candidates beside a gap are compared by impacts that suit each of them", "[.][long]") {
   named_exactly(hard(6401084500742193729U, {{"torque_offset", 0.0012}, {"backlash", 0.001}}));
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("a number far beyond its tolerance is named though others, within thei
   named_exactly(hard(8060836718574869034U, {{"mesh_friction", -0.045}}, "realistic"));
 }
 
-TEST_CASE("of the shapes of a fall the one that fits is taken, though another promises more from afar", "[slow]") {
+TEST_CASE("of the shapes of a fall the one that fits is taken, though another promises more from afar", "[.][long]") {
   using enum truth::MeshFriction::Fall;
   for (const std::uint64_t seed : {3U, 4U}) {
     const recovery::Case drawn = hard(seed, {{"stribeck", 0.03}});
@@ -158,7 +159,7 @@ TEST_CASE("of the shapes of a fall the one that fits is taken, though another pr
   }
 }
 
-TEST_CASE("friction that falls as soon as anything moves is in a class with friction at rest", "[slow]") {
+TEST_CASE("friction that falls as soon as anything moves is in a class with friction at rest", "[.][long]") {
   const auto [score, d] = answer(hard(16379865211237047177U, {{"static_friction", 0.09}}, "realistic"));
   CAPTURE(d.sentence);
   CHECK(d.verdict == Verdict::ambiguous);
@@ -173,7 +174,7 @@ TEST_CASE("a spring is found though where it is slack shows only once it has a s
 }
 
 TEST_CASE("friction that changes once per turn of the worm is named, stated numbers off within their tolerances too",
-          "[slow]") {
+          "[.][long]") {
   named_exactly(hard(2611, {{"thread_friction", 0.06}}));
   const Diagnosis d = named_exactly(hard(2612, {{"thread_friction", 0.02}}, "realistic"));
   REQUIRE(d.causes.size() == 1);

@@ -21,6 +21,7 @@ import numpy as np
 PROGRAM, PLOT = (Path(word).resolve() for word in sys.argv[1:3])
 sys.path.insert(0, str(PLOT.parent))
 STRIDE = 1 if "--all" in sys.argv else 11
+PICTURES = 7 if "--all" in sys.argv else 29  # of so many damages one is drawn, which takes a second
 SCENARIOS = Path(__file__).resolve().parents[2] / "scenarios"
 MEMORY, SECONDS = 3 << 30, 20  # of address space, most of it libraries; of CPU time
 CHECKED = b"san.so" in PROGRAM.read_bytes()  # a memory checker reserves terabytes of address space
@@ -292,7 +293,7 @@ def faults():
                 yield f"{case.name}, {what}: {command[0]} ends with {done.returncode}: {(done.stderr or done.stdout)[:300]!r}"
             for left in ("x.html", "x.h5", "x.h5.part"):
                 Path(left).unlink(missing_ok=True)
-            if number % (7 * STRIDE) == 0:
+            if number % (PICTURES * STRIDE) == 0:
                 code, stderr = draw("damaged.h5", "-o", "x.png")
                 if code not in (0, 2) or "Traceback" in stderr or stderr.count("\n") > 1:
                     yield f"{case.name}, {what}: the picture ends with {code}: {stderr[-300:]!r}"

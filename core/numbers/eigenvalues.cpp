@@ -1,0 +1,16 @@
+#include "core/numbers/eigenvalues.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace wormdrive {
+
+Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> eigenvalues(const SmallMatrix& matrix) {
+  return Eigen::EigenSolver<SmallMatrix>(matrix, false).eigenvalues();
+}
+
+Eigenpairs eigenpairs(const Eigen::Matrix<double, 6, 6>& matrix) {
+  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> solved(matrix);
+  return {solved.eigenvalues(), solved.eigenvectors()};
+}
+
+}  // namespace wormdrive
