@@ -9,6 +9,7 @@
 #include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/diagnosis_settings.hpp"
 #include "diagnosis/recordings.hpp"
+#include "some_of.hpp"
 #include "support.hpp"
 
 // Whole diagnoses of recordings of the program's own drive; what a foreign drive hides is the recovery tests' business.
@@ -78,9 +79,9 @@ TEST_CASE("what is planted is named, with its size within the interval, and pred
     std::vector<FieldValue> values;
     double share;  // of the size that the estimate may be off
   };
-  for (const auto& [values, share] :
-       {Planted{{{"mesh_friction", "change", 0.03}}, 0.1}, Planted{{{"worm_viscous", "coefficient", 4e-5}}, 0.05},
-        Planted{{{"torque_offset", "torque", 1.5e-2}}, 0.05}}) {
+  for (const auto& [values, share] : some_of(std::vector{Planted{{{"mesh_friction", "change", 0.03}}, 0.1},
+                                                         Planted{{{"worm_viscous", "coefficient", 4e-5}}, 0.05},
+                                                         Planted{{{"torque_offset", "torque", 1.5e-2}}, 0.05}})) {
     const Diagnosis d = of(values);
     CAPTURE(values[0].effect, d.sentence);
     REQUIRE(d.verdict == Verdict::named);

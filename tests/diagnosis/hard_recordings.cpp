@@ -10,7 +10,7 @@
 #include "recovery/campaign.hpp"
 
 // Recordings of the recovery tests' own drive that once led a diagnosis astray, each for its own reason. Most take ten
-// seconds of two processors each and run with the target hard_recordings alone, after any change to a diagnosis.
+// seconds of two processors each and run with the target long_tests alone, after any change to a diagnosis.
 
 namespace wormdrive::test::diagnosis_hard_recordings {
 
@@ -127,7 +127,7 @@ TEST_CASE("what impacts leave in single blocks makes no cause beside a gap", "[.
   named_exactly(hard(10405037338987322326U, {{"backlash", 0.004}}, "realistic"));
 }
 
-TEST_CASE("a gap keeps its name though its teeth cannot be followed as far as the noise lets others be", "[slow]") {
+TEST_CASE("a gap keeps its name though its teeth cannot be followed as far as the noise lets others be", "[.][long]") {
   named_exactly(hard(8559633916621165583U, {{"backlash", 0.004}}));
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("friction that falls as soon as anything moves is in a class with fric
   CHECK(d.classes == std::vector<std::vector<std::string>>{{"stribeck", "static_friction"}});
 }
 
-TEST_CASE("a spring is found though where it is slack shows only once it has a stiffness", "[slow]") {
+TEST_CASE("a spring is found though where it is slack shows only once it has a stiffness", "[.][long]") {
   const auto [score, d] = answer(hard(14339916788581164878U, {{"load_spring", 0.005}}, "realistic"));
   CAPTURE(d.sentence);
   REQUIRE(d.causes.size() == 1);
@@ -188,7 +188,7 @@ TEST_CASE("less friction at one place of the gear is seen, and no name is claime
   CHECK(std::any_of(d.remainders.begin(), d.remainders.end(), [](const auto& r) { return r.axis == "one angle"; }));
 }
 
-TEST_CASE("numbers that only their tolerances tell apart are known no better than these allow", "[slow]") {
+TEST_CASE("numbers that only their tolerances tell apart are known no better than these allow", "[.][long]") {
   // torque, load and both inertias in proportion leave a motion as it is: of four numbers that are stated to 1 % the
   // common factor is known to half of that. A break-away that passes a sample made it look known to a tenth.
   const auto [score, d] = answer(hard(4553806777927191587U, {{"encoder_offset", -0.1}}, "realistic"));

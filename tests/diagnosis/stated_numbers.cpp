@@ -6,6 +6,7 @@
 #include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "recovery/campaign.hpp"
+#include "some_of.hpp"
 
 // What a scenario states and the data deny is said, whatever else is wrong with the drive.
 
@@ -36,10 +37,10 @@ bool names(const Diagnosis& d, const std::string& effect) {
 
 TEST_CASE("a stated number that is far off is named beside another cause", "[slow]") {
   const auto stated = recovery::stated_errors;
-  for (const auto& [effect, number] :
-       {std::pair{Hidden{"worm_viscous", 4e-5}, Hidden{"load_angle", 10.0 * stated.angle}},
-        std::pair{Hidden{"stribeck", 0.04}, Hidden{"torque_offset", -9.0 * stated.offset}},
-        std::pair{Hidden{"friction_asymmetry", 0.02}, Hidden{"load_magnitude", 8.0 * stated.share}}}) {
+  for (const auto& [effect, number] : some_of(
+           std::vector{std::pair{Hidden{"worm_viscous", 4e-5}, Hidden{"load_angle", 10.0 * stated.angle}},
+                       std::pair{Hidden{"stribeck", 0.04}, Hidden{"torque_offset", -9.0 * stated.offset}},
+                       std::pair{Hidden{"friction_asymmetry", 0.02}, Hidden{"load_magnitude", 8.0 * stated.share}}})) {
     const Diagnosis d = diagnosed(realistic_case(41, {effect, number}));
     CAPTURE(d.sentence, effect.effect, number.effect);
     CHECK(d.causes.size() == 2);
@@ -65,9 +66,9 @@ TEST_CASE("every class is told, that of a second cause too", "[slow]") {
 TEST_CASE("an effect that is stated and is not there is named", "[slow]") {
   const recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("realistic"), 44, {}, 12.0};
   const Recording recording = recovery::record(drawn).recording;
-  for (const FieldValue stated :
-       {FieldValue{"actuator_delay", "delay", 1.5e-3}, FieldValue{"worm_viscous", "coefficient", 4e-5},
-        FieldValue{"gear_coulomb", "torque", 0.06}}) {
+  for (const FieldValue& stated : some_of(std::vector{FieldValue{"actuator_delay", "delay", 1.5e-3},
+                                                      FieldValue{"worm_viscous", "coefficient", 4e-5},
+                                                      FieldValue{"gear_coulomb", "torque", 0.06}})) {
     Scenario sheet = recovery::data_sheet(drawn.conditions);
     set_field(sheet.effects, stated);
     const Diagnosis d = diagnose(sheet, {recording}, {.threads = 2});

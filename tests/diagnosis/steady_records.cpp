@@ -13,6 +13,7 @@
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
 #include "simulation/load_scenario.hpp"
+#include "some_of.hpp"
 #include "support.hpp"
 
 // Records at constant speed as data of a diagnosis: the measured drive, and drives with hidden friction.
@@ -106,7 +107,7 @@ TEST_CASE("friction that is stated far too low is told by its level, not by one 
 
 TEST_CASE("records of the scenario's own drive are adequate, whatever the noise", "[slow]") {
   const Scenario scenario = mesh_friction_only();
-  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+  for (const unsigned seed : some_of(std::vector{1U, 2U, 3U, 4U}, 2)) {
     const Diagnosis d = diagnosed(hidden(scenario, 2e-5, seed), scenario);
     INFO("seed " << seed << ": " << d.sentence);
     CHECK(d.verdict == Verdict::adequate);
@@ -117,10 +118,10 @@ TEST_CASE("records of the scenario's own drive are adequate, whatever the noise"
 
 TEST_CASE("hidden friction over the speed is named, with its size in the interval", "[slow]") {
   const Scenario scenario = mesh_friction_only();
-  int covered = 0;
-  for (const auto& [effect, field, size] : {std::tuple{"worm_viscous", "coefficient", 1.2e-5},
-                                            {"gear_viscous", "coefficient", 0.03},
-                                            {"stribeck", "drop", 0.03}})
+  int covered = 0, all = 0;
+  for (const auto& [effect, field, size] : some_of(std::vector{std::tuple{"stribeck", "drop", 0.03},
+                                                               {"worm_viscous", "coefficient", 1.2e-5},
+                                                               {"gear_viscous", "coefficient", 0.03}}))
     for (const unsigned seed : {11U, 12U}) {
       Scenario truth = scenario;
       set_field(truth.effects, {effect, field, size});
@@ -132,16 +133,17 @@ TEST_CASE("hidden friction over the speed is named, with its size in the interva
       const Estimate& e = d.causes[0].parameters.at(0);
       CHECK(std::abs(e.value - size) <= 0.1 * size);
       covered += e.low <= size && size <= e.high ? 1 : 0;
+      ++all;
       CHECK(field_of(d.extended.effects, effect, field).value == e.value);
     }
-  CHECK(covered >= 4);  // of 6 intervals of 95 %: fewer in one of 400 suites
+  CHECK(covered >= (all == 6 ? 4 : 1));  // of intervals of 95 %: fewer in one of 400 suites
 }
 
 TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more", "[slow]") {
   const Scenario scenario = mesh_friction_only();
-  for (const auto& [effect, field, size] : {std::tuple{"worm_coulomb", "torque", 4e-4},
-                                            {"mesh_friction", "change", 0.05},
-                                            {"load_magnitude", "share", 0.3}}) {
+  for (const auto& [effect, field, size] : some_of(std::vector{std::tuple{"worm_coulomb", "torque", 4e-4},
+                                                               {"mesh_friction", "change", 0.05},
+                                                               {"load_magnitude", "share", 0.3}})) {
     Scenario truth = scenario;
     set_field(truth.effects, {effect, field, size});
     const Diagnosis d = diagnosed(hidden(truth, 2e-5, 13), scenario);
