@@ -3,8 +3,11 @@
 #include <Eigen/Eigenvalues>
 
 namespace wormdrive {
+namespace {
 
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+}  // namespace
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
   const Solver solved(matrix);

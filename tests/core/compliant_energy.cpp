@@ -74,7 +74,7 @@ void add_works(Works& sum, Drive d, const typename Drive::Instant& now, double e
 
 }  // namespace
 
-TEST_CASE("through three hundred impacts the work of motor and load is stored, rubbed away and damped, within 1e-9",
+TEST_CASE("through a thousand impacts the work of motor and load is stored, rubbed away and damped, within 1e-9",
           "[slow]") {
   const double k = 1e6, backlash = 1e-3;
   Signal motor = fig9_motor();
@@ -83,7 +83,7 @@ TEST_CASE("through three hundred impacts the work of motor and load is stored, r
   for (const ContactLaw<double>& law :
        {ContactLaw<double>(HuntCrossley<double>{k, 20.0}), ContactLaw<double>(LimitedDamper<double>{k, 50.0})}) {
     const auto d = compliant(closed(), fig9_load(), motor, {law, backlash}, bearings);
-    const auto r = run(d, Timetable(0, 2.0, 100.0), {0.0, {0.0, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-13));
+    const auto r = run(d, Timetable(0, 6.5, 100.0), {0.0, {0.0, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-13));
     Works sum;
     int impacts = 0;
     auto begin = r.rows.front().now;
@@ -100,7 +100,7 @@ TEST_CASE("through three hundred impacts the work of motor and load is stored, r
     const double missing = sum.in - sum.lost - gained;
     INFO(impacts << " impacts; work " << sum.in << " J, lost " << sum.lost << " J, in the teeth " << sum.damping
                  << " J, gained " << gained << " J, missing " << missing << " J");
-    REQUIRE(impacts >= 300);
+    REQUIRE(impacts >= 1000);
     REQUIRE(sum.damping > 1e-3 * sum.lost);
     REQUIRE(std::abs(missing) <= 1e-9 * sum.lost);
   }

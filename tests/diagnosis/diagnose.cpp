@@ -74,7 +74,7 @@ TEST_CASE("a recording of the drive as stated is adequate, and the certificate k
 }
 
 TEST_CASE("what is planted is named, with its size within the interval, and predicts data that were held out",
-          "[slow]") {
+          "[slow][cases]") {
   struct Planted {
     std::vector<FieldValue> values;
     double share;  // of the size that the estimate may be off

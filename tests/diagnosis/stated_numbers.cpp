@@ -35,7 +35,7 @@ bool names(const Diagnosis& d, const std::string& effect) {
 
 }  // namespace
 
-TEST_CASE("a stated number that is far off is named beside another cause", "[slow]") {
+TEST_CASE("a stated number that is far off is named beside another cause", "[slow][cases]") {
   const auto stated = recovery::stated_errors;
   for (const auto& [effect, number] : some_of(
            std::vector{std::pair{Hidden{"worm_viscous", 4e-5}, Hidden{"load_angle", 10.0 * stated.angle}},
@@ -63,7 +63,7 @@ TEST_CASE("every class is told, that of a second cause too", "[slow]") {
   CHECK(d.experiment_reason.find("time stamp") != std::string::npos);
 }
 
-TEST_CASE("an effect that is stated and is not there is named", "[slow]") {
+TEST_CASE("an effect that is stated and is not there is named", "[slow][cases]") {
   const recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("realistic"), 44, {}, 12.0};
   const Recording recording = recovery::record(drawn).recording;
   for (const FieldValue& stated : some_of(std::vector{FieldValue{"actuator_delay", "delay", 1.5e-3},

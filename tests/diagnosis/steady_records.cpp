@@ -105,7 +105,7 @@ TEST_CASE("friction that is stated far too low is told by its level, not by one 
   CHECK(told);
 }
 
-TEST_CASE("records of the scenario's own drive are adequate, whatever the noise", "[slow]") {
+TEST_CASE("records of the scenario's own drive are adequate, whatever the noise", "[slow][cases]") {
   const Scenario scenario = mesh_friction_only();
   for (const unsigned seed : some_of(std::vector{1U, 2U, 3U, 4U}, 2)) {
     const Diagnosis d = diagnosed(hidden(scenario, 2e-5, seed), scenario);
@@ -116,7 +116,7 @@ TEST_CASE("records of the scenario's own drive are adequate, whatever the noise"
   }
 }
 
-TEST_CASE("hidden friction over the speed is named, with its size in the interval", "[slow]") {
+TEST_CASE("hidden friction over the speed is named, with its size in the interval", "[slow][cases]") {
   const Scenario scenario = mesh_friction_only();
   int covered = 0, all = 0;
   for (const auto& [effect, field, size] : some_of(std::vector{std::tuple{"stribeck", "drop", 0.03},
@@ -139,7 +139,8 @@ TEST_CASE("hidden friction over the speed is named, with its size in the interva
   CHECK(covered >= (all == 6 ? 4 : 1));  // of intervals of 95 %: fewer in one of 400 suites
 }
 
-TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more", "[slow]") {
+TEST_CASE("an effect on the level of friction is told as one of its class, for one payload tells no more",
+          "[slow][cases]") {
   const Scenario scenario = mesh_friction_only();
   for (const auto& [effect, field, size] : some_of(std::vector{std::tuple{"worm_coulomb", "torque", 4e-4},
                                                                {"mesh_friction", "change", 0.05},

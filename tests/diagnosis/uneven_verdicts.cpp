@@ -73,7 +73,7 @@ const DiagnosisSettings settings{.threads = 2};
 
 }  // namespace
 
-TEST_CASE("nothing hidden: nothing is found in any log", "[slow]") {
+TEST_CASE("nothing hidden: nothing is found in any log", "[slow][cases]") {
   for (const Log& log : logs()) {
     const Diagnosis d = diagnose(nominal_arm(), {taken(log, bench())}, settings);
     INFO(log.name << ": " << d.sentence);
@@ -81,7 +81,7 @@ TEST_CASE("nothing hidden: nothing is found in any log", "[slow]") {
   }
 }
 
-TEST_CASE("a hidden friction is named in every log, with the same size", "[slow]") {
+TEST_CASE("a hidden friction is named in every log, with the same size", "[slow][cases]") {
   for (const Log& log : logs()) {
     const Diagnosis d = diagnose(nominal_arm(), {taken(log, bench("worm_viscous", 9e-5))}, settings);
     INFO(log.name << ": " << d.sentence);
