@@ -17,7 +17,7 @@
 namespace wormdrive::test::diagnosis_changes {
 namespace {
 
-constexpr double duration = 8.0;
+constexpr double duration = 8.0, period = 2e-3;  // [s]
 
 /// A recording of the bench with effects hidden in it, by the generator that shares no code with the program.
 std::string recorded(const Folder& folder, const std::string& name, std::uint64_t seed,
@@ -26,8 +26,8 @@ std::string recorded(const Folder& folder, const std::string& name, std::uint64_
   drive.sensor.counts = 16384;
   truth::Generator generator(seed);
   for (const auto& [effect, size] : hidden) truth::secret(effect).hide(drive, size, generator);
-  const auto law = truth::follow(truth::rich_course(seed, duration), truth::Geometry{}, 0.25);
-  truth::write_csv(truth::record(drive, law, {.duration = duration, .seed = seed}), folder / name);
+  const auto law = truth::follow(truth::rich_course(seed, duration, period), truth::Geometry{}, 0.25);
+  truth::write_csv(truth::record(drive, law, {.duration = duration, .period = period, .seed = seed}), folder / name);
   return folder / name;
 }
 

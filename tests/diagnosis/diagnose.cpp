@@ -20,12 +20,12 @@ namespace {
 
 constexpr double half_length = 12.0;  // [s]: enough for what is planted here
 
-Diagnosis of(const std::vector<FieldValue>& planted, int threads = 2) {
+Diagnosis of(const std::vector<FieldValue>& planted, int threads = 2, double period = RecordingConditions{}.period) {
   Scenario drive = nominal_arm();
   for (const FieldValue& f : planted) set_field(drive.effects, f);
   DiagnosisSettings settings;
   settings.threads = threads;
-  return diagnose(nominal_arm(), {record(drive, {.duration = half_length})}, settings);
+  return diagnose(nominal_arm(), {record(drive, {.duration = half_length, .period = period})}, settings);
 }
 
 double value_of(const Diagnosis& d, std::string_view field) {
@@ -42,7 +42,7 @@ const Visibility& visibility(const Diagnosis& d, std::string_view effect) {
 
 TEST_CASE("a recording of the drive as stated is adequate, and the certificate knows what it could have shown",
           "[slow]") {
-  const Diagnosis d = of({});
+  const Diagnosis d = of({}, 2, 1e-3);
   REQUIRE(d.verdict == Verdict::adequate);
   REQUIRE(d.causes.empty());
   REQUIRE(d.remainders.empty());

@@ -87,8 +87,8 @@ TEST_CASE("pieces of a recording show what the whole of it shows", "[slow]") {
   Scenario drive = nominal_arm();
   set_field(drive.effects, {"worm_viscous", "coefficient", 1e-4});
   const Recording whole = record(drive, {.duration = 30.0});
-  const Recording cut = representative_pieces({whole}, 20000).front();
-  CHECK(cut.samples() == 20000);
+  const Recording cut = representative_pieces({whole}, 10000).front();
+  CHECK(cut.samples() == 10000);
   const Diagnosis d = diagnose(nominal_arm(), {cut});
   INFO(d.sentence);
   REQUIRE(d.causes.size() == 1);

@@ -52,7 +52,7 @@ TEST_CASE("short steps follow a rigid drive under held torques as power series d
 }
 
 TEST_CASE("without noise the innovations of the right model vanish") {
-  RecordingConditions exact{.duration = 4, .white_torque = 0, .counts = 0, .angle_noise = 0};
+  RecordingConditions exact{.duration = 4, .period = 1e-3, .white_torque = 0, .counts = 0, .angle_noise = 0};
   Scenario arm = nominal_arm();
   std::get<std::optional<WormCoulomb<double>>>(arm.effects.list) = WormCoulomb<double>{2e-3};
   const Recording recording = record(arm, exact);
@@ -73,7 +73,7 @@ TEST_CASE("without noise the innovations of the right model vanish") {
 TEST_CASE("the innovations of the right model are white, those of a wrong one are not") {
   Scenario arm = nominal_arm();
   set_field(arm.effects, {"worm_coulomb", "torque", 4e-3});
-  const Recording recording = record(arm);
+  const Recording recording = record(arm, {.period = 1e-3});
   const Evaluation evaluation = evaluation_of(arm, recording);
   const auto right = evaluation.innovations(arm.effects, {0.012, 0.0});
   const auto wrong = evaluation.innovations({}, {0.012, 0.0});
@@ -104,7 +104,7 @@ TEST_CASE("a model that runs away has no innovations, and takes no time to tell"
 }
 
 TEST_CASE("a prediction ahead from the state of a sample starts where the recording was") {
-  RecordingConditions exact{.duration = 4, .white_torque = 0, .counts = 0, .angle_noise = 0};
+  RecordingConditions exact{.duration = 4, .period = 1e-3, .white_torque = 0, .counts = 0, .angle_noise = 0};
   Scenario arm = nominal_arm();
   set_field(arm.effects, {"actuator_delay", "delay", 2.5e-3});  // what is on the way at the start counts as well
   const Recording recording = record(arm, exact);
@@ -123,7 +123,7 @@ TEST_CASE("a prediction ahead from the state of a sample starts where the record
 
 TEST_CASE("a model that meets the innovations it had runs through the recording again") {
   Scenario arm = nominal_arm();
-  const Recording recording = record(arm, {.duration = 4});
+  const Recording recording = record(arm, {.duration = 4, .period = 1e-3});
   const Evaluation evaluation = evaluation_of(arm, recording);
   const ProcessNoise noise{0.012, 0.003};
   std::vector<FilteredStates> states;

@@ -19,6 +19,7 @@ inline std::vector<ReferenceTerm> rich_motion() {
 
 struct RecordingConditions {
   double duration = 16.0;        ///< [s]
+  double period = 2e-3;          ///< [s]
   double white_torque = 5e-4;    ///< [N m]
   double counts = 65536;         ///< of the gear's encoder per turn
   double angle_noise = 3e-5;     ///< [rad]
@@ -56,7 +57,7 @@ inline Recording record(Scenario drive, const RecordingConditions& conditions = 
   pid.speed_weight = 1e-3;
   pid.feedforward = 1.0;
   control.law = pid;
-  control.sampling.period = 1e-3;
+  control.sampling.period = conditions.period;
   control.reference.terms = conditions.motion;
   control.sensor.counts = conditions.counts;
   control.sensor.noise = conditions.angle_noise;

@@ -23,7 +23,8 @@ struct Bench {
   Recording recording;
 
   explicit Bench(std::uint64_t seed)
-      : recording(recovery::record({recovery::Kind::nothing, recovery::conditions("ideal"), seed, {}}).recording) {}
+      : recording(recovery::record({recovery::Kind::nothing, recovery::conditions("ideal"), seed, {}, 12.0, 2e-3})
+                      .recording) {}
 
   MeshParameters<double>& mesh() { return std::get<MeshParameters<double>>(sheet.mesh); }
   GravityArm& arm() { return std::get<GravityArm>(sheet.load); }

@@ -20,7 +20,7 @@ struct Hidden {
 };
 
 recovery::Case realistic_case(std::uint64_t seed, const std::vector<Hidden>& hidden) {
-  recovery::Case drawn{recovery::Kind::stated_off, recovery::conditions("realistic"), seed, {}, 12.0};
+  recovery::Case drawn{recovery::Kind::stated_off, recovery::conditions("realistic"), seed, {}, 12.0, 2e-3};
   for (const Hidden& h : hidden) drawn.hidden.push_back({&truth::secret(h.effect), truth::Size::medium, h.amount});
   return drawn;
 }
@@ -64,7 +64,7 @@ TEST_CASE("every class is told, that of a second cause too", "[slow]") {
 }
 
 TEST_CASE("an effect that is stated and is not there is named", "[slow][cases]") {
-  const recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("realistic"), 44, {}, 12.0};
+  const recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("realistic"), 44, {}, 12.0, 2e-3};
   const Recording recording = recovery::record(drawn).recording;
   for (const FieldValue& stated : some_of(std::vector{FieldValue{"actuator_delay", "delay", 1.5e-3},
                                                       FieldValue{"worm_viscous", "coefficient", 4e-5},
@@ -81,7 +81,7 @@ TEST_CASE("an effect that is stated and is not there is named", "[slow][cases]")
 }
 
 TEST_CASE("values that move within wide tolerances are told and written, with what they gain", "[slow]") {
-  recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("ideal"), 43, {}, 12.0};
+  recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("ideal"), 43, {}, 12.0, 2e-3};
   const Recording recording = recovery::record(drawn).recording;
   Scenario sheet = recovery::data_sheet(drawn.conditions);
   const double friction = std::get<MeshParameters<double>>(sheet.mesh).mu;

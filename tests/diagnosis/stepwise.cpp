@@ -17,7 +17,7 @@ TEST_CASE("friction at rest is found from starts on either side, within its inte
   constexpr double rise = 0.08;
   Scenario drive = nominal_arm();
   set_field(drive.effects, {"static_friction", "rise", rise});
-  const PreparedRecording recording = with_all_data(prepared(record(drive, {.duration = 12.0}), {}, 0));
+  const PreparedRecording recording = with_all_data(prepared(record(drive, {.duration = 12.0, .period = 1e-3}), {}, 0));
   const Magnitudes sizes = magnitudes(nominal_arm(), {recording});
   const auto all = candidates({}, sizes, toleranced_coordinates(nominal_arm(), sizes, {}));
   const Evaluation evaluation(nominal_arm(), InnovationLayout({recording}), 2);

@@ -108,7 +108,7 @@ std::vector<Case> draw(const Plan& plan) {
   const std::vector<const truth::Secret*> secrets = pool(plan);
   std::vector<Case> cases;
   for (long k = 0; k < plan.cases; ++k) {
-    Case drawn{plan.kind, plan.conditions, generator(), {}, plan.duration};
+    Case drawn{plan.kind, plan.conditions, generator(), {}, plan.duration, plan.period};
     const auto in_turn = static_cast<std::size_t>(k);
     const truth::Size size = plan.sizes[(in_turn / secrets.size()) % plan.sizes.size()];
     const auto hide = [&](const truth::Secret& secret, double amount) {
@@ -200,8 +200,8 @@ wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequenc
   if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass) stated.mass = *arm->mass;
   const auto law = truth::follow(course, stated, truth::MeshFriction{}.level);
   const double duration = static_cast<double>(course.angle.size()) * course.period;
-  const auto recorded =
-      truth::record(drive, law, {.duration = duration, .start_angle = course.angle.front(), .seed = seed});
+  const auto recorded = truth::record(
+      drive, law, {.duration = duration, .period = course.period, .start_angle = course.angle.front(), .seed = seed});
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      ("recovery_" + std::to_string(getpid()) + "_" + std::to_string(seed) + ".csv");
   truth::write_csv(recorded, file.string());
@@ -220,7 +220,7 @@ wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequenc
 Bench record(const Case& drawn) {
   truth::Generator generator(drawn.seed);
   Bench bench{disturbed_drive(drawn, generator), {}};
-  const auto course = truth::rich_course(generator(), drawn.duration);
+  const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
   bench.recording = follow(bench.drive, course, data_sheet(drawn.conditions), generator());
   return bench;
 }

@@ -54,7 +54,7 @@ struct Case {
   Conditions conditions;
   std::uint64_t seed;
   std::vector<Hiding> hidden;
-  double duration = 24.0;
+  double duration = 24.0, period = 1e-3;  ///< [s]
 };
 
 /// What a campaign draws from.
@@ -65,7 +65,7 @@ struct Plan {
   std::vector<std::string> effects{};  ///< of singles and outside; empty: all that these sensors show
   long cases = 100;
   std::uint64_t seed = 1;
-  double duration = 24.0;
+  double duration = 24.0, period = 1e-3;  ///< [s]
 };
 
 /// The cases of a plan: effects in turn, sizes in turn, everything else drawn from the seed.

@@ -18,7 +18,8 @@ TEST_CASE("the drives that data leave possible hold the true one in a task that 
                             .conditions = recovery::conditions("realistic"),
                             .cases = 6,
                             .seed = 5,
-                            .duration = 10.0};
+                            .duration = 10.0,
+                            .period = 2e-3};
   std::map<std::string, long> held;
   for (const recovery::Case& drawn : recovery::draw(plan)) {
     const recovery::Bench bench = recovery::record(drawn);

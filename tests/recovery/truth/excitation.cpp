@@ -105,12 +105,12 @@ class Pilot {
 
 }  // namespace
 
-EventSequence rich_course(std::uint64_t seed, double duration) {
+EventSequence rich_course(std::uint64_t seed, double duration, double period) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> either(-0.25, 0.25);
   EventSequence course;
   constexpr double smoothing = 40.0;  ///< [rad/s], twice critically damped
-  const double T = course.period;
+  const double T = period;
   double x = 0.0, v = 0.0, x2 = 0.0, v2 = 0.0;
   double begin = 0.0, from = 0.0;
   const long samples = std::lround(duration / T);
@@ -142,7 +142,7 @@ EventSequence rich_course(std::uint64_t seed, double duration) {
     for (const Sine& wave : waves) angle += share * wave.amplitude * std::sin(turn * wave.frequency * t + wave.phase);
     course.angle.push_back(angle);
   }
-  return course_through(std::move(course.angle));
+  return course_through(std::move(course.angle), period);
 }
 
 EventSequence slow_course(double amplitude, double frequency, double duration) {
@@ -153,8 +153,9 @@ EventSequence slow_course(double amplitude, double frequency, double duration) {
   return course_through(std::move(angle));
 }
 
-EventSequence course_through(std::vector<double> angle) {
+EventSequence course_through(std::vector<double> angle, double period) {
   EventSequence course;
+  course.period = period;
   course.angle = std::move(angle);
   const std::vector<double>& x = course.angle;
   const double T = course.period;
