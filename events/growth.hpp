@@ -4,19 +4,25 @@
 
 #include <Eigen/Core>
 
+#include "core/numbers/eigenvalues.hpp"
+
 namespace wormdrive {
 
 /// The largest real part of the eigenvalues of a Jacobian [1/s].
-double largest_growth(const Eigen::Matrix4d& J);
-double largest_growth(const Eigen::Matrix3d& J);
+template <int n>
+double largest_growth(const Eigen::Matrix<double, n, n>& J) {
+  return eigenvalues(J).real().maxCoeff();
+}
 inline double largest_growth(const Eigen::Matrix2d& J) {  // of rows (0, 1) and (a, b)
   const double half = 0.5 * J(1, 1), root = half * half + J(1, 0);
   return root > 0.0 ? half + std::sqrt(root) : half;
 }
 
 /// The largest magnitude of the eigenvalues of a Jacobian [1/s]: an explicit method has to follow it.
-double fastest_rate(const Eigen::Matrix4d& J);
-double fastest_rate(const Eigen::Matrix3d& J);
+template <int n>
+double fastest_rate(const Eigen::Matrix<double, n, n>& J) {
+  return eigenvalues(J).cwiseAbs().maxCoeff();
+}
 inline double fastest_rate(const Eigen::Matrix2d& J) {
   const double half = 0.5 * J(1, 1), root = half * half + J(1, 0);
   return root > 0.0 ? std::abs(half) + std::sqrt(root) : std::sqrt(-J(1, 0));

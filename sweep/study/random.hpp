@@ -2,18 +2,17 @@
 #include <array>
 #include <cstdint>
 
-#include <Random123/philox.h>
+#include "statistics/random.hpp"
 
 namespace wormdrive {
 
 /// What the random numbers of a sweep are for: streams of one seed never overlap, nor with those of a run.
 enum class SweepStream : std::uint64_t { draws = 0x100, permutation, digital_shift, noise, subset, importance };
 
-/// Random bits without memory: they depend on seed, stream and the two counters alone, whoever asks and when.
+/// Random bits of a trial and one of its parameters.
 inline std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, SweepStream stream, std::uint64_t trial,
                                                 std::uint64_t parameter) {
-  const auto bits = r123::Philox4x64()({{trial, parameter, 0, 0}}, {{seed, static_cast<std::uint64_t>(stream)}});
-  return {bits[0], bits[1], bits[2], bits[3]};
+  return random_bits(seed, static_cast<std::uint64_t>(stream), trial, parameter);
 }
 
 /// The 53 leading bits as a number in (0, 1), neither end included.

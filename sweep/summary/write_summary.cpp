@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <limits>
 
 #include "sweep/summary/summary_table.hpp"
