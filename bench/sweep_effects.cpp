@@ -77,12 +77,12 @@ std::vector<Addition> additions(const Scenario& with_pid) {
        }},
       {"table load",
        [](Scenario& s, double x) {
-         AngleTable table;
+         std::vector<double> angles, torques;
          for (int k = -18; k <= 18; ++k) {
-           table.angles.push_back(10.0 * k * degree);
-           table.torques.push_back(0.0196 * x * std::cos(10.0 * k * degree));
+           angles.push_back(10.0 * k * degree);
+           torques.push_back(0.0196 * x * std::cos(10.0 * k * degree));
          }
-         s.load = LoadSum{{table}};
+         s.load = LoadSum{{AngleTable(angles, torques)}};
        }},
       {"load_spring",
        [](Scenario& s, double x) {

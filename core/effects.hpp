@@ -32,6 +32,7 @@
 #include "core/effects/thread_friction.hpp"
 #include "core/effects/tooth_compliance.hpp"
 #include "core/effects/torque_gain.hpp"
+#include "core/effects/torque_map.hpp"
 #include "core/effects/torque_offset.hpp"
 #include "core/effects/torque_saturation.hpp"
 #include "core/effects/transmission_error.hpp"
@@ -57,7 +58,7 @@ struct Optional {
 template <class T>
 using EffectList =
     Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
-             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia,                                   // worm shaft
+             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia, TorqueMap,                        // worm shaft
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,         // mesh
              FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,               // mesh
              GearCoulomb, GearViscous, GearInertia,                                                     // gear shaft

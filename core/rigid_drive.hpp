@@ -104,6 +104,7 @@ P<T> converted(const P<double>& stated, std::string_view table, Value&& value) {
   const auto to = P<T>::fields();
   [&]<std::size_t... I>(std::index_sequence<I...>) { (convert(std::get<I>(from), std::get<I>(to)), ...); }
   (std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
+  if constexpr (requires { made.take_table(stated); }) made.take_table(stated);
   return made;
 }
 

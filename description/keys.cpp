@@ -66,6 +66,11 @@ std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis ax
   return list;
 }
 
+Spelling si_spelling(std::string_view name, const Unit& unit, Axis axis) {
+  const std::vector<Spelling> all = spellings(name, unit, axis);
+  return *std::find_if(all.begin(), all.end(), [](const Spelling& s) { return s.unit.si == 1.0; });
+}
+
 std::string in_words_of(Axis axis, std::string_view meaning) {
   std::string words(meaning);
   if (axis == Axis::linear)

@@ -21,6 +21,9 @@ struct Spelling {
 /// torque becomes force, angle position, inertia mass.
 std::vector<Spelling> spellings(std::string_view name, const Unit& unit, Axis axis);
 
+/// That in which a number in SI is written.
+Spelling si_spelling(std::string_view name, const Unit& unit, Axis axis);
+
 /// The meaning of a field in the words of an axis: "torque" becomes "force".
 std::string in_words_of(Axis axis, std::string_view meaning);
 

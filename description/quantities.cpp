@@ -54,11 +54,8 @@ std::vector<Quantity> parameters(const Scenario& scenario) {
       list_fields(p, place.path(), scenario.axis, list);
     } else if constexpr (requires { p.times; }) {
       points(p.times.size(), "samples");
-    } else if constexpr (requires { p.angles; }) {
-      points(p.angles.size(), "points of the table");
-    } else if constexpr (requires { p.table; }) {
-      points(p.table.points().size(), "points of the table");
     }
+    if constexpr (requires { p.table; }) points(p.table.points().size(), "points of the table");
   });
   return list;
 }

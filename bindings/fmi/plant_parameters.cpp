@@ -1,17 +1,11 @@
 #include "bindings/fmi/plant_parameters.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "description/tables.hpp"
 
 namespace wormdrive {
-
-Spelling si_spelling(std::string_view name, const Unit& unit, Axis axis) {
-  const std::vector<Spelling> all = spellings(name, unit, axis);
-  return *std::find_if(all.begin(), all.end(), [](const Spelling& s) { return s.unit.si == 1.0; });
-}
 
 namespace {
 

@@ -8,9 +8,6 @@
 
 namespace wormdrive {
 
-/// How a number in SI is written in a scenario: the key that an FMU takes over.
-Spelling si_spelling(std::string_view name, const Unit& unit, Axis axis);
-
 /// A number that is stated of what an FMU carries. Value is double, or const double where it is only read.
 template <class Value>
 struct PlantParameter {

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/commands.hpp"
+#include "core/table_columns.hpp"
 #include "description/keys.hpp"
 #include "description/toml/table_reader.hpp"
 #include "output/resource.hpp"
@@ -39,6 +40,18 @@ void print_choices() {
   });
 }
 
+/// How the table of a parameter struct is stated, each way that its choices allow.
+template <class Parameters>
+std::vector<std::string> ways_to_state_table() {
+  std::vector<std::string> ways;
+  const auto key = [](const ColumnName& name) { return spellings(name.stem, name.unit, Axis::rotary).front().key; };
+  for (const TableColumns& columns : possible_columns<Parameters>()) {
+    const std::string way = fmt::format("{} and {}", key(columns.points), key(columns.values));
+    if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
+  }
+  return ways;
+}
+
 template <class Parameters>
 void print_fields() {
   print_choices<Parameters>();
@@ -53,13 +66,21 @@ void print_fields() {
 
 void print_kind(std::string_view kind, std::string_view meaning) { fmt::print("  {:<18} {}\n", kind, meaning); }
 
-/// Prints a kind with its fields; one without fields is described by `otherwise`.
+/// Prints how a table is stated, if there is one.
+template <class Parameters>
+void print_table() {
+  if (const auto ways = ways_to_state_table<Parameters>(); !ways.empty())
+    fmt::print("      file (with x_column, y_column), or {}\n", fmt::join(ways, ", or "));
+}
+
+/// Prints a kind with its fields and its table; one without either is described by `otherwise`.
 template <class Kind>
-void print_kind(std::string_view otherwise) {
+void print_kind(std::string_view otherwise = "") {
   print_kind(Kind::kind, Kind::meaning);
+  print_table<Kind>();
   if constexpr (requires { Kind::fields(); }) {
     print_fields<Kind>();
-  } else {
+  } else if constexpr (!requires { Kind::columns(); }) {
     fmt::print("      {}\n", otherwise);
     print_choices<Kind>();
   }
@@ -67,7 +88,7 @@ void print_kind(std::string_view otherwise) {
 
 /// Prints every alternative of a variant.
 template <class Variant>
-void print_kinds(std::string_view otherwise) {
+void print_kinds(std::string_view otherwise = "") {
   [&]<std::size_t... K>(std::index_sequence<K...>) {
     (print_kind<std::variant_alternative_t<K, Variant>>(otherwise), ...);
   }
@@ -85,6 +106,7 @@ void list_effects() {
   for_each_effect([]<class Effect>() {
     print_kind(Effect::id, fmt::format("{}: {}", name(Effect::place), Effect::cause));
     fmt::print("      {}\n", Effect::law);
+    print_table<Effect>();
     print_fields<Effect>();
   });
 }
@@ -96,6 +118,14 @@ void list_effects_as_markdown() {
                Effect::law);
     if constexpr (requires { Effect::source; }) fmt::print("Source: {}.\n\n", Effect::source);
     fmt::print("| key | unit | default | limits | meaning |\n|---|---|---|---|---|\n");
+    for_each_choice<Effect>([](const auto& one) {
+      fmt::print("| `{}` |  | {} | \"{}\" | {} |\n", one.key, one.words.front(), fmt::join(one.words, "\", \""),
+                 one.meaning);
+    });
+    if (const auto ways = ways_to_state_table<Effect>(); !ways.empty())
+      fmt::print(
+          "| table |  | required | at least four points | `file` (CSV, with `x_column`, `y_column`), or arrays {} |\n",
+          fmt::join(ways, ", or "));
     for_each_field<Effect>([](const auto& field) {
       const auto [s, value] = stated<Effect>(field);
       const std::string absent = field.presence == Presence::required ? "required" : "none";
@@ -115,7 +145,7 @@ void list_loads() {
   fmt::print(
       "loads: [load] kind = \"...\", or several as [[load]], which add up; any torque over time (wormdrive list "
       "torques), or\n");
-  for_each_load([]<class Load>() { print_kind<Load>("file (with x_column, y_column), or angles_deg and torques_Nm"); });
+  for_each_load([]<class Load>() { print_kind<Load>(); });
 }
 
 void list_controllers() {
@@ -138,7 +168,7 @@ void list_controllers() {
 
 void list_references() {
   fmt::print("references: [reference] kind = \"...\", or several as [[reference]], which add up\n");
-  print_kinds<ReferenceTerm>("file (with x_column, y_column), or times_s and angles_rad");
+  print_kinds<ReferenceTerm>();
 }
 
 void list_scenarios() {

@@ -18,16 +18,14 @@ SchemaTable kind_table(Axis axis) {
   SchemaTable table(axis, std::string(Kind::meaning));
   table.with("kind", {{"const", Kind::kind}}).requires_key("kind");
   if constexpr (requires { Kind::fields(); }) table.template fields<Kind>();
-  return table;
+  return table.template table<Kind>();
 }
 template <class Kind>
 Json function_of_time(Axis axis) {
   SchemaTable table = kind_table<Kind>(axis);
   if constexpr (requires { Kind::interpolation; }) {
-    table.pairs("times", unit::second, "torques", unit::newton_metre);
+    table.pairs({"times", unit::second}, {"torques", unit::newton_metre});
     table.template choices<Kind>();
-  } else if constexpr (requires { Kind::table; }) {
-    table.pairs("times", unit::second, "angles", unit::radian);
   }
   return table.json();
 }
@@ -70,9 +68,7 @@ Json load(Axis axis) {
   std::vector<Json> kinds = any_kind<SignalTerm>(axis);
   for_each_load([&]<class Load>() {
     if (axis == Axis::linear && std::is_same_v<Load, GravityArm>) return;
-    SchemaTable table = kind_table<Load>(axis);
-    if constexpr (!requires { Load::fields(); }) table.pairs("angles", unit::degrees, "torques", unit::newton_metre);
-    kinds.push_back(table.json());
+    kinds.push_back(kind_table<Load>(axis).json());
   });
   return one_or_several(kinds);
 }
@@ -82,7 +78,7 @@ Json effects(Axis axis) {
   Effects<double>{}.for_each([&]<class Effect>(const std::optional<Effect>&) {
     SchemaTable one(axis, fmt::format("{}: {}", name(Effect::place), Effect::cause));
     one.with("on", {{"type", "boolean"}, {"default", true}, {"description", "false switches it off"}});
-    all.with(std::string(Effect::id), one.fields<Effect>().json());
+    all.with(std::string(Effect::id), one.fields<Effect>().template table<Effect>().json());
   });
   return all.json();
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/field.hpp"
+#include "core/table_columns.hpp"
 #include "description/keys.hpp"
 
 namespace wormdrive {
@@ -66,13 +67,18 @@ class SchemaTable {
     return *this;
   }
   /// A function that a file or two arrays state.
-  SchemaTable& pairs(const std::string& x, const Unit& x_unit, const std::string& y, const Unit& y_unit) {
-    with("file", any_text("CSV file, relative to the folder of the scenario"))
-        .with("x_column", any_text("its column of " + x));
-    with("y_column", any_text("its column of " + y));
-    const auto x_spellings = spellings(x, x_unit, axis_), y_spellings = spellings(y, y_unit, axis_);
-    for (const auto& list : {x_spellings, y_spellings})
-      for (const Spelling& s : list) with(s.key, numbers(s));
+  SchemaTable& pairs(const ColumnName& points, const ColumnName& values) {
+    with("file", any_text("CSV file, relative to the folder of the scenario"));
+    with("x_column", any_text(fmt::format("its column of {}", points.stem)));
+    with("y_column", any_text(fmt::format("its column of {}", values.stem)));
+    for (const ColumnName& name : {points, values})
+      for (const Spelling& s : spellings(name.stem, name.unit, axis_)) with(s.key, numbers(s));
+    return *this;
+  }
+  /// The table among the parameters of a struct, if it has one.
+  template <class Parameters>
+  SchemaTable& table() {
+    for (const TableColumns& columns : possible_columns<Parameters>()) pairs(columns.points, columns.values);
     return *this;
   }
   Json json() const { return json_; }

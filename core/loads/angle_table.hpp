@@ -1,26 +1,31 @@
 #pragma once
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/moment.hpp"
 #include "core/numbers/cubic_table.hpp"
+#include "core/table_columns.hpp"
 
 namespace wormdrive {
 
-/// Load torques over strictly increasing gear angles, at least four.
+/// Load torques over gear angles: monotone cubic between the points, the end values beyond them.
 struct AngleTable {
   static constexpr std::string_view kind = "angle_table";
   static constexpr std::string_view meaning = "table of load torque over gear angle, smooth between its points";
-  std::vector<double> angles;   ///< [rad]
-  std::vector<double> torques;  ///< [N m], as many as angles
-};
+  CubicTable table;  ///< torques [N m] over angles [rad]
 
-/// The table as the equations use it: monotone cubic between the points, the end values beyond them.
-struct TableLoad {
-  CubicTable table;
+  AngleTable() = default;
+  /// Angles [rad], strictly increasing and at least four, and as many torques [N m].
+  AngleTable(std::vector<double> angles, std::vector<double> torques) : table(std::move(angles), std::move(torques)) {}
 
-  explicit TableLoad(const AngleTable& stated) : table(stated.angles, stated.torques) {}
+  static constexpr TableColumns columns() {
+    return {{"angles", unit::degrees},
+            {"torques", unit::newton_metre},
+            {"gear_angle", unit::radian},
+            {"load_torque", unit::newton_metre}};
+  }
 
   double inertia() const { return 0.0; }
   void enter(double) {}

@@ -25,7 +25,6 @@ using SpecialLoads = LoadKinds<GravityArm, AngleTable, Fan>;
 
 inline TimedLoad make_load(const Signal& signal) { return {signal}; }
 inline GravityLoad make_load(const GravityArm& arm) { return GravityLoad(arm); }
-inline TableLoad make_load(const AngleTable& table) { return TableLoad(table); }
 /// A load that enters the equations as it is stated.
 template <class Load>
 requires requires(const Load& load) { load.next_knot(0.0); }

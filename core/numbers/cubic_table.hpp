@@ -1,11 +1,13 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace wormdrive {
 
-/// A table made smooth: monotone cubic between its points (at least four), the end values beyond them.
+/// A table made smooth: monotone cubic between its points (at least four), the end values beyond them; without points
+/// zero.
 class CubicTable {
  public:
   CubicTable() = default;
@@ -29,6 +31,7 @@ class CubicTable {
   /// The value at x, which may carry derivatives.
   template <class S>
   S operator()(const S& x) const {
+    if (x_.empty()) return S(0.0);
     if constexpr (requires { look_up(*this, x); }) return look_up(*this, x);
     if (!(x > S(x_.front()))) return x <= S(x_.front()) ? S(y_.front()) : x;  // or it is no number
     if (x >= S(x_.back())) return S(y_.back());
@@ -40,9 +43,9 @@ class CubicTable {
 
   bool operator==(const CubicTable&) const = default;
 
-  /// Between two neighbouring points.
+  /// Between two neighbouring points; infinity without any.
   double least_interval() const {
-    double least = x_.back() - x_.front();
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < x_.size(); ++k) least = std::min(least, x_[k] - x_[k - 1]);
     return least;
   }

@@ -31,7 +31,7 @@ class ScenarioReader {
     read_mesh();
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());
-    read_effects(root_, scenario_, purpose);
+    read_effects(root_, scenario_, folder(), purpose);
     root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
     read_run(purpose);
     read_control(root_, scenario_, folder());

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include "description/rejection.hpp"
+#include "description/toml/read_pairs.hpp"
 #include "description/toml/table_reader.hpp"
 
 namespace wormdrive {
-void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
+void read_effects(TableReader& root, Scenario& scenario, const std::string& folder, Purpose purpose) {
   root.section("effect", [&](TableReader& effects) {
     scenario.effects.for_each([&]<class Effect>(std::optional<Effect>& effect) {
       const toml::table* table = effects.table(std::string(Effect::id));
@@ -15,6 +16,7 @@ void read_effects(TableReader& root, Scenario& scenario, Purpose purpose) {
       const bool on = reader.truth("on").value_or(true);
       Effect parameters;
       reader.read_fields(parameters);
+      read_table(reader, parameters, folder);
       reader.finish();
       if (on) effect = parameters;
     });

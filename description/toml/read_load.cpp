@@ -12,17 +12,6 @@
 namespace wormdrive {
 namespace {
 
-AngleTable read_table(TableReader& table, const std::string& folder) {
-  const Pairs pairs = read_pairs(table,
-                                 {{"angles", unit::degrees},
-                                  {"torques", unit::newton_metre},
-                                  {"gear_angle", unit::radian},
-                                  {"load_torque", unit::newton_metre},
-                                  4},
-                                 folder);
-  return {pairs.x, pairs.y};
-}
-
 /// An arm turns; every other load fits a linear axis too.
 template <class Load>
 bool is_offered(Axis axis) {
@@ -49,10 +38,9 @@ LoadParameters read_load(TableReader& root, const std::string& folder) {
       read_terms<LoadSum>(root.tables("load"), "load", root, kinds, [&]<class Load>(TableReader& table, Load& load) {
         if constexpr (std::is_same_v<Load, Samples>)
           load = read_samples(table, "load_torque", folder);
-        else if constexpr (std::is_same_v<Load, AngleTable>)
-          load = read_table(table, folder);
-        else
+        else if constexpr (requires { Load::fields(); })
           table.read_fields(load);
+        read_table(table, load, folder);
         if constexpr (std::is_same_v<Load, GravityArm>) check_together(table, load);
       });
   return load_of(std::move(sum.terms));

@@ -9,14 +9,17 @@
 namespace wormdrive {
 namespace {
 
+std::string spelled(const ColumnName& name, Axis axis) { return spellings(name.stem, name.unit, axis).front().key; }
+
 std::string count(std::size_t number, const std::string& things) {
   return fmt::format("{} {}{}", number, things, number == 1 ? "" : "s");
 }
 
-Pairs from_file(TableReader& table, const PairSource& source, const std::string& file, const std::string& folder) {
-  const std::string x_column = table.text("x_column").value_or(source.x_column.spelled(table.axis()));
-  const std::string y_column = table.text("y_column").value_or(source.y_column.spelled(table.axis()));
-  for (const Name& name : {source.x, source.y})
+Pairs from_file(TableReader& table, const TableColumns& columns, std::size_t at_least, const std::string& file,
+                const std::string& folder) {
+  const std::string x_column = table.text("x_column").value_or(spelled(columns.point_column, table.axis()));
+  const std::string y_column = table.text("y_column").value_or(spelled(columns.value_column, table.axis()));
+  for (const ColumnName& name : {columns.points, columns.values})
     if (const auto both = table.stated(name.stem, name.unit))
       table.fault(both->key, fmt::format("{} is stated along with 'file'; keep one", table.path_of(both->key)));
   Pairs pairs;
@@ -24,20 +27,21 @@ Pairs from_file(TableReader& table, const PairSource& source, const std::string&
     const Csv csv = read_csv((std::filesystem::path(folder) / file).string());
     Pairs found{csv.numbers(x_column), csv.numbers(y_column)};
     require_increasing(csv, x_column, found.x);
-    if (found.x.size() >= source.at_least)
+    if (found.x.size() >= at_least)
       pairs = std::move(found);
     else
       table.fault("file", fmt::format("{} = \"{}\" has {} below its header line; at least {} are needed",
-                                      table.path_of("file"), file, count(found.x.size(), "row"), source.at_least));
+                                      table.path_of("file"), file, count(found.x.size(), "row"), at_least));
   });
   return pairs;
 }
 
-Pairs inline_pairs(TableReader& table, const PairSource& source) {
-  const auto x_key = table.stated(source.x.stem, source.x.unit), y_key = table.stated(source.y.stem, source.y.unit);
+Pairs inline_pairs(TableReader& table, const TableColumns& columns, std::size_t at_least) {
+  const auto x_key = table.stated(columns.points.stem, columns.points.unit),
+             y_key = table.stated(columns.values.stem, columns.values.unit);
   if (!x_key || !y_key) {
-    table.lacks(fmt::format("'file' (a CSV file), or '{}' and '{}'", source.x.spelled(table.axis()),
-                            source.y.spelled(table.axis())));
+    table.lacks(fmt::format("'file' (a CSV file), or '{}' and '{}'", spelled(columns.points, table.axis()),
+                            spelled(columns.values, table.axis())));
     return {};
   }
   const auto x = table.numbers(*x_key), y = table.numbers(*y_key);
@@ -48,9 +52,9 @@ Pairs inline_pairs(TableReader& table, const PairSource& source) {
                                         count(y->size(), "value")));
     return {};
   }
-  if (x->size() < source.at_least) {
+  if (x->size() < at_least) {
     table.fault(x_key->key,
-                fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"), source.at_least));
+                fmt::format("{} has {}; at least {} are needed", path, count(x->size(), "value"), at_least));
     return {};
   }
   for (std::size_t k = 1; k < x->size(); ++k) {
@@ -80,10 +84,10 @@ void tell_faults_of_file(TableReader& table, const std::string& key, const std::
   }
 }
 
-Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder) {
-  if (!table.has("file")) return inline_pairs(table, source);
+Pairs read_pairs(TableReader& table, const TableColumns& columns, std::size_t at_least, const std::string& folder) {
+  if (!table.has("file")) return inline_pairs(table, columns, at_least);
   const auto file = table.text("file");
-  return file ? from_file(table, source, *file, folder) : Pairs{};
+  return file ? from_file(table, columns, at_least, *file, folder) : Pairs{};
 }
 
 }  // namespace wormdrive

@@ -1,9 +1,10 @@
 #pragma once
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/numbers/cubic_table.hpp"
+#include "core/table_columns.hpp"
 #include "description/toml/table_reader.hpp"
 
 namespace wormdrive {
@@ -13,22 +14,18 @@ struct Pairs {
   std::vector<double> x, y;
 };
 
-/// A quantity as a table or a CSV file names it.
-struct Name {
-  std::string_view stem;
-  Unit unit;
-  std::string spelled(Axis axis) const { return spellings(stem, unit, axis).front().key; }
-};
+/// Reads points and values, of which the points must increase; CSV files are looked for in `folder`. Diagnostics leave
+/// both empty.
+Pairs read_pairs(TableReader& table, const TableColumns& columns, std::size_t at_least, const std::string& folder);
 
-/// Where x and y of a table stand: inline as arrays, or in a CSV file.
-struct PairSource {
-  Name x, y;                ///< the inline arrays
-  Name x_column, y_column;  ///< the columns of the file, unless it is said otherwise
-  std::size_t at_least;
-};
-
-/// Reads x and y, of which x must increase; CSV files are looked for in `folder`. Diagnostics leave both empty.
-Pairs read_pairs(TableReader& table, const PairSource& source, const std::string& folder);
+/// Reads the table among the parameters of a struct, if it has one; its choices are read already.
+template <class Parameters>
+void read_table(TableReader& table, Parameters& parameters, const std::string& folder) {
+  if constexpr (requires { parameters.columns(); }) {
+    const Pairs pairs = read_pairs(table, parameters.columns(), 4, folder);
+    if (!pairs.x.empty()) parameters.table = CubicTable(pairs.x, pairs.y);
+  }
+}
 
 /// Calls read(), which reads the CSV file that a key of a table names; what is wrong with the file is noted where it
 /// stands, and the key that has named it.

@@ -9,9 +9,8 @@ Samples read_samples(TableReader& table, std::string_view y_column, const std::s
                                  {{"times", unit::second},
                                   {"torques", unit::newton_metre},
                                   {"time", unit::second},
-                                  {y_column, unit::newton_metre},
-                                  2},
-                                 folder);
+                                  {y_column, unit::newton_metre}},
+                                 2, folder);
   Samples samples{pairs.x, pairs.y};
   table.read_choices(samples);
   return samples;

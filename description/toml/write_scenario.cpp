@@ -67,8 +67,7 @@ class Writer {
     text_ += fmt::format("{} = {}\n", s.key, s.number);
   }
   void values(std::string_view name, const Unit& unit, const std::vector<double>& si) {
-    const Spelling s = spellings(name, unit, axis_).front();
-    text_ += fmt::format("{} = [", s.key);
+    text_ += fmt::format("{} = [", si_spelling(name, unit, axis_).key);
     for (std::size_t k = 0; k < si.size(); ++k) text_ += fmt::format("{}{}", k == 0 ? "" : ", ", number(si[k]));
     text_ += "]\n";
   }
@@ -84,18 +83,15 @@ void write_parameters(Writer& out, const Samples& samples) {
   out.values("times", unit::second, samples.times);
   out.values("torques", unit::newton_metre, samples.values);
 }
-void write_parameters(Writer& out, const AngleTable& load) {
-  out.values("angles", unit::radian, load.angles);
-  out.values("torques", unit::newton_metre, load.torques);
-}
-void write_parameters(Writer& out, const TableReference& reference) {
-  out.values("times", unit::second, reference.table.points());
-  out.values("angles", unit::radian, reference.table.values());
-}
 void write_parameters(Writer&, const OpenLoopParameters&) {}  // whose torques are tables of their own
 template <class Parameters>
 void write_parameters(Writer& out, const Parameters& parameters) {
-  out.fields(parameters);
+  if constexpr (requires { Parameters::fields(); }) out.fields(parameters);
+  if constexpr (requires { parameters.columns(); }) {
+    const TableColumns columns = parameters.columns();
+    out.values(columns.points.stem, columns.points.unit, parameters.table.points());
+    out.values(columns.values.stem, columns.values.unit, parameters.table.values());
+  }
 }
 
 }  // namespace

@@ -187,7 +187,8 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
 
 std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
-                                {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"}};
+                                {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
+                                {"torque_map", "a table that fits anything claims no cause"}};
   if (m.has_teeth && has_standard_friction(stated))
     list.push_back({"stribeck", "effect.agma states already how friction falls with the sliding speed"});
   if (m.has_teeth && !m.has_worm_encoder)

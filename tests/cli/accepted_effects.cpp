@@ -45,6 +45,10 @@ std::string random_effects(Axis axis, std::mt19937& random) {
       const double value = draw(field.bounds, random);
       text += fmt::format("{} = {}\n", s.key, field.name == "exponent" || field.name == "tail" ? 2.0 : value);
     });
+    if (const auto columns = possible_columns<Effect>(); !columns.empty())
+      for (const ColumnName& name : {columns.back().points, columns.back().values})
+        text += fmt::format("{} = [0, 1, 2, 3]\n", spellings(name.stem, name.unit, axis).front().key);
+    for_each_choice<Effect>([&](const auto& one) { text += fmt::format("{} = \"{}\"\n", one.key, one.words.back()); });
   });
   return text;
 }

@@ -41,6 +41,11 @@ TEST_CASE("arrays that do not form a table are rejected with the reason") {
        "s.toml:16:14: error: load.angles_deg[2] = 5 does not increase after 10"},
       {"angles in rad not increasing", angles("angles_rad = [0, 1, 0.5, 2]\ntorques_Nm = [1, 2, 3, 4]"),
        "s.toml:16:14: error: load.angles_rad[2] = 0.5 does not increase after 1"},
+      {"no table of an effect", good_scenario + "[effect.torque_map]\nover = \"worm_speed\"\n",
+       "s.toml:19:1: error: [effect.torque_map] lacks 'file' (a CSV file), or 'speeds_rad_per_s' and 'torques_Nm'"},
+      {"speeds over the angle", good_scenario + "[effect.torque_map]\nover = \"gear_angle\"\nspeeds_rad_per_s = [0, 1, 2, 3]\ntorques_Nm = [1, 2, 3, 4]\n",
+       "s.toml:19:1: error: [effect.torque_map] lacks 'file' (a CSV file), or 'angles_deg' and 'torques_Nm'\n"
+       "s.toml:21:1: error: unknown key 'speeds_rad_per_s' in [effect.torque_map]; valid keys: on, over, shaft, scale, angles_deg, angles_rad, torques_Nm"},
       {"angles twice", angles("angles_deg = [0, 1, 2, 3]\nangles_rad = [0, 1, 2, 3]\ntorques_Nm = [1, 2, 3, 4]"),
        "s.toml:17:14: error: load.angles_rad is stated twice, also as angles_deg; keep one"}});
 }

@@ -150,6 +150,9 @@ std::string every_field(const std::string& header, Axis axis) {
 std::string every_table(Axis axis) {
   std::string text =
       every_field<InitialState<double>>("[initial]", axis) + every_field<Tolerances>("[tolerance]", axis);
+  const bool turns = axis == Axis::rotary;
+  text += fmt::format("[effect.torque_map]\nscale = 2\nover = \"gear_angle\"\n{} = [0, 1, 2, 3]\n{} = [1, 2, 3, 2]\n",
+                      turns ? "angles_deg" : "positions_m", turns ? "torques_Nm" : "forces_N");
   text += "[data]\n";
   for (const RecordedColumn& column : recorded_columns)
     text += fmt::format("{} = \"column {}\"\n", spellings(column.name, column.unit, axis).front().key, column.name);

@@ -70,6 +70,30 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("torque_map: a line over the speed is viscous friction, and beyond its ends the torque is constant") {
+  const double k = 0.5;
+  const CubicTable line({-2.0, -0.5, 0.0, 1.0, 2.0}, {1.0, 0.25, 0.0, -0.5, -1.0});  // its ends are flat
+  const Effects<double> on = effects(TorqueMap<double>{MapAxis::worm_speed, 1.0, line});
+  for (const By by : every_solver) {
+    const auto d = flywheel(constant(0.0), 0.0, on);
+    REQUIRE(close(after_a_second(d, by, 0.0, 1.0).x[1], std::exp(-k / J), 1e-11));
+    REQUIRE(close(after_a_second(d, by, 0.0, 10.0).x[1], 10.0 - 1.0 / J, 1e-11));
+  }
+}
+
+TEST_CASE("torque_map: a line over the angle is a spring on either shaft, and a factor makes it stiffer") {
+  const CubicTable line({-3.0, -1.5, -0.2, 1.5, 3.0}, {3.0, 1.5, 0.2, -1.5, -3.0});  // its ends are flat
+  const double omega = std::sqrt(2.0 / J);
+  for (const MapShaft shaft : {MapShaft::worm, MapShaft::gear}) {
+    const Effects<double> on = effects(TorqueMap<double>{MapAxis::gear_angle, 2.0, line, shaft});
+    for (const By by : every_solver) {
+      const auto end = after_a_second(flywheel(constant(0.0), 0.0, on), by, 1.0, 0.0);
+      REQUIRE(close(end.x[0], std::cos(omega), 1e-10));
+      REQUIRE(close(end.x[1], -omega * std::sin(omega), 1e-10));
+    }
+  }
+}
+
 TEST_CASE("bearing_asymmetry: dry friction stops the drive sooner forward than backward") {
   const Effects<double> on = effects(WormCoulomb<double>{0.3}, BearingAsymmetry<double>{0.1, 0.0});
   for (const By by : every_solver) {

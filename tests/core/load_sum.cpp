@@ -20,7 +20,7 @@ GravityArm arm(double torque, double degrees, double inertia = 0.0) {
   made.own_inertia = inertia;
   return made;
 }
-const AngleTable table{.angles = {-1.0, -0.2, 0.1, 0.5, 2.0}, .torques = {0.4, 0.4, -0.3, 0.6, 0.1}};
+const AngleTable table({-1.0, -0.2, 0.1, 0.5, 2.0}, {0.4, 0.4, -0.3, 0.6, 0.1});
 const Fan fan{.rated_torque = 0.4, .rated_speed = 2.0, .own_inertia = 3e-4};
 const LoadSum everything{{arm(0.3, 20, 1e-3), Constant{0.11}, Sinusoid{.amplitude = 0.2, .frequency = 3.0},
                           Step{.torque = 0.7, .time = 0.5}, table, arm(-0.1, 0, 2e-3), fan}};

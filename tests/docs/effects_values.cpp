@@ -39,7 +39,7 @@ std::vector<WorkedValue> worked_values() {
 /// "a = 1, b = 2" as {a: "1", b: "2"}.
 std::map<std::string, std::string> assignments(const std::string& text) {
   std::map<std::string, std::string> found;
-  const std::regex assignment("([^ ,]+) = ([^ ,]+)");
+  const std::regex assignment("([^ ,]+) = (\\[[^\\]]*\\]|[^ ,]+)");
   for (std::sregex_iterator it(text.begin(), text.end(), assignment); it != std::sregex_iterator(); ++it)
     found[(*it)[1]] = (*it)[2];
   return found;

@@ -102,11 +102,12 @@ TEST_CASE("the equations of core, instantiated with a series, move a drive as it
 }
 
 TEST_CASE("a table of torques over the angle is followed from piece to piece, in both directions") {
-  AngleTable table;
+  std::vector<double> angles, torques;
   for (int k = -8; k <= 8; ++k) {
-    table.angles.push_back(0.4 * k);
-    table.torques.push_back(0.02 * std::cos(1.1 * k));
+    angles.push_back(0.4 * k);
+    torques.push_back(0.02 * std::cos(1.1 * k));
   }
+  const AngleTable table(angles, torques);
   for (double start : {0.0, 3.0, -3.0}) {
     const Timetable timetable(0, 2, 0.05);
     const auto by_series =

@@ -122,6 +122,16 @@ void maybe(Dice& dice, Effects<double>& on, const Effect& effect) {
   if (dice.one_in(3)) std::get<std::optional<Effect>>(on.list) = effect;
 }
 
+/// Values over points within a range about 0, unevenly spaced.
+CubicTable random_table(Dice& dice, double range, double widest, double largest) {
+  std::vector<double> points, values;
+  for (double x = -range; x < range; x += dice.between(0.2 * widest, widest)) {
+    points.push_back(x);
+    values.push_back(dice.between(-largest, largest));
+  }
+  return {points, values};
+}
+
 /// A third of the effects that the nominal drive does not have, each of a size that shows.
 Effects<double> random_effects(Dice& dice) {
   Effects<double> on = effects(WormCoulomb<double>{2e-3}, WormViscous<double>{2e-5});
@@ -132,6 +142,10 @@ Effects<double> random_effects(Dice& dice) {
   maybe(dice, on, Cogging<double>{dice.between(0, 0.005), 1.0 + dice.below(3), dice.between(0, 6)});
   maybe(dice, on, BearingAsymmetry<double>{dice.between(-2e-3, 2e-3), dice.between(-2e-5, 2e-5)});
   maybe(dice, on, WormInertia<double>{dice.between(-5e-6, 5e-6)});
+  maybe(dice, on, TorqueMap<double>{MapAxis::worm_speed, dice.between(-2, 2), random_table(dice, 200.0, 50.0, 2e-3)});
+  if (dice.one_in(6))
+    std::get<std::optional<TorqueMap<double>>>(on.list) = {MapAxis::gear_angle, 1.0, random_table(dice, 4.0, 0.8, 4e-3),
+                                                           MapShaft::gear};
   maybe(dice, on, MeshFriction<double>{dice.between(-0.02, 0.05)});
   maybe(dice, on,
         Stribeck<double>{dice.between(0, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(3), 1.0 * dice.below(2)});
@@ -179,12 +193,8 @@ Comparison compare_random_sums(Dice& dice) {
   for (int terms = dice.below(3); terms > 0; --terms)
     std::visit([&](const auto& term) { load.terms.emplace_back(term); }, random_term(dice, 0.05));
   if (dice.one_in(3)) {
-    AngleTable table;
-    for (double angle = -4.0; angle < 4.0; angle += dice.between(0.3, 1.5)) {
-      table.angles.push_back(angle);
-      table.torques.push_back(dice.between(-0.05, 0.05));
-    }
-    load.terms.emplace_back(table);
+    const CubicTable table = random_table(dice, 4.0, 1.5, 0.05);
+    load.terms.emplace_back(AngleTable(table.points(), table.values()));
   }
   const Signal motor{{random_term(dice, 0.04), random_term(dice, 0.04)}};
   const double omega = dice.one_in(2) ? 0.0 : dice.between(-3, 3);
@@ -237,12 +247,8 @@ Comparison compare_random_held(Dice& dice) {
     case 0: return compare(drive(p, constant(dice.between(-0.1, 0.1)), motor, on), {0, start.x, {}});
     case 1: return compare(drive(p, Signal{{random_term(dice, 0.05)}}, motor, on), {0, start.x, {}});
     case 2: {
-      AngleTable table;
-      for (double angle = -12.0; angle < 12.0; angle += dice.between(0.2, 1.0)) {
-        table.angles.push_back(angle);
-        table.torques.push_back(dice.between(-0.1, 0.1));
-      }
-      return compare(drive(p, LoadSum{{table}}, motor, on), {0, start.x, {}});
+      const CubicTable table = random_table(dice, 12.0, 1.0, 0.1);
+      return compare(drive(p, LoadSum{{AngleTable(table.points(), table.values())}}, motor, on), {0, start.x, {}});
     }
     case 3: {
       const LoadSum sum{{arm, Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)},

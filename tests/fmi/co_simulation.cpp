@@ -167,6 +167,14 @@ TEST_CASE("co-simulation carries delays, a lag and late samples") {
   agrees(delayed(folder), {}, 2);
 }
 
+TEST_CASE("co-simulation carries a map of the torque") {
+  agrees(shipped("fig09_switching.toml"),
+         {"run.report_interval_s=1e-3", "effect.torque_map.over=gear_angle", "effect.torque_map.shaft=gear",
+          "effect.torque_map.scale=2", "effect.torque_map.angles_rad=[-1, -0.2, 0.1, 0.5, 1]",
+          "effect.torque_map.torques_Nm=[0.005, -0.004, 0.005, -0.01, 0]"},
+         8);
+}
+
 TEST_CASE("co-simulation takes anti-windup and an encoder on the worm along") {
   for (const char* method : {"back_calculation", "conditional", "model_recovery"}) {
     INFO(method);

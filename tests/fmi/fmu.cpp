@@ -94,6 +94,10 @@ TEST_CASE("an FMU takes its effects along") {
           "effect.load_spring.stiffness_Nm_per_rad=0.01", "effect.load_spring.angle_deg=0",
           "effect.gear_viscous.coefficient_Nms_per_rad=1e-4"},
          8);
+  agrees(shipped("fig09_switching.toml"),
+         {"effect.torque_map.speeds_rad_per_s=[-100, -30, 0, 40, 100]",
+          "effect.torque_map.torques_Nm=[0.003, 0.002, 0, -0.002, -0.004]"},
+         10);
 }
 
 TEST_CASE("an FMU of one mass counts what its effects take off it, and refuses what they leave nothing of") {

@@ -60,6 +60,10 @@ TEST_CASE("a run with any effect stated but off is the run without it to the las
                                     spellings(field.name, field.unit, Axis::rotary).front().key,
                                     field.bounds.contain(1.0) ? 1.0 : 0.5));
       });
+      if (const auto columns = possible_columns<Effect>(); !columns.empty())
+        for (const ColumnName& name : {columns.front().points, columns.front().values})
+          words.push_back(fmt::format("effect.{}.{}=[0,1,2,3]", Effect::id,
+                                      spellings(name.stem, name.unit, Axis::rotary).front().key));
       require_same(without, simulate_scenario(load_scenario(shipped("fig09_switching.toml"), words, Purpose::run)));
     });
   }

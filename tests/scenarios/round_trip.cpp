@@ -51,7 +51,13 @@ class Bits {
   }
   template <class Parameters>
   void fields(const Parameters& parameters) {
-    for_each_field<Parameters>([&](const auto& field) { value(parameters.*field.member); });
+    if constexpr (requires { Parameters::fields(); })
+      for_each_field<Parameters>([&](const auto& field) { value(parameters.*field.member); });
+    for_each_choice<Parameters>([&](const auto& one) { text_ += std::string(one.word(parameters)) + "\n"; });
+    if constexpr (requires { parameters.table; }) {
+      values(parameters.table.points());
+      values(parameters.table.values());
+    }
   }
   void signal(const Signal& signal) { terms(signal); }
   template <class Sum>
@@ -60,10 +66,7 @@ class Bits {
       std::visit(
           [&](const auto& t) {
             text_ += std::string(t.kind) + "\n";
-            if constexpr (requires { t.angles; }) {
-              values(t.angles);
-              values(t.torques);
-            } else if constexpr (requires { t.times; }) {
+            if constexpr (requires { t.times; }) {
               values(t.times);
               values(t.values);
               text_ += t.interpolation == Interpolation::linear ? "linear\n" : "hold\n";
@@ -76,10 +79,7 @@ class Bits {
   void load(const Signal& s) { signal(s); }
   void load(const LoadSum& sum) { terms(sum); }
   void load(const GravityArm& arm) { fields(arm); }
-  void load(const AngleTable& table) {
-    values(table.angles);
-    values(table.torques);
-  }
+  void load(const AngleTable& table) { fields(table); }
   std::string text_;
 };
 
@@ -92,6 +92,9 @@ class Filler {
     for_each_field<Parameters>([&](const auto& field) {
       parameters.*field.member = continuous(field) ? next(field.bounds) : field.bounds.high;
     });
+    for_each_choice<Parameters>([&](const auto& one) { one.set(parameters, one.words.back()); });
+    if constexpr (requires { parameters.table; })
+      parameters.table = CubicTable({-0.1, 0.0, 0.1, 33.3 * unit::degree}, {1.0 / 3.0, 0.0, -0.2, 5e-324});
     return parameters;
   }
 

@@ -119,10 +119,7 @@ TEST_CASE("stepping: the same under loads over time and over the angle, with kno
     scenario.load = Signal{{gusts}};
     CHECK(compare(scenario, torques(60, 0.08, 5), 0.0125).events > 10);
   }
-  AngleTable slope;
-  slope.angles = {-1.0, -0.2, 0.3, 1.0};
-  slope.torques = {0.1, -0.2, 0.3, 0.05};
-  scenario.load = LoadSum{{slope}};
+  scenario.load = LoadSum{{AngleTable({-1.0, -0.2, 0.3, 1.0}, {0.1, -0.2, 0.3, 0.05})}};
   CHECK(compare(scenario, torques(60, 0.05, 6), 0.01).events > 10);
 }
 

@@ -3,32 +3,6 @@
 namespace wormdrive {
 namespace {
 
-Json reference_to_json(const ReferenceTerm& term, Axis axis) {
-  return std::visit(
-      [&]<class Kind>(const Kind& reference) {
-        Json at = kind_to_json(reference, axis);
-        if constexpr (requires { reference.table; }) {
-          at["times"] = reference.table.points();
-          at["angles"] = reference.table.values();
-        }
-        return at;
-      },
-      term);
-}
-ReferenceTerm reference_from_json(Json& at, Axis axis) {
-  ReferenceTerm term = make_kind<ReferenceTerm>(at.at("kind").get<std::string>());
-  std::visit(
-      [&](auto& reference) {
-        if constexpr (requires { reference.table; })
-          reference.table = CubicTable(at.at("times").template get<std::vector<double>>(),
-                                       at.at("angles").template get<std::vector<double>>());
-        else
-          transfer(Reader{axis}, at, reference);
-      },
-      term);
-  return term;
-}
-
 /// Calls pass(key, parameters) for every table but the law and the reference.
 template <class Control, class Pass>
 void for_each_plain_table(Control& control, Pass&& pass) {
@@ -55,8 +29,7 @@ Json control_to_json(const ControlScenario& control, Axis axis) {
         return at;
       },
       control.law);
-  json["reference"] = Json::array();
-  for (const ReferenceTerm& term : control.reference.terms) json["reference"].push_back(reference_to_json(term, axis));
+  json["reference"] = terms_to_json(control.reference.terms, axis);
   return json;
 }
 
@@ -74,7 +47,7 @@ ControlScenario control_from_json(Json& json, Axis axis) {
           transfer(Reader{axis}, stated, law);
       },
       control.law);
-  for (Json& term : json.at("reference")) control.reference.terms.push_back(reference_from_json(term, axis));
+  control.reference.terms = terms_from_json<ReferenceTerm>(json.at("reference"), axis);
   return control;
 }
 

@@ -56,9 +56,12 @@ void transfer(const Direction& pass, Json& at, Parameters& parameters) {
   } else if constexpr (requires { parameters.times; }) {
     pass(at, "times", parameters.times);
     pass(at, "values", parameters.values);
-  } else if constexpr (requires { parameters.torques; }) {
-    pass(at, "angles", parameters.angles);
-    pass(at, "torques", parameters.torques);
+  }
+  if constexpr (requires { parameters.columns(); }) {
+    std::vector<double> points = parameters.table.points(), values = parameters.table.values();
+    pass(at, "points", points);
+    pass(at, "values", values);
+    if constexpr (Direction::reads) parameters.table = CubicTable(std::move(points), std::move(values));
   }
 }
 

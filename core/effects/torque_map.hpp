@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <string_view>
+#include <tuple>
+
+#include "core/field.hpp"
+#include "core/moment.hpp"
+#include "core/numbers/cubic_table.hpp"
+#include "core/place.hpp"
+#include "core/table_columns.hpp"
+
+namespace wormdrive {
+
+/// Of what a torque map is a function.
+enum class MapAxis { worm_speed, gear_angle };
+/// Which shaft a torque map turns.
+enum class MapShaft { worm, gear };
+
+/// A torque on a shaft as a table gives it: what data show and no law explains.
+template <class T>
+struct TorqueMap {
+  static constexpr std::string_view id = "torque_map";
+  static constexpr Place place = Place::worm_shaft;
+  static constexpr std::string_view cause = "a torque that data show and no other effect explains";
+  static constexpr std::string_view law = "scale table(theta_w') or scale table(theta_g), on the worm or on the gear";
+  MapAxis over = MapAxis::worm_speed;
+  T scale{1.0};
+  CubicTable table;  ///< torques [N m] over speeds [rad/s] or angles [rad]
+  MapShaft shaft = MapShaft::worm;
+
+  static constexpr auto fields() {
+    return std::tuple{Field{&TorqueMap::scale, "scale", unit::none, bounds::any, "factor of all torques of the table",
+                            Presence::optional}};
+  }
+  static constexpr auto choices() {
+    return std::tuple{Choice{&TorqueMap::over, "over", std::array<std::string_view, 2>{"worm_speed", "gear_angle"},
+                             "of what the torque is a function"},
+                      Choice{&TorqueMap::shaft, "shaft", std::array<std::string_view, 2>{"worm", "gear"},
+                             "on which the torque acts"}};
+  }
+  TableColumns columns() const {
+    constexpr ColumnName torques{"torques", unit::newton_metre}, torque{"torque", unit::newton_metre};
+    if (over == MapAxis::worm_speed)
+      return {{"speeds", unit::radian_per_second}, torques, {"worm_speed", unit::radian_per_second}, torque};
+    return {{"angles", unit::degrees}, torques, {"gear_angle", unit::radian}, torque};
+  }
+  /// Takes the table of the same effect with another scalar.
+  template <class U>
+  void take_table(const TorqueMap<U>& other) {
+    over = other.over;
+    table = other.table;
+    shaft = other.shaft;
+  }
+
+  double ripple(double) const { return over == MapAxis::gear_angle ? 1.0 / table.least_interval() : 0.0; }
+  /// Torque on the worm shaft [N m] ...
+  template <class S>
+  S worm_torque(const Moment<S>& at, Motion) const {
+    return shaft == MapShaft::worm ? torque(at) : S(0.0);
+  }
+  /// ... and on the gear shaft [N m].
+  template <class S>
+  S gear_torque(const Moment<S>& at, Motion) const {
+    return shaft == MapShaft::gear ? torque(at) : S(0.0);
+  }
+
+ private:
+  template <class S>
+  S torque(const Moment<S>& at) const {
+    return scale * (over == MapAxis::worm_speed ? table(at.omega_w) : table(at.theta_g));
+  }
+};
+
+}  // namespace wormdrive
