@@ -18,6 +18,7 @@
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/inference/alone.hpp"
 #include "diagnosis/inference/intervals.hpp"
+#include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
 #include "diagnosis/representative_pieces.hpp"
@@ -31,6 +32,7 @@
 #include "diagnosis/verdict/extended_scenario.hpp"
 #include "diagnosis/verdict/other_ratio.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
+#include "diagnosis/verdict/torque_map.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive {
@@ -114,50 +116,6 @@ std::vector<Candidate> everything(const Scenario& scenario, const std::vector<Pr
   return all;
 }
 
-std::vector<RankedCandidate> ranking(const Evaluation& evaluation, const Selection& selection,
-                                     const std::vector<Candidate>& all) {
-  std::vector<RankedCandidate> list;
-  const auto is_cause = [&](std::size_t candidate) {
-    return std::any_of(selection.causes.begin(), selection.causes.end(),
-                       [&](const Found& f) { return f.candidate == candidate; });
-  };
-  for (const Tried& t : selection.tried) {
-    RankedCandidate c;
-    const Candidate& candidate = all[t.candidate];
-    c.effect = estimated(t.model, covariance(evaluation, t.model, 0), candidate.effect, candidate.coordinates);
-    c.delta_bic = t.evidence.delta_bic;
-    c.held_out_gain = t.evidence.held_out;
-    c.named = is_cause(t.candidate);
-    c.outcome = c.named ? "named" : outcome(t.evidence, candidate);
-    if (!c.named && c.outcome == "named") c.outcome = "another one explains it better";
-    list.push_back(std::move(c));
-  }
-  for (const Screened& s : selection.screened) {
-    if (std::any_of(list.begin(), list.end(),
-                    [&](const RankedCandidate& c) { return c.effect.effect == all[s.candidate].effect; }))
-      continue;
-    RankedCandidate c;
-    c.effect.effect = all[s.candidate].effect;
-    for (const Coordinate& x : all[s.candidate].coordinates) {
-      const int k = index_of(s.model, x);
-      if (k < 0 || x.form != CoordinateForm::plain) continue;
-      // one step of a linear fit has no error that is worth telling
-      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-      c.effect.parameters.push_back({std::string(x.field), field_of({}, x.effect, x.field).unit,
-                                     s.model.values[static_cast<std::size_t>(k)], unknown, unknown, unknown});
-    }
-    c.delta_bic = s.gain;
-    c.named = is_cause(s.candidate);
-    c.outcome = c.named ? "named" : "promises too little to be fitted";
-    list.push_back(std::move(c));
-  }
-  // what is named comes first: a richer law that contains it has the higher evidence and is not named for it
-  std::stable_sort(list.begin(), list.end(), [](const RankedCandidate& a, const RankedCandidate& b) {
-    return a.named != b.named ? a.named : a.delta_bic > b.delta_bic;
-  });
-  return list;
-}
-
 /// What a model predicts and leaves, against the scenario as it is stated.
 void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
   d.prediction = prediction_errors(evaluation, before, after, d.seed);
@@ -166,6 +124,14 @@ void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& befo
   const NoiseSizes noise = noise_sizes(evaluation, after);
   d.noise_angle = noise.angle;
   d.noise_torque = noise.torque;
+}
+
+/// The same with its numbers as they are: nothing that is added moves them.
+Hypothesis settled(Hypothesis h) {
+  h.drive = extended(h);
+  h.free.clear();
+  h.values.clear();
+  return h;
 }
 
 /// Looks for a motion that splits a class of a diagnosis, the first for which there may be one.
@@ -253,9 +219,13 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     return std::any_of(found.causes.begin(), found.causes.end(),
                        [&](const Found& f) { return all[f.candidate].frees == c.effect; });
   };
-  for (const Coordinate& c : last.free)
-    if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c)))
-      d.calibration.push_back(estimated(last, spread, c.effect, {c}));
+  const auto calibrated = [&](const Hypothesis& h, const Eigen::MatrixXd& errors) {
+    std::vector<EstimatedEffect> list;
+    for (const Coordinate& c : h.free)
+      if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c))) list.push_back(estimated(h, errors, c.effect, {c}));
+    return list;
+  };
+  d.calibration = calibrated(last, spread);
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
@@ -264,18 +234,35 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   put_units_on_axis(d, scenario.axis);
   judge(d, found, all, sizes);
 
-  if (!d.causes.empty() || (found.causes.empty() && calibration_matters(d))) {
-    Effects<double> with_causes = extended(last).effects;
-    for (const Found& f : found.causes)
-      if (std::none_of(d.causes.begin(), d.causes.end(),
-                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }) &&
-          !all[f.candidate].of_recording)
-        switch_off(with_causes, all[f.candidate].effect);
-    d.extended = extended_scenario(scenario, with_causes, last.noise.impact, d.remarks);
-  } else if (!found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+  const bool claimed = !d.causes.empty(), knows_the_motion = !noise_dominated(d, sizes.torque);
+  if (!claimed && !found.causes.empty()) {  // names that were withdrawn: nothing of them stays
     d.calibration.clear();
     d.uncertainty = {};
+    last = found.base;
     describe(d, evaluation, before, found.base);
+  }
+  std::optional<LearnedMap> map;
+  if (!d.remainders.empty() && knows_the_motion) {
+    tell("learning a map of what is left");
+    map = learned_map(evaluation, claimed ? settled(found.model) : found.base, sizes);
+  }
+  if (map) {
+    describe(d, evaluation, before, map->model);
+    last = refined_map(by_all, *map, claimed ? settled(last) : last, sizes);
+    if (!claimed) {
+      d.calibration = calibrated(last, covariance(by_all, last, 2));
+      put_units_on_axis(d, scenario.axis);
+    }
+    d.sentence += map_sentence(*map, scenario.axis);
+  }
+  if (claimed || map || (found.causes.empty() && calibration_matters(d))) {
+    Effects<double> found_effects = extended(last).effects;
+    for (const Found& f : found.causes)  // names that were withdrawn beside others
+      if (claimed && !all[f.candidate].of_recording &&
+          std::none_of(d.causes.begin(), d.causes.end(),
+                       [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }))
+        switch_off(found_effects, all[f.candidate].effect);
+    d.extended = extended_scenario(scenario, found_effects, last.noise.impact, d.remarks);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   if (auto remark = other_ratio(d, scenario, sizes.has_worm_encoder)) d.remarks.push_back(std::move(*remark));

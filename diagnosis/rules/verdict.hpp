@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 
 #include "diagnosis/rules/evidence.hpp"
@@ -32,6 +33,15 @@ inline constexpr double lowest_line = 1.0, highest_line = 50.0;
 inline constexpr std::size_t lines_around = 25;
 /// s | set | innovations are summed over this before their spectrum, residual torques averaged over that
 inline constexpr double spectrum_bin = 0.005, torque_bin = 0.025;
+
+// A map of what is left.
+
+/// share of the rms torque | set | a torque whose effect is seen and small
+inline constexpr double test_torque = 0.005;
+/// points | set | of a map; the data choose among them
+inline constexpr std::array<std::size_t, 3> points_of_map{5, 9, 17};
+/// times what the data know | set | that the roughness of a map costs; the data choose among them
+inline constexpr std::array<double, 6> smoothness_of_map{1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0};
 
 // Verdict.
 

@@ -226,7 +226,7 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
     axes.push_back({"time", &a.time, rules::hats_over_time, {one, factor(a.direction)}});
     axes.push_back({"one angle", &a.angle, rules::spots, {factor(a.direction)}, true});
   }
-  const Scores scores(evaluation, h, 0.005 * sizes.torque);
+  const Scores scores(evaluation, h, rules::test_torque * sizes.torque);
   std::vector<ScoreTest> all;
   const double least_torque =
       sizes.torque * (sizes.has_worm_encoder ? rules::left_torque_of_two_encoders : rules::left_torque);

@@ -47,12 +47,6 @@ std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
   return " once stated numbers move within their tolerances: " + joined(moved, "and") + ".";
 }
 
-/// Noise of this share of the motor's torque, rms, is no noise: such a model does not know the motion. Teeth that
-/// bounce from flank to flank make as much, for a shock turns on what nobody can measure.
-bool noise_dominated(const Diagnosis& d, double torque) {
-  return !impacts(d) && d.noise_torque > rules::most_noise * torque;
-}
-
 std::string remainder_sentence(const Diagnosis& d, const Magnitudes& sizes) {
   const double torque = sizes.torque;
   const bool linear = d.extended.axis == Axis::linear;
@@ -111,6 +105,10 @@ bool impacts(const Diagnosis& d) {
   return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return has_impacts(c.effect); });
 }
 
+bool noise_dominated(const Diagnosis& d, double torque) {
+  return !impacts(d) && d.noise_torque > rules::most_noise * torque;
+}
+
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
   const PredictionError* e = reported_error(d);
   if (!e || e->after <= rules::above_noise * e->floor) return std::nullopt;
@@ -137,6 +135,17 @@ std::string phrase(const EstimatedEffect& effect, Axis axis) {
     if (!p.unit.suffix.empty()) text += fmt::format(" {}", p.unit.symbol);
   }
   return text;
+}
+
+std::string map_sentence(const LearnedMap& map, Axis axis) {
+  const auto& effect = *std::get<std::optional<TorqueMap<double>>>(map.model.drive.effects.list);
+  constexpr double milli = 1e3;
+  return fmt::format(
+      " A {} on the {} over the {}, learned from these data, claims no cause; it is in the extended scenario as "
+      "torque_map. With it the {} s prediction error on data not used for the fit is {:.3g} m{} instead of {:.3g}.",
+      in_words_of(axis, "torque"), effect.shaft == MapShaft::worm ? "worm" : "gear",
+      in_words_of(axis, effect.over == MapAxis::worm_speed ? "worm speed" : "gear angle"), rules::reported_horizon,
+      milli * map.with, axis == Axis::linear ? "m" : "rad", milli * map.without);
 }
 
 void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate>& all, const Magnitudes& sizes) {

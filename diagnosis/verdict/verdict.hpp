@@ -4,6 +4,7 @@
 #include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/inference/selection.hpp"
+#include "diagnosis/verdict/torque_map.hpp"
 
 namespace wormdrive {
 
@@ -23,6 +24,13 @@ bool calibration_matters(const Diagnosis& diagnosis);
 
 /// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
 bool impacts(const Diagnosis& diagnosis);
+
+/// What a map of what is left does, to be added to the sentence.
+std::string map_sentence(const LearnedMap& map, Axis axis);
+
+/// Whether so much of the motor's torque, rms, is noise that it is none: such a model does not know the motion. Teeth
+/// that bounce from flank to flank make as much, for a shock turns on what nobody can measure.
+bool noise_dominated(const Diagnosis& diagnosis, double torque);
 
 /// The class that an effect belongs to, null if it is told from all others.
 const std::vector<std::string>* class_of(const Diagnosis& diagnosis, std::string_view effect);
