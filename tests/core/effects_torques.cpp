@@ -1,5 +1,8 @@
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "catch.hpp"
 #include "core/energy.hpp"
@@ -92,6 +95,30 @@ TEST_CASE("torque_map: a line over the angle is a spring on either shaft, and a 
       REQUIRE(close(end.x[1], -omega * std::sin(omega), 1e-10));
     }
   }
+}
+
+TEST_CASE("torque_map: between teeth a constant is an offset of the motor, and a line over the angle a spring") {
+  std::vector<double> angles, torques;
+  for (double angle = -8.0; angle < 8.1; angle += 0.5) {
+    angles.push_back(angle);
+    torques.push_back(-0.01 * angle);
+  }
+  const CubicTable constant_torque({-9.0, -5.0, 5.0, 9.0}, {3e-3, 3e-3, 3e-3, 3e-3});
+  const std::array pairs{
+      std::pair{effects(TorqueOffset<double>{3e-3}),
+                effects(TorqueMap<double>{MapAxis::worm_speed, 1.0, constant_torque})},
+      std::pair{effects(LoadSpring<double>{0.01, 0.0}),
+                effects(TorqueMap<double>{MapAxis::gear_angle, 1.0, CubicTable(angles, torques), MapShaft::gear})}};
+  for (const auto& [law, map] : pairs)
+    for (const By by : every_solver) {
+      const auto of = [&](const Effects<double>& on) {
+        return run(drive(table1(), fig9_load(), fig9_motor(), on), Timetable(0, 2, 0.05), {}, tight(by));
+      };
+      const auto stated = of(law), tabulated = of(map);
+      REQUIRE(stated.events.size() >= 8);
+      REQUIRE(stated.modes() == tabulated.modes());
+      REQUIRE((stated.end.x - tabulated.end.x).cwiseAbs().maxCoeff() <= 1e-8);
+    }
 }
 
 TEST_CASE("bearing_asymmetry: dry friction stops the drive sooner forward than backward") {
