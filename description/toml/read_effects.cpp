@@ -15,8 +15,7 @@ void read_effects(TableReader& root, Scenario& scenario, const std::string& fold
       TableReader reader(table, fmt::format("effect.{}", Effect::id), scenario.axis, root.faults(), effects.where());
       const bool on = reader.truth("on").value_or(true);
       Effect parameters;
-      reader.read_fields(parameters);
-      read_table(reader, parameters, folder);
+      read_parameters(reader, parameters, folder);
       reader.finish();
       if (on) effect = parameters;
     });

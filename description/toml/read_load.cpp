@@ -38,9 +38,8 @@ LoadParameters read_load(TableReader& root, const std::string& folder) {
       read_terms<LoadSum>(root.tables("load"), "load", root, kinds, [&]<class Load>(TableReader& table, Load& load) {
         if constexpr (std::is_same_v<Load, Samples>)
           load = read_samples(table, "load_torque", folder);
-        else if constexpr (requires { Load::fields(); })
-          table.read_fields(load);
-        read_table(table, load, folder);
+        else
+          read_parameters(table, load, folder);
         if constexpr (std::is_same_v<Load, GravityArm>) check_together(table, load);
       });
   return load_of(std::move(sum.terms));

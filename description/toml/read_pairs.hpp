@@ -18,9 +18,10 @@ struct Pairs {
 /// both empty.
 Pairs read_pairs(TableReader& table, const TableColumns& columns, std::size_t at_least, const std::string& folder);
 
-/// Reads the table among the parameters of a struct, if it has one; its choices are read already.
+/// Reads fields and choices of a parameter struct and then the table among them, as far as it has them.
 template <class Parameters>
-void read_table(TableReader& table, Parameters& parameters, const std::string& folder) {
+void read_parameters(TableReader& table, Parameters& parameters, const std::string& folder) {
+  if constexpr (requires { Parameters::fields(); }) table.read_fields(parameters);
   if constexpr (requires { parameters.columns(); }) {
     const Pairs pairs = read_pairs(table, parameters.columns(), 4, folder);
     if (!pairs.x.empty()) parameters.table = CubicTable(pairs.x, pairs.y);

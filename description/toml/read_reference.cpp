@@ -7,10 +7,7 @@ namespace wormdrive {
 
 Reference read_reference(TableReader& root, const std::string& folder) {
   return read_terms<Reference>(root.tables("reference"), "reference", root, kinds_of<ReferenceTerm>(),
-                               [&]<class Term>(TableReader& table, Term& term) {
-                                 if constexpr (requires { Term::fields(); }) table.read_fields(term);
-                                 read_table(table, term, folder);
-                               });
+                               [&](TableReader& table, auto& term) { read_parameters(table, term, folder); });
 }
 
 }  // namespace wormdrive

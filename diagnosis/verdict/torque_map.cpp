@@ -148,41 +148,51 @@ void fit_map(const Evaluation& evaluation, Hypothesis& h, double torque, double 
   }
 }
 
+/// A map of nothing yet, with the points and the smoothness that predict best what is left out; nothing where no map
+/// does. sorted: the values of its axis.
+std::optional<LearnedMap> chosen_by_parts(const Evaluation& evaluation, const Hypothesis& h, TorqueMap<double> map,
+                                          const std::vector<double>& sorted, double torque) {
+  std::optional<LearnedMap> best;
+  double least = 0.0;  // what no map is worth
+  for (const std::size_t count : rules::points_of_map) {
+    const std::vector<double> points = points_among(sorted, count);
+    if (points.size() < 4) continue;
+    map.table = CubicTable(points, std::vector<double>(points.size(), 0.0));
+    Hypothesis with = h;
+    map_of(with.drive) = map;
+    if (!evaluate(evaluation, with)) continue;
+    const MapEquations q = map_equations(evaluation, with, torque);
+    for (const double smoothness : rules::smoothness_of_map) {
+      const double worth = q.left_out(smoothness);
+      if (worth >= least) continue;
+      least = worth;
+      best = LearnedMap{with, 0.0, 0.0, smoothness};
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<LearnedMap> learned_map(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
-  const double torque = rules::test_torque * sizes.torque,
-               without = error_ahead(evaluation, h, rules::reported_horizon);
   std::optional<LearnedMap> best;
   if (map_of(h.drive)) return best;
-  std::vector<std::pair<MapAxis, MapShaft>> places{{MapAxis::worm_speed, MapShaft::worm},
-                                                   {MapAxis::gear_angle, MapShaft::worm}};
-  if (sizes.has_teeth)  // else one shaft is both
-    places.insert(places.end(), {{MapAxis::worm_speed, MapShaft::gear}, {MapAxis::gear_angle, MapShaft::gear}});
-  for (const auto& [over, shaft] : places) {
+  const double torque = rules::test_torque * sizes.torque,
+               without = error_ahead(evaluation, h, rules::reported_horizon);
+  std::vector<MapShaft> shafts{MapShaft::worm};
+  if (sizes.has_teeth) shafts.push_back(MapShaft::gear);  // else one shaft is both
+  for (const MapAxis over : {MapAxis::worm_speed, MapAxis::gear_angle}) {
     const std::vector<double> sorted = values_of_axis(evaluation, h, over);
-    std::optional<LearnedMap> here;
-    double least = 0.0;  // what no map is worth
-    for (const std::size_t count : rules::points_of_map) {
-      const std::vector<double> points = sorted.empty() ? sorted : points_among(sorted, count);
-      if (points.size() < 4) continue;
-      Hypothesis with = h;
-      map_of(with.drive) =
-          TorqueMap<double>{over, 1.0, CubicTable(points, std::vector<double>(points.size(), 0.0)), shaft};
-      if (!evaluate(evaluation, with)) continue;
-      const MapEquations q = map_equations(evaluation, with, torque);
-      for (const double smoothness : rules::smoothness_of_map) {
-        const double worth = q.left_out(smoothness);
-        if (worth >= least) continue;
-        least = worth;
-        here = LearnedMap{with, without, 0.0, smoothness};
-      }
+    if (sorted.empty()) continue;
+    for (const MapShaft shaft : shafts) {
+      std::optional<LearnedMap> here = chosen_by_parts(evaluation, h, {over, 1.0, {}, shaft}, sorted, torque);
+      if (!here) continue;
+      fit_map(evaluation, here->model, torque, here->smoothness);
+      here->without = without;
+      here->with = error_ahead(evaluation, here->model, rules::reported_horizon);
+      if (here->with < (1.0 - rules::of_no_account) * without && (!best || here->with < best->with))
+        best = std::move(here);
     }
-    if (!here) continue;
-    fit_map(evaluation, here->model, torque, here->smoothness);
-    here->with = error_ahead(evaluation, here->model, rules::reported_horizon);
-    if (here->with < (1.0 - rules::of_no_account) * without && (!best || here->with < best->with))
-      best = std::move(here);
   }
   return best;
 }

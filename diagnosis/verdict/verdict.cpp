@@ -145,7 +145,7 @@ std::string map_sentence(const LearnedMap& map, Axis axis) {
       "torque_map. With it the {} s prediction error on data not used for the fit is {:.3g} m{} instead of {:.3g}.",
       in_words_of(axis, "torque"), effect.shaft == MapShaft::worm ? "worm" : "gear",
       in_words_of(axis, effect.over == MapAxis::worm_speed ? "worm speed" : "gear angle"), rules::reported_horizon,
-      milli * map.with, axis == Axis::linear ? "m" : "rad", milli * map.without);
+      milli * map.with, units_on(axis, "rad"), milli * map.without);
 }
 
 void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate>& all, const Magnitudes& sizes) {
