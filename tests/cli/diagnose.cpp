@@ -220,7 +220,7 @@ TEST_CASE("a recording with another payload is diagnosed with the load that it s
   const std::string bench = shipped("example_bench.toml");
   const auto keep = [&](const std::string& file, const std::string& mass) {
     REQUIRE(folder
-                .run({"run", bench, "--set", "run.duration_s=4", "--set", "run.report_interval_s=0.001", "--set",
+                .run({"run", bench, "--set", "run.duration_s=4", "--set", "run.report_interval_s=0.002", "--set",
                       "load.mass_kg=" + mass, "-o", file, "-q"})
                 .exit == 0);
   };

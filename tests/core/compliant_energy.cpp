@@ -46,7 +46,7 @@ double stored(const Observation& seen, const MeshParameters<double>& p, double J
 /// where a limited damper reaches its limit.
 template <class Drive>
 void add_works(Works& sum, Drive d, const typename Drive::Instant& now, double end, double k, double backlash) {
-  const int steps = std::max(20, static_cast<int>((end - now.t) / 1e-6));
+  const int steps = std::max(20, static_cast<int>((end - now.t) / 2e-6));
   const double h = (end - now.t) / steps;
   d.enter(now.t);
   using Extended = std::array<double, 7>;

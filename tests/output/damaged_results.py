@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Damages results in every way that HDF5 allows, one column or attribute at a time, and gives them to whoever reads
 results: damaged_results.py PROGRAM PLOT.py [--all]. Each must be refused in one line with exit code 2, within the memory
-that a small file may take. Without --all it takes one in 23, other ones for every column. Prints one line per fault;
+that a small file may take. Without --all it takes one in 47, other ones for every column. Prints one line per fault;
 exit status 1 if there is any.
 """
 
@@ -20,7 +20,7 @@ import numpy as np
 
 PROGRAM, PLOT = (Path(word).resolve() for word in sys.argv[1:3])
 sys.path.insert(0, str(PLOT.parent))
-STRIDE = 1 if "--all" in sys.argv else 23
+STRIDE = 1 if "--all" in sys.argv else 47
 PICTURES = 7 if "--all" in sys.argv else 13  # of so many damages one is drawn, which takes a second
 SCENARIOS = Path(__file__).resolve().parents[2] / "scenarios"
 MEMORY, SECONDS = 3 << 30, 20  # of address space, most of it libraries; of CPU time
@@ -278,7 +278,7 @@ def faults():
                       ("report", "DAMAGED", "-o", "x.html")))
     for case in cases:
         for number, (what, damage) in enumerate(case.damages()):
-            if number % STRIDE:  # columns have 30 kinds of damage or so, which 23 does not divide
+            if number % STRIDE:  # columns have 30 kinds of damage or so, which 47 does not divide
                 continue
             shutil.copy(case.name, "good.h5")
             shutil.copy(case.name, "damaged.h5")

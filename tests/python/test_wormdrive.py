@@ -470,7 +470,8 @@ class Python(unittest.TestCase):
         self.assertGreater(len(ticks), 3)  # with the lock held there would be one
 
     def test_ctrl_c_ends_a_run(self):
-        code = ("import wormdrive, sys\nprint('ready', flush=True)\n"
+        code = ("import signal, sys, wormdrive\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"  # nohup ignores it
+                "print('ready', flush=True)\n"
                 f"try: wormdrive.run({str(FIG10)!r}, run={{'duration_s': 100000, 'report_interval_s': 0.1}})\n"
                 "except KeyboardInterrupt: sys.exit(42)\n")
         child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

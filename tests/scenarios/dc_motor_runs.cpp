@@ -50,7 +50,7 @@ TEST_CASE("random drives with a motor have the same events by both methods of cv
                                          fmt::format("motor.torque.amplitude_Nm={}", between(0.01, 1.0)),
                                          fmt::format("motor.torque.frequency_Hz={}", between(0.3, 30.0)),
                                          fmt::format("load.torque_Nm={}", between(0.01, 2.0)),
-                                         "run.duration_s=1",
+                                         "run.duration_s=0.5",
                                          "run.relative_tolerance=1e-12"};
     INFO(fmt::format("{}", fmt::join(words, " ")));
     const Trajectory a = simulate_scenario(motor_scenario(words)),

@@ -128,7 +128,7 @@ TEST_CASE("a sweep that ends early has the same trials for any threads, interrup
 }
 
 TEST_CASE("a sweep that would end early and is killed goes on to the same end", "[sweep][slow]") {
-  const StudyFolder folder(ends_early(10000000, 1));
+  const StudyFolder folder(ends_early(1000000, 1));
   REQUIRE(folder.sweep({"-o", "a.h5", "--referee", "0"}).exit == 0);
   for (int kills = 0; kills < 2; ++kills) folder.interrupted({"-o", "b.h5", "--resume"}, SIGKILL);
   const Outcome last = folder.sweep({"-o", "b.h5", "--resume", "--referee", "0"});

@@ -26,7 +26,7 @@ seed = 35
 [[parameter]]
 path = "controller.sample_time_s"
 distribution = "discrete"
-values = [5e-8, 1e-3]
+values = [1e-7, 1e-3]
 weights = [1, 199]
 [[parameter]]
 path = "mesh.friction"
@@ -67,7 +67,7 @@ TEST_CASE("a slow trial delays no other: kill -9 loses only trials that have not
   INFO(resumed.err);
   REQUIRE(resumed.exit == 0);
   CHECK(resumed.out.find("; 199 were already complete") != std::string::npos);
-  CHECK(folder.column("o.h5", "controller.sample_time")[static_cast<std::size_t>(slow)] == 5e-8);
+  CHECK(folder.column("o.h5", "controller.sample_time")[static_cast<std::size_t>(slow)] == 1e-7);
   CHECK(folder.present("o.h5") == 200);
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "o.h5"});
 }
@@ -122,7 +122,7 @@ TEST_CASE("the file of trials does not depend on their order, including reasons"
 }
 
 TEST_CASE("of four processes that write one result only one succeeds, and the others say why", "[sweep][slow]") {
-  const StudyFolder folder(study_but("trials = 200", "trials = 4000"));
+  const StudyFolder folder(study_but("trials = 200", "trials = 1000"));
   folder.write("s.toml", good_scenario);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);
   for (const char* k : {"1", "2"})
@@ -135,7 +135,7 @@ TEST_CASE("of four processes that write one result only one succeeds, and the ot
       {"merge", "1.h5", "2.h5", "-o", "o.h5"},
       {"run", "s.toml", "-o", "o.h5"}};
   for (const auto& command : commands)
-    for (int round = 0; round < 15; ++round) {
+    for (int round = 0; round < 8; ++round) {
       std::vector<std::string> words{WORMDRIVE_PROGRAM};
       words.insert(words.end(), command.begin(), command.end());
       std::list<Process> four;
@@ -169,29 +169,29 @@ TEST_CASE("a lock left by a killed program locks nothing", "[sweep]") {
 }
 
 TEST_CASE("a running sweep can be summarised, reported and compared", "[sweep][slow]") {
-  const StudyFolder folder(edited(edited(one_slow_trial, "trials = 200", "trials = 2000000"), "5e-8", "9e-4"));
+  const StudyFolder folder(edited(edited(one_slow_trial, "trials = 200", "trials = 400000"), "1e-7", "9e-4"));
   Process process({WORMDRIVE_PROGRAM, "sweep", "study.toml", "-o", "o.h5", "--threads", "1"}, folder.path());
   nlohmann::json now{{"trials", 0}};
   while (now.at("trials") == 0) now = so_far(folder, "o.h5");
   CHECK(now.at("running") == true);
-  CHECK(now.at("of") == 2000000);
+  CHECK(now.at("of") == 400000);
   CHECK(now.at("done") == now.at("trials"));
   for (const char* name : {"o.h5", "o.h5.part"}) {
     const Outcome summary = folder.run({"summary", name});
     INFO(summary.err);
     CHECK(summary.exit == 0);
-    CHECK(summary.out.find(" of 2000000 so far; the sweep is still running\n") != std::string::npos);
+    CHECK(summary.out.find(" of 400000 so far; the sweep is still running\n") != std::string::npos);
     CHECK(summary.out.find(fmt::format("see a trial: wormdrive replay {} --trial ", name)) != std::string::npos);
   }
   const Outcome report = folder.run({"report", "o.h5"});
   INFO(report.err);
   CHECK(report.exit == 0);
-  CHECK(folder.read("o.html").find(" of 2000000 trials so far, ") != std::string::npos);
+  CHECK(folder.read("o.html").find(" of 400000 trials so far, ") != std::string::npos);
   CHECK(folder.run({"replay", "o.h5", "--trial", "0", "-o", "r.h5"}).exit == 0);
   process.kill(SIGINT);
   CHECK(process.wait().exit == 128 + SIGINT);
   const Outcome ended = folder.run({"summary", "o.h5"});
-  CHECK(ended.out.find(fmt::format("  trials   {} of 2000000 so far; the sweep was interrupted\n",
+  CHECK(ended.out.find(fmt::format("  trials   {} of 400000 so far; the sweep was interrupted\n",
                                    folder.present("o.h5.part"))) != std::string::npos);
   CHECK(folder.run({"diff", "o.h5", "o.h5.part"}).exit == 0);
 }

@@ -72,7 +72,7 @@ TEST_CASE("seven shards merged in any order equal the whole sweep", "[sweep][slo
 }
 
 TEST_CASE("a sweep killed 20 times at random and resumed equals the whole sweep", "[sweep][slow]") {
-  const std::string few = "trials = 200", enough = "trials = 20000";  // to be killed among them
+  const std::string few = "trials = 200", enough = "trials = 10000";  // to be killed among them
   const auto study = GENERATE_COPY(as<std::string>(), study_but(few, enough), edited(lanes_study, few, enough));
   const StudyFolder folder(study);
   const auto begin = std::chrono::steady_clock::now();
