@@ -72,9 +72,9 @@ InnovationLayout with_nothing_held_out(std::vector<PreparedRecording> all) {
   return InnovationLayout(std::move(all));
 }
 
-/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well; then a
-/// search without one is made, and kept if it predicts clearly better. Where more noise than torque is at work,
-/// whatever was found, neither that nor pairs of causes would follow the motion.
+/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well, friction
+/// among them; then a search without one is made, and kept if it predicts clearly better. Where more noise than torque
+/// is at work, whatever was found, pairs of causes would not follow the motion either.
 Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all, const Hypothesis& base, double torque,
                  const DiagnosisSettings& settings) {
   if (settings.progress) settings.progress("fitting what is stated");
@@ -87,7 +87,6 @@ Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all
   CauseSearch found(evaluation, all, settings.most_causes, settings.progress);
   const Start* other = hides_what_is_slow(start.base.noise_model) ? &start_plainly() : nullptr;
   found.select(std::move(start), other);
-  if (!gap_of(found.model()) && noise_sizes(evaluation, found.model()).torque > torque) return found.confirmed();
   CauseSearch second(evaluation, all, settings.most_causes, settings.progress);
   CauseSearch* better = &found;
   if (hides_what_is_slow(found.model().noise_model)) {
@@ -95,7 +94,7 @@ Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all
     const auto error = [&](auto& s) { return error_ahead(evaluation, s.model(), rules::reported_horizon); };
     if (error(second) < rules::clearly_better * error(found)) better = &second;
   }
-  better->try_pairs();
+  if (gap_of(better->model()) || noise_sizes(evaluation, better->model()).torque <= torque) better->try_pairs();
   return better->confirmed();
 }
 

@@ -177,7 +177,8 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   }
 
   // What leaves structure behind is not the whole truth. It may keep its name if it does most of the work: of the error
-  // ahead, of which little but noise is left, or of all that the data show.
+  // ahead, of which little but noise is left, or a share of no account, where noise is less; or of all that the data
+  // show, whose evidence grows with the logarithm of the error only.
   // A shock is followed no better than its law, which leaves more behind.
   const double most_of_the_evidence = impacts(d) ? rules::most_of_the_evidence_of_impacts : rules::most_of_the_evidence;
   const PredictionError* e = reported_error(d);
@@ -185,7 +186,8 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   for (const Remainder& r : d.remainders) left = std::max(left, r.gain);
   const double explained = 0.5 * (selection.base.bic - selection.model.bic);
   const bool predicts =
-      e && e->before >= rules::most_of_the_error * e->after && e->after <= rules::little_but_noise * e->floor;
+      e && ((e->before >= rules::most_of_the_error * e->after && e->after <= rules::little_but_noise * e->floor) ||
+            e->after <= rules::of_no_account * e->before);
   const bool most_done = predicts || explained >= most_of_the_evidence * left;
   if (noise_dominated(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
     const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };

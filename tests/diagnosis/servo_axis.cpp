@@ -29,6 +29,24 @@ std::optional<Axis> measured_axis() {
   return axis;
 }
 
+/// What was recorded from one time to another [s].
+Recording piece(const Recording& whole, double from, double to) {
+  Recording r = whole;
+  r.start = from;
+  const auto cut = [&](auto& column) {
+    const auto at = [&](double t) { return column.begin() + std::lround(t / whole.period); };
+    column = std::decay_t<decltype(column)>(at(from), at(to));
+  };
+  cut(r.motor_torque);
+  cut(r.gear_angle);
+  cut(r.valid);
+  return r;
+}
+
+bool names(const Diagnosis& d, std::string_view effect) {
+  return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& c) { return c.effect == effect; });
+}
+
 /// force = mass acceleration + viscous speed + coulomb sign(speed) - offset - wave(position), by direction [SI].
 struct AxisModel {
   double mass, viscous_forward, viscous_backward, coulomb_forward, coulomb_backward, offset;
@@ -132,16 +150,13 @@ TEST_CASE("the measured axis: from its mass, friction is named and then that it 
   if (!axis) return;
   const Diagnosis d = diagnose(axis->scenario, {axis->recording}, {.threads = 2});
   CAPTURE(d.sentence);
-  const auto named = [&](std::string_view effect) {
-    return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& c) { return c.effect == effect; });
-  };
-  CHECK(named("worm_coulomb"));
-  CHECK(named("worm_viscous"));
-  CHECK(named("bearing_asymmetry"));
+  CHECK(names(d, "worm_coulomb"));
+  CHECK(names(d, "worm_viscous"));
+  CHECK(names(d, "bearing_asymmetry"));
   CHECK(d.sentence.find(" N s/m") != std::string::npos);
   CHECK(d.sentence.find("rad") == std::string::npos);
-  CHECK_FALSE(named("stribeck"));
-  CHECK_FALSE(named("backlash"));
+  CHECK_FALSE(names(d, "stribeck"));
+  CHECK_FALSE(names(d, "backlash"));
   const AxisModel found = axis_model(d.extended.effects);
   CAPTURE(found.viscous_forward, found.viscous_backward);
   CHECK(std::abs(found.viscous_backward - found.viscous_forward - 73.0) <= 10.0);
@@ -157,13 +172,27 @@ TEST_CASE("the measured axis: a delay that is stated and is not there costs noth
   auto axis = measured_axis();
   if (!axis) return;
   set_field(axis->scenario.effects, {"actuator_delay", "delay", 4e-4});
-  const Diagnosis d = diagnose(axis->scenario, {axis->recording}, {.threads = 2});
+  const Diagnosis d = diagnose(axis->scenario, {piece(axis->recording, 0.0, 12.0)}, {.threads = 2});
   CAPTURE(d.sentence);
   const auto error = std::find_if(d.prediction.begin(), d.prediction.end(),
                                   [](const PredictionError& e) { return e.horizon == 0.25; });
   REQUIRE(error != d.prediction.end());
-  CHECK(error->after < 0.08e-3);  // without it 0.074 mm
-  CHECK(std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return c.effect == "worm_viscous"; }));
+  CHECK(error->after < 0.11e-3);  // without it 0.104 mm
+  CHECK(names(d, "worm_viscous"));
+}
+
+TEST_CASE("the measured axis: a piece from anywhere names the friction of the whole", "[reference][slow]") {
+  const auto axis = measured_axis();
+  if (!axis) return;
+  // one begins in a jolt, which noise that hides what is slow would follow as well; one has a quarter of the data
+  for (const auto& [from, to] : {std::pair{0.5, 12.0}, std::pair{3.5, 9.5}}) {
+    const Diagnosis d = diagnose(axis->scenario, {piece(axis->recording, from, to)}, {.threads = 2});
+    CAPTURE(from, d.sentence);
+    for (const char* effect : {"worm_coulomb", "worm_viscous", "bearing_asymmetry"}) CHECK(names(d, effect));
+    const AxisModel found = axis_model(d.extended.effects);
+    CHECK(close(0.5 * (found.coulomb_forward + found.coulomb_backward), published.coulomb_forward, 0.03));
+    CHECK(close(0.5 * (found.viscous_forward + found.viscous_backward), published.viscous_forward, 0.03));
+  }
 }
 
 }  // namespace wormdrive::test::diagnosis_servo_axis
