@@ -9,7 +9,7 @@
 
 // Effects that are drawn now and kept from the diagnosis; and that the score is kept rightly.
 
-using namespace recovery;
+namespace recovery::short_campaign {
 
 namespace {
 
@@ -139,3 +139,5 @@ TEST_CASE("the least number of successes is a quantile of the binomial") {
   CHECK(least_successes(1, 0.5) == 0);
   CHECK(std::abs(rate_at_most(0, 300) - 0.00994) < 1e-5);  // 1 - 0.05^(1/300)
 }
+
+}  // namespace recovery::short_campaign
