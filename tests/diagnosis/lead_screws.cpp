@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
+#include "diagnosis/causes.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
 #include "diagnosis/rules/evidence.hpp"
@@ -40,12 +40,6 @@ Scenario screw(double nut_mass, double friction) {
 struct Found {
   Diagnosis diagnosis;
   double rms;  ///< of torques, each by the fit of the half that does not hold it [N m]
-
-  const EstimatedEffect* cause(std::string_view effect) const {
-    const auto at = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                 [&](const EstimatedEffect& e) { return e.effect == effect; });
-    return at == diagnosis.causes.end() ? nullptr : &*at;
-  }
 };
 
 std::optional<Found> diagnosed(const char* file, const Scenario& scenario) {
@@ -71,7 +65,8 @@ TEST_CASE("of a plain lead screw Coulomb, viscous and Stribeck friction are name
     INFO("stated friction " << friction << ": " << found->diagnosis.sentence);
     CHECK(found->rms <= 0.045e-3);
     CHECK(found->diagnosis.causes.size() == 3);
-    for (const char* const effect : {"worm_coulomb", "worm_viscous", "stribeck"}) CHECK(found->cause(effect));
+    for (const char* const effect : {"worm_coulomb", "worm_viscous", "stribeck"})
+      CHECK(cause(found->diagnosis, effect));
     for (const RankedCandidate& ranked : found->diagnosis.ranking)
       if (ranked.effect.effect == "agma")
         CHECK(ranked.outcome == "the friction of the teeth would reach 0.88: no teeth rub so");
@@ -95,8 +90,8 @@ TEST_CASE("of a preloaded lead screw the Coulomb friction is found that its prel
   const auto found = diagnosed("drive2_steady.csv", screw(0.326, 0.2));
   if (!found) return;
   INFO(found->diagnosis.sentence);
-  REQUIRE(found->cause("worm_coulomb"));
-  CHECK(std::abs(found->cause("worm_coulomb")->parameters.at(0).value - 3.7e-3) <= 0.15e-3);
+  REQUIRE(cause(found->diagnosis, "worm_coulomb"));
+  CHECK(std::abs(cause(found->diagnosis, "worm_coulomb")->parameters.at(0).value - 3.7e-3) <= 0.15e-3);
 }
 
 }  // namespace wormdrive::test::diagnosis_lead_screws

@@ -4,9 +4,11 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
+#include "diagnosis/causes.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 #include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
@@ -41,10 +43,6 @@ Recording piece(const Recording& whole, double from, double to) {
   cut(r.gear_angle);
   cut(r.valid);
   return r;
-}
-
-bool names(const Diagnosis& d, std::string_view effect) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& c) { return c.effect == effect; });
 }
 
 /// force = mass acceleration + viscous speed + coulomb sign(speed) - offset - wave(position), by direction [SI].
@@ -174,9 +172,9 @@ TEST_CASE("the measured axis: a delay that is stated and is not there costs noth
   set_field(axis->scenario.effects, {"actuator_delay", "delay", 4e-4});
   const Diagnosis d = diagnose(axis->scenario, {piece(axis->recording, 0.0, 12.0)}, {.threads = 2});
   CAPTURE(d.sentence);
-  const auto error = std::find_if(d.prediction.begin(), d.prediction.end(),
-                                  [](const PredictionError& e) { return e.horizon == 0.25; });
-  REQUIRE(error != d.prediction.end());
+  const PredictionError* const error = reported_error(d);
+  REQUIRE(error);
+  REQUIRE(error->horizon == 0.25);
   CHECK(error->after < 0.11e-3);  // without it 0.104 mm
   CHECK(names(d, "worm_viscous"));
 }

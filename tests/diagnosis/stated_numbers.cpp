@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "diagnosis/candidates/coordinates.hpp"
+#include "diagnosis/causes.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "recovery/campaign.hpp"
 #include "some_of.hpp"
@@ -27,10 +28,6 @@ recovery::Case realistic_case(std::uint64_t seed, const std::vector<Hidden>& hid
 
 Diagnosis diagnosed(const recovery::Case& drawn) {
   return diagnose(recovery::data_sheet(drawn.conditions), {recovery::record(drawn).recording}, {.threads = 2});
-}
-
-bool names(const Diagnosis& d, const std::string& effect) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) { return cause.effect == effect; });
 }
 
 }  // namespace
