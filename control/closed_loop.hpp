@@ -62,8 +62,7 @@ class ClosedLoop {
   double sample(System& system, const typename System::Instant& now) {
     const ReferencePoint desired = reference_.at(now.t);
     const auto at = system.moment(now);
-    const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
-    if (!latched_.empty()) latched_.pop();
+    const Seen shown = latched_.empty() ? seen(system, now) : seen_before();
     const double limit = system.torque_limit();
     const double angle = on_worm_ ? measured_on_worm(system, shown.angle) : encoder_(shown.angle, k_);
     if (k_ == 0) speed_.start(angle);
@@ -119,7 +118,10 @@ class ClosedLoop {
   };
   template <class System>
   Seen seen(const System& system, const typename System::Instant& now) const {
-    if (!exact_speed_ && !on_worm_) return {system.measured_angle(now), 0.0};
+    return exact_speed_ || on_worm_ ? seen_with_speed(system, now) : Seen{system.measured_angle(now), 0.0};
+  }
+  template <class System>
+  [[gnu::noinline]] Seen seen_with_speed(const System& system, const typename System::Instant& now) const {
     const auto at = system.moment(now);
     Series<double, 1> angle(on_worm_ ? at.theta_w / system.mesh().i : at.theta_g);
     angle[1] = on_worm_ ? at.omega_w / system.mesh().i : at.omega_g;
@@ -127,6 +129,12 @@ class ClosedLoop {
     return {measured[0], measured[1]};
   }
 
+  /// What was latched for this sample. Not inline: a sample that sees what is would wait for it.
+  [[gnu::noinline]] Seen seen_before() {
+    const Seen shown = latched_.front();
+    latched_.pop();
+    return shown;
+  }
   /// Not inline: the compiler would divide at every sample, and the controller would wait for it.
   template <class System>
   [[gnu::noinline]] double measured_on_worm(const System& system, double angle) const {

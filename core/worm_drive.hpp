@@ -114,10 +114,9 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Whether the gear moves and has no speed yet.
   static bool leaves_rest(const Instant& now) { return now.mode.motion != Motion::stuck && now.x[1] == T(0); }
 
-  /// A state with its speed as the mode has it: rounding leaves it on either side of zero at a reversal.
-  static Instant within_mode(Instant now) {
+  /// Lets the speed be as the mode has it: rounding leaves it on either side of zero at a reversal.
+  static void keep_within_mode(Instant& now) {
     if (T(sign(now.mode.motion)) * now.x[1] < T(0)) now.x[1] = T(0);
-    return now;
   }
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in

@@ -99,7 +99,7 @@ class CvodeSolver {
       now.t = next;
       now.x = state_at(std::clamp(next - origin_, clock_ - step_, clock_));
     }
-    if constexpr (Foresees<System>) now = system_.within_mode(now);
+    if constexpr (Foresees<System>) system_.keep_within_mode(now);
     return is_end ? fired_ : no_guard;
   }
 

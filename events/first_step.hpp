@@ -89,7 +89,8 @@ class FirstStep {
       then.x[2 * shaft + 1] = value(motion_[shaft].speed(), s);
     }
     for (int k = 0; k < others; ++k) then.x[2 * shafts + k] = value(Polynomial(others_[k].data(), order + 2), s);
-    return system_.within_mode(then);
+    system_.keep_within_mode(then);
+    return then;
   }
   /// Whether a speed is another one after s.
   bool moves(double s) const {

@@ -143,11 +143,10 @@ class CompliantDrive {
     return (now.mode.worm != Motion::stuck && now.x[1] == T(0)) || (now.mode.gear != Motion::stuck && now.x[3] == T(0));
   }
 
-  /// A state with its speeds as the mode has them: rounding leaves them on either side of zero.
-  Instant within_mode(Instant now) const {
+  /// Lets the speeds be as the mode has them: rounding leaves them on either side of zero.
+  void keep_within_mode(Instant& now) const {
     for (const Shaft shaft : {Shaft::worm, Shaft::gear})
       if (T& speed = now.x[speed_of(shaft)]; is_dry(shaft) && T(sign(now.mode[shaft])) * speed < T(0)) speed = T(0);
-    return now;
   }
 
   /// Functions that are positive while the mode holds and fall through zero when it ends: in contact the normal force,

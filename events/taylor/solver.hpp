@@ -124,19 +124,22 @@ class TaylorSolver {
   /// The motion at a time of the present step.
   Instant at(double t) {
     if (leapt_ != Leap::none && t == end_) return there_;
+    Instant then = begin_;
     if constexpr (NominalFlow<System>::known)
       if (leapt_ == Leap::nominal) {
-        Instant then = begin_;
         nominal_.leap(then, t, accuracy_);  // what it vouched for up to the end it vouches for on the way
         return then;
       }
-    if constexpr (TapedFlow<System>::known)
-      if (leapt_ == Leap::taped) return System::within_mode({t, taped_.state(t - begin_.t), begin_.mode});
+    then.t = t;
     const double s = t == end_ ? length_ : t - begin_.t;
-    return System::within_mode({t, {value(series_.angle(), s), value(series_.speed(), s)}, begin_.mode});
+    if (leapt_ == Leap::none) then.x = {value(series_.angle(), s), value(series_.speed(), s)};
+    if constexpr (TapedFlow<System>::known)
+      if (leapt_ == Leap::taped) then.x = taped_.state(t - begin_.t);
+    System::keep_within_mode(then);
+    return then;
   }
 
-  /// The polynomials from now on to the first event, or to as far as they are accurate->
+  /// The polynomials from now on to the first event, or to as far as they are accurate
   void step(const Instant& now, double limit) {
     const double h = std::min(limit - now.t, max_step_);
     expand(now, h);
