@@ -33,6 +33,7 @@
 #include "diagnosis/verdict/other_ratio.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
 #include "diagnosis/verdict/torque_map.hpp"
+#include "diagnosis/verdict/unclaimed_terms.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive {
@@ -233,28 +234,33 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   put_units_on_axis(d, scenario.axis);
   judge(d, found, all, sizes);
 
-  const bool claimed = !d.causes.empty(), knows_the_motion = !noise_dominated(d, sizes.torque);
-  if (!claimed && !found.causes.empty()) {  // names that were withdrawn: nothing of them stays
+  const bool claimed = !d.causes.empty(), may_learn = !d.remainders.empty() && !noise_dominated(d, sizes.torque);
+  const auto learned = [&](const Hypothesis& beside) {
+    if (may_learn) tell("learning a map of what is left");
+    return may_learn ? learned_map(evaluation, beside, sizes) : std::nullopt;
+  };
+  std::optional<LearnedMap> map = learned(claimed ? settled(found.model) : found.base);
+  const bool withdrawn = !claimed && !found.causes.empty(),
+             kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map);
+  if (withdrawn) d.uncertainty = {};
+  if (kept) {
+    d.sentence += unclaimed_terms_sentence(d, found, all);
+    map = learned(settled(found.model));
+  } else if (withdrawn) {
     d.calibration.clear();
-    d.uncertainty = {};
     last = found.base;
     describe(d, evaluation, before, found.base);
   }
-  std::optional<LearnedMap> map;
-  if (!d.remainders.empty() && knows_the_motion) {
-    tell("learning a map of what is left");
-    map = learned_map(evaluation, claimed ? settled(found.model) : found.base, sizes);
-  }
   if (map) {
     describe(d, evaluation, before, map->model);
-    last = refined_map(by_all, *map, claimed ? settled(last) : last, sizes);
-    if (!claimed) {
+    last = refined_map(by_all, *map, claimed || kept ? settled(last) : last, sizes);
+    if (!claimed && !kept) {
       d.calibration = calibrated(last, covariance(by_all, last, 2));
       put_units_on_axis(d, scenario.axis);
     }
     d.sentence += map_sentence(*map, scenario.axis);
   }
-  if (claimed || map || (found.causes.empty() && calibration_matters(d))) {
+  if (claimed || kept || map || (found.causes.empty() && calibration_matters(d))) {
     Effects<double> found_effects = extended(last).effects;
     for (const Found& f : found.causes)  // names that were withdrawn beside others
       if (claimed && !all[f.candidate].of_recording &&

@@ -14,8 +14,6 @@
 
 namespace wormdrive {
 
-namespace {
-
 std::string joined(const std::vector<std::string>& parts, std::string_view last) {
   std::string all;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -25,15 +23,7 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return all;
 }
 
-std::string gain_sentence(const Diagnosis& d) {
-  const PredictionError* e = reported_error(d);
-  if (!e) return "";
-  constexpr double milli = 1e3;
-  return fmt::format(
-      " On data not used for the fit the {} s prediction error {} from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
-      e->horizon, e->after <= e->before ? "falls" : "rises", milli * e->before, milli * e->after, e->unit.symbol,
-      milli * e->floor);
-}
+namespace {
 
 /// What moved within its tolerance, at least the number that moved most.
 std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
@@ -84,6 +74,16 @@ std::string causes_sentences(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string gain_sentence(const Diagnosis& d) {
+  const PredictionError* e = reported_error(d);
+  if (!e) return "";
+  constexpr double milli = 1e3;
+  return fmt::format(
+      " On data not used for the fit the {} s prediction error {} from {:.3g} to {:.3g} m{} (noise floor {:.2g}).",
+      e->horizon, e->after <= e->before ? "falls" : "rises", milli * e->before, milli * e->after, e->unit.symbol,
+      milli * e->floor);
+}
 
 std::string in_words(std::string id) {
   std::replace(id.begin(), id.end(), '_', ' ');

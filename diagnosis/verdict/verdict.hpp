@@ -25,6 +25,9 @@ bool calibration_matters(const Diagnosis& diagnosis);
 /// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.
 bool impacts(const Diagnosis& diagnosis);
 
+/// The reported error before and after, as a sentence to be added.
+std::string gain_sentence(const Diagnosis& diagnosis);
+
 /// What a map of what is left does, to be added to the sentence.
 std::string map_sentence(const LearnedMap& map, Axis axis);
 
@@ -37,6 +40,9 @@ const std::vector<std::string>* class_of(const Diagnosis& diagnosis, std::string
 
 /// An id as it is read: "worm viscous".
 std::string in_words(std::string id);
+
+/// Parts as they are listed, the last one after "and" or "or": "a, b and c".
+std::string joined(const std::vector<std::string>& parts, std::string_view last);
 
 /// "mesh friction: change 0.0150 +- 0.0010"
 std::string phrase(const EstimatedEffect& effect, Axis axis);

@@ -6,6 +6,7 @@
 #include "description/diagnostics.hpp"
 #include "diagnosis/fitting/hypothesis.hpp"
 #include "diagnosis/logger.hpp"
+#include "diagnosis/servo_logs.hpp"
 #include "support.hpp"
 
 // Logs of which rows are missing, or whose times are not even: what is read of them, and how they are predicted.
@@ -52,36 +53,6 @@ double largest(const std::vector<double>& e, std::size_t from, std::size_t to) {
   double most = 0.0;
   for (std::size_t k = from; k < to; ++k) most = std::max(most, std::abs(e[k]));
   return most;
-}
-
-/// The bench of eight logs of a small servo with a pendulum, 6 s each at 190 to 280 Hz in steps that vary by a third:
-/// Rhoban/bam, Duclusaud and Passault, 2025.
-Scenario pendulum() {
-  Scenario s;
-  s.mesh = SingleInertia<double>{1.643e-3 + 0.49 * 0.1 * 0.1};
-  GravityArm arm;
-  arm.mass = 0.49;
-  arm.arm = 0.1;
-  arm.offset = 0.5 * std::numbers::pi;
-  s.load = arm;
-  return s;
-}
-
-/// The same with its gearbox stated as a worm gear of the same ratio, which its load drives back.
-constexpr double servo_ratio = 288.35;
-Scenario geared_pendulum() {
-  Scenario s = pendulum();
-  MeshParameters<double> mesh;
-  mesh.i = servo_ratio;
-  mesh.lambda = 3.0 * std::numbers::pi / 180.0;
-  mesh.phi_n = 20.0 * std::numbers::pi / 180.0;
-  mesh.lw = 0.003;
-  mesh.lg = mesh.i * mesh.lw * std::tan(mesh.lambda);
-  mesh.mu = 0.01;
-  mesh.Jw = 1.643e-3 / (mesh.i * mesh.i);
-  mesh.Jg = 0.49 * 0.1 * 0.1;
-  s.mesh = mesh;
-  return s;
 }
 
 }  // namespace
@@ -217,28 +188,19 @@ TEST_CASE("times that show no rate, and more rows missing than there, are refuse
 }
 
 TEST_CASE("the logs of a servo are read as they were written", "[reference]") {
-  // published constants make a torque of its PWM
-  constexpr double kt = 0.3232, ohm = 4.764, full = 885.0;
-  for (const char* name : {"lift_and_drop", "sin_sin", "sin_time_square", "up_and_down"})
-    for (const char* gain : {"kp100", "kp400"}) {
-      const auto log = reference(fmt::format("xl330/{}_{}.csv", name, gain));
+  for (const char* gain : {"kp100", "kp400"})
+    for (const std::string& name : servo_logs(gain)) {
+      const auto log = reference(name);
       if (!log) return;
-      Sheet sheet{{"time_s", "motor_torque_Nm", "gear_angle_rad"}, {}};
-      for (std::size_t k = 0; k < log->size(); ++k)
-        sheet.rows.push_back(
-            {log->text("time_s", k),
-             fmt::format("{:.9g}", kt / ohm * log->number("supply_V", k) * log->number("pwm", k) / full),
-             log->text("position_rad", k)});
-      INFO(name << " " << gain);
-      const Recording r = read(Folder(), sheet, pendulum());
+      INFO(name);
+      const Recording r = *servo_recording(name, pendulum());
       CHECK(std::count(r.valid.begin(), r.valid.end(), 1) == static_cast<long>(log->size()));
       CHECK(r.restarts.empty());
       REQUIRE(r.times.size() == r.samples());
       CHECK(std::abs(r.start + r.times.back() - log->number("time_s", log->size() - 1)) < 1e-9);
       REQUIRE_FALSE(r.remarks.empty());
       CHECK(r.remarks.back().ends_with("; followed as they are"));
-      sheet.each(1, [](double torque, std::size_t) { return torque / servo_ratio; });
-      CHECK_NOTHROW(read(Folder(), sheet, geared_pendulum()));  // its motor is off for most of two logs
+      CHECK_NOTHROW(servo_recording(name, geared_pendulum()));  // its motor is off for most of two logs
     }
 }
 

@@ -1,0 +1,32 @@
+#include "diagnosis/verdict/unclaimed_terms.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/rules/verdict.hpp"
+#include "diagnosis/verdict/verdict.hpp"
+
+namespace wormdrive {
+
+bool unclaimed_terms_predict(const Diagnosis& d, const Evaluation& evaluation, const Selection& selection,
+                             const std::vector<Candidate>& all, const std::optional<LearnedMap>& map) {
+  if (std::any_of(selection.causes.begin(), selection.causes.end(),
+                  [&](const Found& found) { return all[found.candidate].of_recording; }))
+    return false;  // an extended scenario holds no fault of a recording
+  const PredictionError* e = reported_error(d);
+  const double without = map ? map->with : error_ahead(evaluation, selection.base, rules::reported_horizon);
+  return e && e->after < (1.0 - rules::of_no_account) * std::min(e->before, without);
+}
+
+std::string unclaimed_terms_sentence(const Diagnosis& d, const Selection& selection,
+                                     const std::vector<Candidate>& all) {
+  std::vector<std::string> effects;
+  for (const Found& found : selection.causes) effects.push_back(in_words(std::string(all[found.candidate].effect)));
+  return fmt::format(" The extended scenario holds {}, which claim{} no cause.", joined(effects, "and"),
+                     effects.size() == 1 ? "s" : "") +
+         gain_sentence(d);
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/inference/selection.hpp"
+#include "diagnosis/verdict/torque_map.hpp"
+
+namespace wormdrive {
+
+/// Whether causes whose names were withdrawn stay in the extended scenario, as terms that claim none: if they predict
+/// what they were not fitted to better than the drive does as stated, with other numbers within their tolerances, or
+/// with a map of what is left.
+bool unclaimed_terms_predict(const Diagnosis& diagnosis, const Evaluation& evaluation, const Selection& selection,
+                             const std::vector<Candidate>& all, const std::optional<LearnedMap>& map);
+
+/// Which terms these are and what they do, to be added to the sentence.
+std::string unclaimed_terms_sentence(const Diagnosis& diagnosis, const Selection& selection,
+                                     const std::vector<Candidate>& all);
+
+}  // namespace wormdrive
