@@ -139,7 +139,7 @@ class TaylorSolver {
     return then;
   }
 
-  /// The polynomials from now on to the first event, or to as far as they are accurate
+  /// The polynomials from now on to the first event, or to as far as they are accurate.
   void step(const Instant& now, double limit) {
     const double h = std::min(limit - now.t, max_step_);
     expand(now, h);
