@@ -112,7 +112,7 @@ class ClosedLoop {
   }
 
   /// What the sensor sees of the gear, as the worm shows it if it sits there; of the speed only where that is asked
-  /// for.
+  /// for, out of line, so that what sees none is inline.
   struct Seen {
     double angle, speed;
   };

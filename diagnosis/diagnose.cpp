@@ -241,7 +241,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   };
   std::optional<LearnedMap> map = learned(claimed ? settled(found.model) : found.base);
   const bool withdrawn = !claimed && !found.causes.empty(),
-             kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map);
+             kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map), stays = claimed || kept;
   if (withdrawn) d.uncertainty = {};
   if (kept) {
     d.sentence += unclaimed_terms_sentence(d, found, all);
@@ -249,18 +249,17 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   } else if (withdrawn) {
     d.calibration.clear();
     last = found.base;
-    describe(d, evaluation, before, found.base);
   }
+  if (map || (withdrawn && !kept)) describe(d, evaluation, before, map ? map->model : found.base);
   if (map) {
-    describe(d, evaluation, before, map->model);
-    last = refined_map(by_all, *map, claimed || kept ? settled(last) : last, sizes);
-    if (!claimed && !kept) {
+    last = refined_map(by_all, *map, stays ? settled(last) : last, sizes);
+    if (!stays) {
       d.calibration = calibrated(last, covariance(by_all, last, 2));
       put_units_on_axis(d, scenario.axis);
     }
     d.sentence += map_sentence(*map, scenario.axis);
   }
-  if (claimed || kept || map || (found.causes.empty() && calibration_matters(d))) {
+  if (stays || map || (found.causes.empty() && calibration_matters(d))) {
     Effects<double> found_effects = extended(last).effects;
     for (const Found& f : found.causes)  // names that were withdrawn beside others
       if (claimed && !all[f.candidate].of_recording &&

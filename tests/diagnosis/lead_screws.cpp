@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "diagnosis/causes.hpp"
+#include "diagnosis/answers.hpp"
 #include "diagnosis/points/point_diagnosis.hpp"
 #include "diagnosis/points/steady_points.hpp"
 #include "diagnosis/rules/evidence.hpp"

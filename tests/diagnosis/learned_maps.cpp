@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/answers.hpp"
 #include "diagnosis/recordings.hpp"
 #include "recovery/campaign.hpp"
 #include "simulation/run_scenario.hpp"
@@ -16,13 +16,6 @@ namespace {
 const TorqueMap<double>* map_in(const Diagnosis& d) {
   const auto& map = std::get<std::optional<TorqueMap<double>>>(d.extended.effects.list);
   return map ? &*map : nullptr;
-}
-
-double error_ahead(const Diagnosis& d, double PredictionError::*which) {
-  const auto e = std::find_if(d.prediction.begin(), d.prediction.end(),
-                              [](const PredictionError& p) { return p.horizon == 0.25; });
-  REQUIRE(e != d.prediction.end());
-  return (*e).*which;
 }
 
 }  // namespace
@@ -39,7 +32,7 @@ TEST_CASE("a torque over the angle that no effect has comes back as a map", "[sl
   REQUIRE(map);
   CHECK(map->over == MapAxis::gear_angle);
   CHECK(map->shaft == MapShaft::worm);
-  CHECK(error_ahead(d, &PredictionError::after) < 0.3 * error_ahead(d, &PredictionError::before));
+  CHECK(error_ahead(d).after < 0.3 * error_ahead(d).before);
   CHECK(d.sentence.find("claims no cause; it is in the extended scenario as torque_map") != std::string::npos);
   CAPTURE(map->table.points(), map->table.values());
   double square = 0.0, size = 0.0;
@@ -65,7 +58,7 @@ TEST_CASE("a fan on the gear, which no effect is, comes back as a map of its sha
   CHECK(map->shaft == MapShaft::gear);
   CHECK(map->table(150.0) < -0.5 * fan->large * std::pow(150.0 / 60.0, 2));
   CHECK(map->table(-150.0) > 0.5 * fan->large * std::pow(150.0 / 60.0, 2));
-  CHECK(error_ahead(d, &PredictionError::after) < 0.7 * error_ahead(d, &PredictionError::before));
+  CHECK(error_ahead(d).after < 0.7 * error_ahead(d).before);
   Scenario runs = d.extended;
   runs.motor = {{Sinusoid{.amplitude = 0.05, .frequency = 1.0}}};
   runs.control.reset();

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "catch.hpp"
+#include "diagnosis/answers.hpp"
 #include "diagnosis/candidates/coordinates.hpp"
-#include "diagnosis/causes.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "recovery/campaign.hpp"
 #include "some_of.hpp"

@@ -1,7 +1,5 @@
-#include <algorithm>
-
 #include "catch.hpp"
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/answers.hpp"
 #include "diagnosis/servo_logs.hpp"
 
 // Effects that come close to what no effect explains: they claim nothing, and predict motions that nobody has seen.
@@ -9,14 +7,6 @@
 namespace wormdrive::test::diagnosis_unclaimed_terms {
 
 namespace {
-
-/// The error 0.25 s ahead [rad] on data that nothing was fitted to.
-const PredictionError& error_ahead(const Diagnosis& d) {
-  const auto e = std::find_if(d.prediction.begin(), d.prediction.end(),
-                              [](const PredictionError& p) { return p.horizon == 0.25; });
-  REQUIRE(e != d.prediction.end());
-  return *e;
-}
 
 /// The published model M1: friction that depends on no load.
 Scenario published() {
@@ -35,8 +25,9 @@ TEST_CASE("a servo whose friction grows with its load is predicted by friction b
   std::get<std::optional<GearViscous<double>>>(sheet.effects.list) = {servo_kt * servo_kt / servo_ohm};
   std::vector<Recording> at_worm, at_output;
   for (const std::string& name : servo_logs("kp400")) {
-    if (!reference(name)) return;
-    at_worm.push_back(*servo_recording(name, sheet));
+    const auto log = servo_recording(name, sheet);
+    if (!log) return;
+    at_worm.push_back(*log);
     at_output.push_back(*servo_recording(name, published()));
   }
   const Diagnosis d = diagnose(sheet, at_worm, {.threads = 2});

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "catch.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 
 namespace wormdrive::test {
 
@@ -13,5 +15,13 @@ inline const EstimatedEffect* cause(const Diagnosis& d, std::string_view effect)
   return at == d.causes.end() ? nullptr : &*at;
 }
 inline bool names(const Diagnosis& d, std::string_view effect) { return cause(d, effect) != nullptr; }
+
+/// The error 0.25 s ahead, on data that nothing was fitted to.
+inline const PredictionError& error_ahead(const Diagnosis& d) {
+  const PredictionError* const error = reported_error(d);
+  REQUIRE(error);
+  REQUIRE(error->horizon == 0.25);
+  return *error;
+}
 
 }  // namespace wormdrive::test
