@@ -7,63 +7,11 @@
 #include <tuple>
 #include <utility>
 
-#include "core/effects/actuator_delay.hpp"
-#include "core/effects/actuator_lag.hpp"
-#include "core/effects/agma.hpp"
-#include "core/effects/backlash.hpp"
-#include "core/effects/bearing_asymmetry.hpp"
-#include "core/effects/cogging.hpp"
-#include "core/effects/dc_motor.hpp"
-#include "core/effects/encoder_delay.hpp"
-#include "core/effects/encoder_offset.hpp"
-#include "core/effects/encoder_scale.hpp"
-#include "core/effects/friction_asymmetry.hpp"
-#include "core/effects/friction_drift.hpp"
-#include "core/effects/gear_coulomb.hpp"
-#include "core/effects/gear_inertia.hpp"
-#include "core/effects/gear_viscous.hpp"
-#include "core/effects/load_angle.hpp"
-#include "core/effects/load_magnitude.hpp"
-#include "core/effects/load_spring.hpp"
-#include "core/effects/mesh_friction.hpp"
-#include "core/effects/position_friction.hpp"
-#include "core/effects/static_friction.hpp"
-#include "core/effects/stribeck.hpp"
-#include "core/effects/thread_friction.hpp"
-#include "core/effects/tooth_compliance.hpp"
-#include "core/effects/torque_gain.hpp"
-#include "core/effects/torque_map.hpp"
-#include "core/effects/torque_offset.hpp"
-#include "core/effects/torque_saturation.hpp"
-#include "core/effects/transmission_error.hpp"
-#include "core/effects/worm_coulomb.hpp"
-#include "core/effects/worm_inertia.hpp"
-#include "core/effects/worm_viscous.hpp"
+#include "core/effect_list.hpp"
 #include "core/hook.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
-
-/// A tuple of effects that may each be absent.
-template <template <class> class... Effect>
-struct Optional {
-  template <class T>
-  using Tuple = std::tuple<std::optional<Effect<T>>...>;
-};
-
-/// Every effect that can extend the nominal drive, off unless stated; a new one is a new file and one entry here.
-/// Effects at one place act in this order, each on what the one before it left.
-///
-/// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
-template <class T>
-using EffectList =
-    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
-             WormCoulomb, WormViscous, BearingAsymmetry, WormInertia, TorqueMap,                        // worm shaft
-             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,         // mesh
-             FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,               // mesh
-             GearCoulomb, GearViscous, GearInertia,                                                     // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring,                                                      // load
-             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
 
 /// How many states all effects may have together.
 inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;
@@ -160,6 +108,22 @@ struct Effects {
     });
     return fastest;
   }
+  /// Lets effects that change at given times take the piece that holds from t on.
+  void enter(double t) {
+    for_each([t](auto& effect) {
+      if constexpr (requires { effect->enter(t); })
+        if (effect) effect->enter(t);
+    });
+  }
+  /// First time after t at which an effect changes.
+  double next_knot(double t) const {
+    return through(
+        list, std::numeric_limits<double>::infinity(),
+        [](const auto& e, double next, double now) -> decltype(e.next_knot(now)) {
+          return std::min(next, e.next_knot(now));
+        },
+        t);
+  }
   /// Torque that the effects add on the worm shaft [N m].
   template <class S>
   S worm_torque(const Moment<S>& at, Motion motion) const {
@@ -248,6 +212,17 @@ struct Effects {
           return sum + e.gear_torque(now, way);
         },
         at, motion);
+  }
+  /// The same with what hangs on the load there [N m].
+  template <class S>
+  S gear_torque(const S& tau_l, const Moment<S>& at, Motion motion) const {
+    return through(
+        list, gear_torque(at, motion),
+        [](const auto& e, const S& sum, const S& load, const auto& now,
+           Motion way) -> decltype(sum + e.torque_under_load(load, now, way)) {
+          return sum + e.torque_under_load(load, now, way);
+        },
+        tau_l, at, motion);
   }
   /// Inertia that the effects add on the gear shaft [kg m^2].
   T gear_inertia() const {

@@ -28,8 +28,8 @@ Power power(const WormDrive<double, Load, with_states>& drive,
   const auto at = drive.moment(now);
   const Observation o = drive.observe(now);
   const Motion motion = now.mode.motion;
-  const double bearings =
-      -drive.effects().worm_torque(at, motion) * at.omega_w - drive.effects().gear_torque(at, motion) * at.omega_g;
+  const double bearings = -drive.effects().worm_torque(at, motion) * at.omega_w -
+                          drive.effects().gear_torque(o.tau_l, at, motion) * at.omega_g;
   // where the pitch is uneven, the worm's lever arms are shorter as its speed is greater: an even pitch's speed counts
   const double mesh = drive.mesh().has_teeth ? drive.friction(at, motion) * o.normal_force *
                                                    std::abs(drive.mesh().sliding_speed(drive.mesh().i * at.omega_g))

@@ -49,7 +49,10 @@ class TorqueBalance {
     enter_load(t);
     enter_motor(t);
   }
-  void enter_load(double t) { load_.enter(t); }
+  void enter_load(double t) {
+    load_.enter(t);
+    effects_.enter(t);
+  }
   void enter_motor(double t) { motor_.enter(t); }
   /// When the motor's present piece has arrived [s], with derivatives.
   const T& motor_arrival() const { return motor_.arrival(); }
@@ -74,7 +77,9 @@ class TorqueBalance {
   const Piece& motor_piece() const { return motor_.piece(); }
   const MotorInput<T>& motor_input() const { return motor_; }
   /// First time after t at which an input jumps or bends.
-  double next_knot(double t) const { return std::min(motor_.next_knot(t), load_.next_knot(t)); }
+  double next_knot(double t) const {
+    return std::min({motor_.next_knot(t), load_.next_knot(t), effects_.next_knot(t)});
+  }
   /// Highest angular frequency of the present inputs from t on [rad/s].
   double fastest_input(double t = -std::numeric_limits<double>::infinity()) const {
     return std::max({motor_.fastest(t), load_.fastest(), effects_.fastest_at_rest()});
@@ -145,7 +150,7 @@ class TorqueBalance {
   template <class S>
   SideTorques<S> with_bearings(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
-    return {input.worm + worm, input.gear + effects_.gear_torque(at, motion)};
+    return {input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
   }
   /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
   template <class S>
@@ -159,7 +164,7 @@ class TorqueBalance {
     return depends_on_motion([this](Motion motion) { return effects_.worm_torque(turning(), motion); });
   }
   bool gear_is_dry() const {
-    return depends_on_motion([this](Motion motion) { return effects_.gear_torque(turning(), motion); }) ||
+    return depends_on_motion([this](Motion motion) { return effects_.gear_torque(T(1), turning(), motion); }) ||
            depends_on_motion([this](Motion motion) { return effects_.load_torque(load_, turning(), motion); });
   }
   /// m = motion * flank * mu.

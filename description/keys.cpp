@@ -27,6 +27,7 @@ Spelling linear(std::string_view name, const Unit& unit) {
   if (unit.suffix == "Nm_per_s") return {stem, {"N_per_s", "N/s"}};
   if (unit.suffix == "Nm_per_rad") return {stem, {"N_per_m", "N/m"}};
   if (unit.suffix == "Nms_per_rad") return {stem, {"Ns_per_m", "N s/m"}};
+  if (unit.suffix == "s_per_rad") return {stem, unit::second_per_metre};
   if (unit.suffix == "Nm_per_A") return {stem, {"N_per_A", "N/A"}};
   if (unit.suffix == "V_per_Nm") return {stem, {"V_per_N", "V/N"}};
   return {stem, unit};

@@ -116,6 +116,18 @@ std::vector<Candidate> everything(const Scenario& scenario, const std::vector<Pr
   return all;
 }
 
+/// A model with all its numbers found again, those of its noise first.
+Hypothesis fitted_anew(const Evaluation& evaluation, Hypothesis h) {
+  evaluate(evaluation, h);
+  restart_noise(evaluation, h);
+  adjust_noise(evaluation, h, 3);
+  fit(evaluation, h, 12, 0.01);
+  adjust_noise(evaluation, h, 2);
+  refine_gap(evaluation, h);
+  fit(evaluation, h, 6, 0.01);
+  return h;
+}
+
 /// What a model predicts and leaves, against the scenario as it is stated.
 void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
   d.prediction = prediction_errors(evaluation, before, after, d.seed);
@@ -199,14 +211,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
 
   tell("fitting all data");
   const Evaluation by_all(scenario, with_nothing_held_out(std::move(all_prepared)), settings.threads);
-  Hypothesis last = found.model;
-  evaluate(by_all, last);
-  restart_noise(by_all, last);
-  adjust_noise(by_all, last, 3);
-  fit(by_all, last, 12, 0.01);
-  adjust_noise(by_all, last, 2);
-  refine_gap(by_all, last);
-  fit(by_all, last, 6, 0.01);
+  Hypothesis last = fitted_anew(by_all, found.model);
   const Eigen::MatrixXd spread = covariance(by_all, last, 2);
   d.uncertainty = joint_estimate(last, spread);
   for (const Found& f : found.causes)
@@ -219,29 +224,35 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     return std::any_of(found.causes.begin(), found.causes.end(),
                        [&](const Found& f) { return all[f.candidate].frees == c.effect; });
   };
-  const auto calibrated = [&](const Hypothesis& h, const Eigen::MatrixXd& errors) {
-    std::vector<EstimatedEffect> list;
-    for (const Coordinate& c : h.free)
-      if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c))) list.push_back(estimated(h, errors, c.effect, {c}));
-    return list;
+  const auto calibrate = [&](const Eigen::MatrixXd& errors) {
+    d.calibration.clear();
+    for (const Coordinate& c : last.free)
+      if (c.tolerance > 0.0 || (is_freed(c) && !is_cause(c)))
+        d.calibration.push_back(estimated(last, errors, c.effect, {c}));
+    put_units_on_axis(d, scenario.axis);
   };
-  d.calibration = calibrated(last, spread);
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
   if (const auto excess = error_above_noise(d)) d.remainders.push_back(*excess);
   d.extended = scenario;
-  put_units_on_axis(d, scenario.axis);
+  calibrate(spread);
   judge(d, found, all, sizes);
 
-  const bool claimed = !d.causes.empty(), may_learn = !d.remainders.empty() && !noise_dominated(d, sizes.torque);
+  const bool claimed = !d.causes.empty(), withdrawn = !claimed && !found.causes.empty();
+  if (const auto alone = withdrawn ? better_alone(evaluation, found) : std::nullopt) {
+    found = *alone;
+    last = fitted_anew(by_all, found.model);
+    calibrate(covariance(by_all, last, 2));
+    describe(d, evaluation, before, found.model);
+  }
+  const bool may_learn = !d.remainders.empty() && !noise_dominated(d, sizes.torque);
   const auto learned = [&](const Hypothesis& beside) {
     if (may_learn) tell("learning a map of what is left");
     return may_learn ? learned_map(evaluation, beside, sizes) : std::nullopt;
   };
   std::optional<LearnedMap> map = learned(claimed ? settled(found.model) : found.base);
-  const bool withdrawn = !claimed && !found.causes.empty(),
-             kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map), stays = claimed || kept;
+  const bool kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map), stays = claimed || kept;
   if (withdrawn) d.uncertainty = {};
   if (kept) {
     d.sentence += unclaimed_terms_sentence(d, found, all);
@@ -253,10 +264,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   if (map || (withdrawn && !kept)) describe(d, evaluation, before, map ? map->model : found.base);
   if (map) {
     last = refined_map(by_all, *map, stays ? settled(last) : last, sizes);
-    if (!stays) {
-      d.calibration = calibrated(last, covariance(by_all, last, 2));
-      put_units_on_axis(d, scenario.axis);
-    }
+    if (!stays) calibrate(covariance(by_all, last, 2));
     d.sentence += map_sentence(*map, scenario.axis);
   }
   if (stays || map || (found.causes.empty() && calibration_matters(d))) {

@@ -30,7 +30,7 @@ Power power(const CompliantDrive<double, Load>& drive, const typename CompliantD
   double loss = drive.friction(at, now.mode, Wn) *
                 (portable::cos(mesh.lambda) * mesh.lw * at.omega_w + portable::sin(mesh.lambda) * mesh.lg * at.omega_g);
   loss -= drive.effects().worm_torque(at, now.mode.worm) * at.omega_w +
-          drive.effects().gear_torque(at, now.mode.gear) * at.omega_g;
+          drive.effects().gear_torque(input.gear, at, now.mode.gear) * at.omega_g;
   for (const Flank flank : {Flank::left, Flank::right})
     if (const auto [d, v] = drive.penetration(at, flank); d > 0.0)
       loss += ((now.mode.contact == flank ? Wn : 0.0) - drive.contact().stiffness() * d) * v;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/loads/angle_table.hpp"
+#include "core/loads/end_stops.hpp"
 #include "core/loads/fan.hpp"
 #include "core/loads/gravity_arm.hpp"
 #include "core/loads/timed_load.hpp"
@@ -21,7 +22,7 @@ template <class... Kind>
 struct LoadKinds {};
 /// Every kind of load that is no function of time; a new one is a new file and one entry here. It names itself by
 /// `kind` and `meaning` and lists its `fields()`, from which it is read, written and shown.
-using SpecialLoads = LoadKinds<GravityArm, AngleTable, Fan>;
+using SpecialLoads = LoadKinds<GravityArm, AngleTable, Fan, EndStops>;
 
 inline TimedLoad make_load(const Signal& signal) { return {signal}; }
 inline GravityLoad make_load(const GravityArm& arm) { return GravityLoad(arm); }

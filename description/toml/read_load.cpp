@@ -1,7 +1,9 @@
 #include "description/toml/read_load.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -26,6 +28,17 @@ void check_together(TableReader& table, const GravityArm&) {
   else if (!table.has("torque_Nm") && !(table.has("mass_kg") && table.has("arm_m")))
     table.lacks("'torque_Nm', or 'mass_kg' and 'arm_m'");
 }
+void check_together(TableReader& table, const EndStops& stops) {
+  const auto keys = [&](std::string_view name) { return spellings(name, unit::degrees, table.axis()); };
+  const auto stated = [&](const Spelling& key) { return table.has(key.key); };
+  const std::vector<Spelling> low = keys("angle_low"), high = keys("angle_high");
+  if (std::none_of(low.begin(), low.end(), stated) && std::none_of(high.begin(), high.end(), stated))
+    return table.lacks(fmt::format("'{}' or '{}'", low.front().key, high.front().key));
+  if (!stops.low || !stops.high || *stops.low < *stops.high) return;
+  const std::string key = std::find_if(high.begin(), high.end(), stated)->key;
+  table.fault(key, fmt::format("{} must be greater than {}", table.path_of(key),
+                               std::find_if(low.begin(), low.end(), stated)->key));
+}
 
 }  // namespace
 
@@ -40,7 +53,7 @@ LoadParameters read_load(TableReader& root, const std::string& folder) {
           load = read_samples(table, "load_torque", folder);
         else
           read_parameters(table, load, folder);
-        if constexpr (std::is_same_v<Load, GravityArm>) check_together(table, load);
+        if constexpr (requires { check_together(table, load); }) check_together(table, load);
       });
   return load_of(std::move(sum.terms));
 }

@@ -166,6 +166,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     all.push_back(
         linear("gear_viscous", "coefficient", 0.01 * gear_torque / m.gear_speed, 0.0, gear_torque / m.gear_speed));
   }
+  if (m.load_torque > 0.0 && !m.has_teeth) all.push_back(linear("friction_under_load", "share", 0.02, 0.0, 1.0));
   if (m.load_torque > 0.0 || !m.has_teeth) {
     const double torque = m.has_teeth ? m.load_torque : m.torque;
     all.push_back(linear("load_spring", "stiffness", 0.03 * torque, -3.0 * torque, 3.0 * torque));
@@ -188,6 +189,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
 std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
                                 {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
+                                {"holding_brake", "a brake to state, not a deviation"},
                                 {"torque_map", "a table that fits anything claims no cause"}};
   if (m.has_teeth && has_standard_friction(stated))
     list.push_back({"stribeck", "effect.agma states already how friction falls with the sliding speed"});
@@ -203,9 +205,11 @@ std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magni
   if (!m.has_teeth)
     for (const std::string_view effect : {"gear_coulomb", "gear_viscous", "gear_inertia"})
       list.push_back({effect, "without a gear the worm's side stands for both"});
-  if (m.load_torque <= 0.0)
+  if (m.has_teeth) list.push_back({"friction_under_load", "the friction between the teeth grows with the load as well"});
+  if (m.load_torque <= 0.0) {
     for (const std::string_view effect : {"load_magnitude", "load_angle"}) list.push_back({effect, "there is no load"});
-  else if (!m.load_turns)
+    if (!m.has_teeth) list.push_back({"friction_under_load", "there is no load"});
+  } else if (!m.load_turns)
     list.push_back({"load_angle", "the load does not depend on the angle"});
   return list;
 }

@@ -92,6 +92,7 @@ void CauseSearch::simplify() {
 }
 
 void CauseSearch::try_pairs() {
+  if (most_causes_ < 2) return;
   tell("trying pairs");
   const double have = s_.base.bic - s_.model.bic;
   const double margin = clear_margin(have);

@@ -10,6 +10,26 @@
 
 namespace wormdrive {
 
+std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection) {
+  if (selection.causes.size() < 2) return std::nullopt;
+  double least = error_ahead(evaluation, selection.model, rules::reported_horizon);
+  const Tried* best = nullptr;
+  for (const Tried& one : selection.tried) {
+    if (std::none_of(selection.causes.begin(), selection.causes.end(),
+                     [&](const Found& found) { return found.candidate == one.candidate; }))
+      continue;
+    if (const double error = error_ahead(evaluation, one.model, rules::reported_horizon); error < least) {
+      least = error;
+      best = &one;
+    }
+  }
+  if (!best) return std::nullopt;
+  Selection alone = selection;
+  alone.model = best->model;
+  alone.causes = {{best->candidate, {}}};
+  return alone;
+}
+
 bool unclaimed_terms_predict(const Diagnosis& d, const Evaluation& evaluation, const Selection& selection,
                              const std::vector<Candidate>& all, const std::optional<LearnedMap>& map) {
   if (std::any_of(selection.causes.begin(), selection.causes.end(),

@@ -9,6 +9,10 @@
 
 namespace wormdrive {
 
+/// One of several causes whose names were withdrawn, with its fit beside the base, if it alone predicts what it was not
+/// fitted to better than all of them together do.
+std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection);
+
 /// Whether causes whose names were withdrawn stay in the extended scenario, as terms that claim none: if they predict
 /// what they were not fitted to better than the drive does as stated, with other numbers within their tolerances, or
 /// with a map of what is left.

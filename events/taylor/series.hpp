@@ -45,8 +45,12 @@ class SeriesFlow {
     const auto step = [&](const Roundings& inputs) {
       return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, inputs); });
     };
-    const double within = step({});
-    if (within < e.step) e.step = step(roundings(system, now));
+    const double whole = e.step;
+    if (step({}) == whole) return;
+    e.step = step(roundings(system, now));
+    // a branch at an angle is known to the rounding of the angle: steps that leave it as it is would never get there
+    const double passed = epsilon * std::abs(now.x[0] / now.x[1]);
+    if (passed * std::abs(e.omega[1]) < std::abs(now.x[1])) e.step = std::max(e.step, std::min(passed, whole));
   }
 
  private:

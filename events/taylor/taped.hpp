@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -33,10 +34,13 @@ class TapedFlow<WormDrive<double, Load>> {
   using Motion = Expansion<System::guard_count>;
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
-  explicit TapedFlow(const System& system) : system_(system) {}
+  explicit TapedFlow(const System& system)
+      : system_(system),
+        changes_(std::isfinite(system.effects().next_knot(-std::numeric_limits<double>::infinity()))) {}
 
   /// False where equations in this mode cannot be recorded.
   bool covers(Mode mode) {
+    if (changes_) return false;
     const int at = (sign(mode.motion) > 0 ? 3 : 0) + sign(mode.flank) + 1;
     course_ = courses_[static_cast<std::size_t>(at)].get();
     if (course_ == nullptr) [[unlikely]]
@@ -264,6 +268,7 @@ class TapedFlow<WormDrive<double, Load>> {
     if (mode.flank == Flank::none) e.guards[System::flank_guard][0] = 1.0;
   }
   const System& system_;
+  bool changes_;  ///< an effect is another one from a given time on
   std::array<std::unique_ptr<Course>, 6> courses_;
   Course* course_ = nullptr;  ///< of the latest mode
   int terms_ = 0;             ///< of the latest leap

@@ -109,6 +109,10 @@ TEST_CASE("a missing key is reported with its meaning") {
        "s.toml:17:1: error: load[1] lacks 'torque_Nm', or 'mass_kg' and 'arm_m'"},
       {"speed of a fan", good_but(load, "kind = \"fan\"\ntorque_Nm = 1"),
        "s.toml:14:1: error: [load] lacks 'speed_rad_per_s' (gear speed at which it is stated)"},
+      {"angle of a stop", good_but(load, "kind = \"end_stops\"\nstiffness_Nm_per_rad = 1"),
+       "s.toml:14:1: error: [load] lacks 'angle_low_deg' or 'angle_high_deg'"},
+      {"order of two stops", good_but(load, "kind = \"end_stops\"\nstiffness_Nm_per_rad = 1\nangle_low_rad = 0.5\nangle_high_deg = 20"),
+       "s.toml:18:18: error: load.angle_high_deg must be greater than angle_low_rad"},
       {"everything of an arm", good_but(load, "kind = \"gravity_arm\""),
        "s.toml:14:1: error: [load] lacks 'torque_Nm', or 'mass_kg' and 'arm_m'"}});
 }
@@ -152,9 +156,9 @@ TEST_CASE("an unknown word is rejected with the known ones") {
       {"torque", good_but(motor, "kind = \"sinus\""),
        "s.toml:12:8: error: motor.torque.kind = \"sinus\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\""},
       {"load", good_but(load, "kind = \"gravity\""),
-       "s.toml:15:8: error: load.kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
+       "s.toml:15:8: error: load.kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\", \"end_stops\""},
       {"one of several loads", good_but("[load]\n" + load, "[[load]]\n" + load + "\n[[load]]\nkind = \"gravity\""),
-       "s.toml:18:8: error: load[1].kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\""},
+       "s.toml:18:8: error: load[1].kind = \"gravity\" must be one of \"constant\", \"sinusoid\", \"ramp\", \"step\", \"staircase\", \"samples\", \"gravity_arm\", \"angle_table\", \"fan\", \"end_stops\""},
       {"mesh", good_but("[mesh]", "[mesh]\nkind = \"spur\""), "s.toml:3:8: error: mesh.kind = \"spur\" must be one of \"worm\", \"data_sheet\", \"none\""}});
 }
 

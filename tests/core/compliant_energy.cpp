@@ -32,7 +32,7 @@ Works rates(const Drive& d, const typename Drive::Instant& now, double k, double
   const double sliding = seen.teeth->friction * (p.lw * std::cos(p.lambda) * w + p.lg * std::sin(p.lambda) * g);
   const auto at = d.moment(now);
   const double bearings =
-      d.effects().worm_torque(at, now.mode.worm) * w + d.effects().gear_torque(at, now.mode.gear) * g;
+      d.effects().worm_torque(at, now.mode.worm) * w + d.effects().gear_torque(seen.tau_l, at, now.mode.gear) * g;
   const double in = seen.tau_m * w + seen.tau_l * g;
   return {in, damping + sliding - bearings, damping};
 }

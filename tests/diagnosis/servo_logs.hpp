@@ -25,7 +25,25 @@ inline Scenario pendulum() {
   return s;
 }
 
-/// The same with its gearbox stated as a worm gear of the same ratio, which its load drives back.
+inline constexpr double servo_kt = 0.3232, servo_ohm = 4.764;  ///< published, at the output [N m/A, ohm]
+
+/// The same with the back-EMF of its motor, which brakes like a viscous bearing.
+inline Scenario pendulum_with_back_emf() {
+  Scenario s = pendulum();
+  std::get<std::optional<WormViscous<double>>>(s.effects.list) = {servo_kt * servo_kt / servo_ohm};
+  return s;
+}
+
+/// The published model M1: friction that depends on no load.
+inline Scenario published_servo() {
+  Scenario s = pendulum();
+  std::get<std::optional<WormCoulomb<double>>>(s.effects.list) = {6.97e-3};
+  std::get<std::optional<WormViscous<double>>>(s.effects.list) = {1.0495e-2 + servo_kt * servo_kt / servo_ohm};
+  std::get<GravityArm>(s.load).offset += 0.01795;
+  return s;
+}
+
+/// The pendulum with its gearbox stated as a worm gear of the same ratio, which its load drives back.
 inline Scenario geared_pendulum() {
   Scenario s = pendulum();
   MeshParameters<double> mesh;
@@ -40,8 +58,6 @@ inline Scenario geared_pendulum() {
   s.mesh = mesh;
   return s;
 }
-
-inline constexpr double servo_kt = 0.3232, servo_ohm = 4.764;  ///< published, at the output [N m/A, ohm]
 
 /// Names of the logs of a gain, kp100 or kp400: four motions.
 inline std::vector<std::string> servo_logs(const std::string& gain) {

@@ -6,19 +6,6 @@
 
 namespace wormdrive::test::diagnosis_unclaimed_terms {
 
-namespace {
-
-/// The published model M1: friction that depends on no load.
-Scenario published() {
-  Scenario s = pendulum();
-  std::get<std::optional<WormCoulomb<double>>>(s.effects.list) = {6.97e-3};
-  std::get<std::optional<WormViscous<double>>>(s.effects.list) = {1.0495e-2 + servo_kt * servo_kt / servo_ohm};
-  std::get<GravityArm>(s.load).offset += 0.01795;
-  return s;
-}
-
-}  // namespace
-
 TEST_CASE("a servo whose friction grows with its load is predicted by friction between teeth, which claims no cause",
           "[reference][slow]") {
   Scenario sheet = geared_pendulum();
@@ -28,7 +15,7 @@ TEST_CASE("a servo whose friction grows with its load is predicted by friction b
     const auto log = servo_recording(name, sheet);
     if (!log) return;
     at_worm.push_back(*log);
-    at_output.push_back(*servo_recording(name, published()));
+    at_output.push_back(*servo_recording(name, published_servo()));
   }
   const Diagnosis d = diagnose(sheet, at_worm, {.threads = 2});
   CAPTURE(d.sentence);
@@ -41,7 +28,7 @@ TEST_CASE("a servo whose friction grows with its load is predicted by friction b
   REQUIRE(friction);
   CHECK(friction->change > 0.01);
   // 104 against 130 mrad
-  const Diagnosis of_published = diagnose(published(), at_output, {.threads = 2, .most_causes = 0});
+  const Diagnosis of_published = diagnose(published_servo(), at_output, {.threads = 2, .most_causes = 0});
   CHECK(error_ahead(d).after < 0.9 * error_ahead(of_published).before);
 }
 

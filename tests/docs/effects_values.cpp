@@ -97,7 +97,7 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
   if (quantity == "tau_m") return drive.inputs(moment, motion).worm;
   if (quantity == "tau_l") return drive.inputs(moment, motion).gear;
   if (quantity == "tau_w") return on.worm_torque(moment, motion);
-  if (quantity == "tau_g") return on.gear_torque(moment, motion);
+  if (quantity == "tau_g") return on.gear_torque(drive.inputs(moment, motion).gear, moment, motion);
   if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
   if (quantity == "Jw") return mesh.Jw;
   if (quantity == "Jg") return drive.Jg();

@@ -63,14 +63,15 @@ Effects<double> one_of_each() {
   return effects(TorqueSaturation<double>{0.03}, ActuatorDelay<double>{0.007}, ActuatorLag<double>{0.004},
                  DcMotor<double>{12.0, 0.025}, TorqueGain<double>{0.05}, TorqueOffset<double>{0.001},
                  Cogging<double>{0.001, 2.0, 0.3}, WormCoulomb<double>{0.006}, WormViscous<double>{4e-5},
-                 BearingAsymmetry<double>{5e-4, 1e-5}, WormInertia<double>{2e-6}, Agma<double>{0.9},
-                 MeshFriction<double>{0.01}, Stribeck<double>{0.03, 0.1, 1.0}, FrictionAsymmetry<double>{0.01},
-                 PositionFriction<double>{0.1, 0.4}, ThreadFriction<double>{0.05, 0.9},
+                 BearingAsymmetry<double>{5e-4, 1e-5}, HoldingBrake<double>{0.001}, WormInertia<double>{2e-6},
+                 Agma<double>{0.9}, MeshFriction<double>{0.01}, Stribeck<double>{0.03, 0.1, 1.0},
+                 FrictionAsymmetry<double>{0.01}, PositionFriction<double>{0.1, 0.4}, ThreadFriction<double>{0.05, 0.9},
                  FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
                  TorqueMap<double>{MapAxis::worm_speed, 1.2, map_over({-120, -40, 0, 30, 120}), MapShaft::gear},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
-                 GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},
-                 LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
+                 FrictionUnderLoad<double>{0.1}, GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05},
+                 LoadAngle<double>{0.05}, LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01},
+                 EncoderOffset<double>{0.01});
 }
 
 /// What makes the teeth elastic belongs to another drive; a late angle has a test of its own.

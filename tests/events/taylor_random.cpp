@@ -181,6 +181,7 @@ Comparison compare_random_sums(Dice& dice) {
   Effects<double> on;
   maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
   maybe(dice, on, GearCoulomb<double>{dice.between(0, 0.02)});
+  maybe(dice, on, FrictionUnderLoad<double>{dice.between(0, 0.6)});
   maybe(dice, on, GearViscous<double>{dice.between(0, 1e-3)});
   LoadSum load{{Fan{.rated_torque = dice.between(0, 0.05), .rated_speed = dice.between(0.5, 3)}}};
   for (int arms = dice.below(3); arms > 0; --arms) {

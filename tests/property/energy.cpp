@@ -26,7 +26,7 @@ Powers powers(const Drive& d, const typename Drive::Instant& now) {
   const Observation seen = d.observe(now);
   const auto at = d.moment(now);
   const double bearings = d.effects().worm_torque(at, now.mode.motion) * at.omega_w +
-                          d.effects().gear_torque(at, now.mode.motion) * at.omega_g;
+                          d.effects().gear_torque(seen.tau_l, at, now.mode.motion) * at.omega_g;
   const double sliding = std::abs(d.mesh().sliding_speed(at.omega_w));
   return {seen.tau_m * at.omega_w, seen.tau_l * at.omega_g, d.mesh().mu * seen.normal_force * sliding - bearings};
 }
@@ -91,7 +91,7 @@ Balance balance(const Drive& d, const Run<Drive>& of) {
 
 Effects<double> bearings() {
   return effects(WormCoulomb<double>{0.003}, WormViscous<double>{2e-5}, GearCoulomb<double>{0.004},
-                 GearViscous<double>{0.002});
+                 GearViscous<double>{0.002}, FrictionUnderLoad<double>{0.1});
 }
 
 }  // namespace

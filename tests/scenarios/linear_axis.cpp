@@ -110,7 +110,7 @@ TEST_CASE("what turns has no place on a linear axis, and is told in its words") 
                   {"gravity arm", edited(sledge, load, "kind = \"gravity_arm\"\nforce_N = 1"),
                    "s.toml:10:8: error: load.kind = \"gravity_arm\" must be one of \"constant\", \"sinusoid\", "
                    "\"ramp\", \"step\", \"staircase\", "
-                   "\"samples\", \"angle_table\", \"fan\""},
+                   "\"samples\", \"angle_table\", \"fan\", \"end_stops\""},
                   {"axis", edited(sledge, "axis = \"linear\"", "axis = \"straight\""),
                    "s.toml:4:8: error: mesh.axis = \"straight\" must be one of \"rotary\", \"linear\""},
                   {"axis of a worm gear", good_but("[mesh]", "[mesh]\naxis = \"linear\""),

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,6 +36,11 @@ torques_Nm = [0.02, 0.03, -0.04, 0]
 kind = "fan"
 torque_Nm = 0.3
 speed_rad_per_s = 2
+[[load]]
+kind = "end_stops"
+angle_high_deg = 12
+stiffness_Nm_per_rad = 3
+damping_s_per_rad = 0.2
 )";
 
 std::string scenario() {
@@ -49,7 +55,7 @@ std::string scenario() {
 
 TEST_CASE("a scenario with loads that add up is the same after it was written and read") {
   const Scenario s = parse_scenario(scenario(), "text", {}, Purpose::run);
-  REQUIRE(std::get<LoadSum>(s.load).terms.size() == 5);
+  REQUIRE(std::get<LoadSum>(s.load).terms.size() == 6);
   const std::string text = to_toml(s);
   INFO(text);
   const Scenario read = parse_scenario(text, "text", {}, Purpose::run);
@@ -79,9 +85,11 @@ TEST_CASE(
     const auto table = make_load(AngleTable{
         {-90 * unit::degree, -20 * unit::degree, 10 * unit::degree, 60 * unit::degree}, {0.02, 0.03, -0.04, 0}});
     for (std::size_t k = 0; k < t.size(); ++k) {
+      const double depth = std::max(0.0, theta[k] - 12 * unit::degree);
       const double by_hand =
           0.15 * std::cos(theta[k] + 33.3 * unit::degree) - 0.05 + 0.04 * std::cos(4 * std::numbers::pi * t[k]) +
-          table.torque(Moment<double>{t[k], theta[k], 0, 0}) - 0.3 / 4.0 * omega[k] * std::abs(omega[k]);
+          table.torque(Moment<double>{t[k], theta[k], 0, 0}) - 0.3 / 4.0 * omega[k] * std::abs(omega[k]) -
+          std::max(0.0, 3.0 * depth * (1.0 + 0.2 * omega[k]));
       REQUIRE(std::abs(torque[k] - by_hand) <= 1e-14);
     }
   }
