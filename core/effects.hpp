@@ -86,6 +86,15 @@ struct Effects {
     return id;
   }
   bool have_states() const { return !first_with_states().empty(); }
+  /// How a scenario states that effect so that it has none.
+  std::string_view without_states() const {
+    std::string_view way;
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (MayHaveStates<E>)
+        if (way.empty() && effect && effect->has_states()) way = E::without_states;
+    });
+    return way;
+  }
   /// Rates of the states of the effects, for a command [N m].
   template <class S>
   std::array<S, effect_state_count> state_rates(const S& command, const MomentOfEffects<S>& at) const {

@@ -42,6 +42,10 @@ inline constexpr Unit volt{"V", "V"};
 inline constexpr Unit ampere{"A", "A"};
 inline constexpr Unit ohm{"ohm", "ohm"};
 inline constexpr Unit henry{"H", "H"};
+inline constexpr Unit kelvin{"K", "K"};
+inline constexpr Unit joule_per_kelvin{"J_per_K", "J/K"};
+inline constexpr Unit kelvin_per_watt{"K_per_W", "K/W"};
+inline constexpr Unit per_kelvin{"per_K", "1/K"};
 inline constexpr Unit newton_metre_per_ampere{"Nm_per_A", "N m/A"};
 inline constexpr Unit volt_per_newton_metre{"V_per_Nm", "V/(N m)"};
 }  // namespace unit

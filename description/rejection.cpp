@@ -71,11 +71,12 @@ std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) 
 }
 
 std::string refusal(const DcMotor<double>& motor, const Scenario& scenario) {
+  if (!motor.heat_capacity && (motor.thermal_resistance || motor.temperature_coefficient))
+    return fmt::format("states {} without heat_capacity_J_per_K, which says how fast the winding warms up; add it",
+                       motor.thermal_resistance ? "thermal_resistance_K_per_W" : "temperature_coefficient_per_K");
   if (!motor.has_states() || !has_elastic_teeth(scenario.effects)) return "";
-  return fmt::format(
-      "has inductance_H = {:.6g} H, which makes its current a state, and elastic teeth carry no states of effects; set "
-      "inductance_H = 0, or switch effect.tooth_compliance off",
-      *motor.inductance);
+  return fmt::format("has states, which elastic teeth do not carry; {}, or switch effect.tooth_compliance off",
+                     motor.without_states);
 }
 
 /// Why an effect cannot be on along with another one that is; empty if it can.

@@ -49,7 +49,9 @@ std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic, bool winding) 
        {{"motor_current", "A", "current I through the motor's winding"},
         [](const Row& r) { return r.at.winding->current; }},
        {{"electrical_power", "W", "power U I out of the supply"}, [](const Row& r) { return r.at.winding->power(); }},
-       {{"winding_loss", "W", "heat in the motor's winding"}, [](const Row& r) { return r.at.winding->loss; }}});
+       {{"winding_loss", "W", "heat in the motor's winding"}, [](const Row& r) { return r.at.winding->loss; }},
+       {{"winding_temperature_rise", "K", "temperature of the motor's winding above its surroundings"},
+        [](const Row& r) { return r.at.winding->warmth; }}});
 }
 
 /// The kinds of event that a drive can have, as flags: those of a rigid drive come first.

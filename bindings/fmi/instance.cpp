@@ -38,7 +38,8 @@ void FmuInstance::begin() {
   const Scenario& set = model_.scenario;
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
   if (const auto id = set.effects.first_with_states(); !id.empty())
-    throw std::invalid_argument(fmt::format("effect.{} has a state, which the FMU does not carry", id));
+    throw std::invalid_argument(
+        fmt::format("effect.{} has a state, which the FMU does not carry; {}", id, set.effects.without_states()));
   const auto move_from_outside = [&]<class Drive>(Drive drive) {
     state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
   };

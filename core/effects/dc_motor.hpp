@@ -13,7 +13,7 @@
 namespace wormdrive {
 
 /// A motor with brushes on an amplifier that gives a voltage. With an inductance its current is a state; without one
-/// the current follows voltage and speed at once.
+/// the current follows voltage and speed at once. With a heat capacity the temperature of its winding is a state.
 template <class T>
 struct DcMotor {
   static constexpr std::string_view id = "dc_motor";
@@ -21,8 +21,9 @@ struct DcMotor {
   static constexpr std::string_view cause =
       "an amplifier gives a voltage, and back-EMF, resistance and inductance of the winding say what current flows";
   static constexpr std::string_view law =
-      "inductance I' = U - resistance I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain "
-      "u within +-supply_voltage";
+      "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
+      "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
+      "h/thermal_resistance";
   static constexpr std::string_view source =
       "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};
@@ -30,6 +31,9 @@ struct DcMotor {
   std::optional<T> inductance{};
   std::optional<T> supply_voltage{};
   std::optional<T> amplifier_gain{};
+  std::optional<T> heat_capacity{};
+  std::optional<T> thermal_resistance{};
+  std::optional<T> temperature_coefficient{};
 
   static constexpr auto fields() {
     using P = DcMotor;
@@ -45,20 +49,39 @@ struct DcMotor {
         Field{&P::amplifier_gain, "amplifier_gain", unit::volt_per_newton_metre, bounds::positive,
               "voltage per commanded torque; if not stated resistance / torque_constant, which gives that torque at "
               "standstill",
-              o}};
+              o},
+        Field{&P::heat_capacity, "heat_capacity", unit::joule_per_kelvin, bounds::positive,
+              "of the winding and what is as warm as it; if not stated the winding stays as it is", o},
+        Field{&P::thermal_resistance, "thermal_resistance", unit::kelvin_per_watt, bounds::positive,
+              "from the winding to its surroundings; without it no heat leaves", o},
+        Field{&P::temperature_coefficient, "temperature_coefficient", unit::per_kelvin, bounds::not_negative,
+              "rise of the resistance per temperature, 0.0039 of copper; 0, if not stated", o}};
   }
 
   // ---- its state ----------------------------------------------------------------------------------------------
 
-  static constexpr std::array states{EffectState{"current", unit::ampere}};
-  bool has_states() const { return inductance && *inductance > T(0); }
-  /// I' [A/s].
+  static constexpr std::array states{EffectState{"current", unit::ampere},
+                                     EffectState{"temperature_rise", unit::kelvin}};
+  static constexpr std::string_view without_states = "state neither inductance_H nor heat_capacity_J_per_K";
+  bool has_inductance() const { return inductance && *inductance > T(0); }
+  bool has_states() const { return has_inductance() || heat_capacity; }
+  /// I' [A/s] and h' [K/s]; the winding warms up from its surroundings on.
   template <class S>
-  std::array<S, 1> state_rates(const S& command, const Moment<S>& at, const std::array<S, 1>& state) const {
-    return {(voltage(command) - torque_constant * at.omega_w - resistance * state[0]) / *inductance};
+  std::array<S, 2> state_rates(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    const S R = hot_resistance(state), I = current(command, at, state);
+    std::array<S, 2> rates{S(0.0), S(0.0)};
+    if (has_inductance()) rates[0] = (voltage(command) - torque_constant * at.omega_w - R * I) / *inductance;
+    if (!heat_capacity) return rates;
+    rates[1] = R * I * I / *heat_capacity;
+    if (thermal_resistance) rates[1] = rates[1] - state[1] / (*thermal_resistance * *heat_capacity);
+    return rates;
   }
-  /// How fast the state settles [1/s].
-  T fastest_state() const { return resistance / *inductance; }
+  /// How fast the faster of them settles [1/s].
+  T fastest_state() const {
+    const T electrical = has_inductance() ? resistance / *inductance : T(0);
+    const T thermal = heat_capacity && thermal_resistance ? T(1) / (*thermal_resistance * *heat_capacity) : T(0);
+    return electrical > thermal ? electrical : thermal;
+  }
 
   // ---- what it does -------------------------------------------------------------------------------------------
 
@@ -72,15 +95,26 @@ struct DcMotor {
   S current(const S& command, const Moment<S>& at) const {
     return (voltage(command) - torque_constant * at.omega_w) / resistance;
   }
+  /// R of a winding that has warmed up [ohm].
+  template <class S>
+  S hot_resistance(const std::array<S, 2>& state) const {
+    return temperature_coefficient ? S(resistance * (S(T(1)) + *temperature_coefficient * state[1])) : S(resistance);
+  }
+  /// I with the states [A].
+  template <class S>
+  S current(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    if (has_inductance()) return state[0];
+    return (voltage(command) - torque_constant * at.omega_w) / hot_resistance(state);
+  }
   /// Motor torque [N m] for a command, with the current that follows at once ...
   template <class S>
   S motor_torque(const S& command, const Moment<S>& at) const {
     return torque_constant * current(command, at);
   }
-  /// ... and with that of the state.
+  /// ... and with its states.
   template <class S>
-  S motor_torque(const S&, const Moment<S>&, const std::array<S, 1>& state) const {
-    return torque_constant * state[0];
+  S motor_torque(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    return torque_constant * current(command, at, state);
   }
   /// Largest magnitude of the command [N m], infinity without a supply that ends it.
   T torque_limit() const {

@@ -19,7 +19,8 @@ struct ElasticTeeth {
 struct Winding {
   double voltage;  ///< U [V]
   double current;  ///< I [A]
-  double loss;     ///< heat, resistance I^2 [W]
+  double loss;     ///< heat, R I^2 [W]
+  double warmth;   ///< temperature above that of the surroundings [K]
 
   double power() const { return voltage * current; }  ///< out of the supply [W]
 };

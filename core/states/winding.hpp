@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <tuple>
 
@@ -18,10 +19,12 @@ template <template <class> class M>
 std::optional<Winding> winding(const Effects<double>& effects, double command, const M<double>& at) {
   const auto& motor = dc_motor(effects);
   if (!motor) return std::nullopt;
-  double current = motor->current(command, at);
-  if constexpr (requires { at.states; })
-    if (motor->has_states()) current = StateLayout<EffectList<double>>::of<DcMotor<double>>(at.states)[0];
-  return Winding{motor->voltage(command), current, motor->resistance * current * current};
+  std::array<double, 2> state{motor->current(command, at), 0.0};
+  if constexpr (requires { at.states; }) {
+    state = StateLayout<EffectList<double>>::of<DcMotor<double>>(at.states);
+    state[0] = motor->current(command, at, state);
+  }
+  return Winding{motor->voltage(command), state[0], motor->hot_resistance(state) * state[0] * state[0], state[1]};
 }
 
 /// Energy in the field of the winding [J].

@@ -169,4 +169,51 @@ TEST_CASE("a gear that is held stays at speed zero to the last bit while the cur
   }
 }
 
+TEST_CASE(
+    "a winding that is held warms up as a capacity behind a thermal resistance does, while its current rises too") {
+  const double U = 6.0;
+  for (const double L : {0.0, 1.5e-3, 0.3})
+    for (const double H : {0.02, 40.0}) {
+      DcMotor<double> m = motor(L);
+      m.heat_capacity = H;
+      m.thermal_resistance = 5.0;
+      const double T = 5.0 * H, heat = U * U / m.resistance;
+      // the answer of the capacity to heat that decays at a rate
+      const auto answer = [&](double rate, double t) {
+        return (std::exp(-rate * t) - std::exp(-t / T)) / (1.0 / T - rate) / H;
+      };
+      for (const By by : {bdf, adams}) {
+        const auto seen = run(drive_with_states(GearMesh<double>(table1()), constant(-2.0), constant(U), effects(m)),
+                              Timetable(0, 3.0 * T, T / 20), {}, tight(by));
+        for (const auto& row : seen.rows) {
+          const double t = row.now.t, rate = L > 0.0 ? m.resistance / L : 0.0;
+          double h = heat * answer(0.0, t);
+          if (L > 0.0) h += heat * (answer(2.0 * rate, t) - 2.0 * answer(rate, t));
+          REQUIRE(std::abs(row.now.x[3] - h) <= 1e-9 * heat * 5.0);
+          REQUIRE(row.seen.winding->warmth == row.now.x[3]);
+        }
+      }
+    }
+}
+
+TEST_CASE("a winding of copper takes less current the warmer it is, until it gives off what it takes") {
+  const double U = 6.0, cold = 1.2, alpha = 0.0039, thermal = 5.0;
+  for (const double L : {0.0, 1.5e-3}) {
+    DcMotor<double> m = motor(L);
+    m.heat_capacity = 0.4;
+    m.thermal_resistance = thermal;
+    m.temperature_coefficient = alpha;
+    const auto seen = run(drive_with_states(GearMesh<double>(table1()), constant(-2.0), constant(U), effects(m)),
+                          Timetable(0, 100, 1), {}, tight(bdf));
+    // alpha h^2 + h = thermal U^2/cold
+    const double h = (std::sqrt(1.0 + 4.0 * alpha * thermal * U * U / cold) - 1.0) / (2.0 * alpha);
+    const Winding& end = *seen.rows.back().seen.winding;
+    REQUIRE(h > 80.0);
+    REQUIRE(std::abs(end.warmth - h) <= 1e-9 * h);
+    REQUIRE(std::abs(end.current - U / (cold * (1.0 + alpha * h))) <= 1e-9 * U / cold);
+    REQUIRE(std::abs(end.loss - h / thermal) <= 1e-9 * end.loss);
+    REQUIRE(std::abs(seen.rows.back().seen.tau_m - m.torque_constant * end.current) <= 1e-15);
+  }
+}
+
 }  // namespace wormdrive::test::events_dc_motor

@@ -273,8 +273,8 @@ TEST_CASE("what cannot be an FMU is refused with a way out, and nothing is writt
        {"a winding",
         good_scenario +
             "[effect.dc_motor]\nresistance_ohm = 1.2\ntorque_constant_Nm_per_A = 0.025\ninductance_H = 1e-3\n",
-        "s.toml: error: effect.dc_motor has a state, which the FMU does not carry; set "
-        "effect.dc_motor.inductance_H = 0",
+        "s.toml: error: effect.dc_motor has a state, which the FMU does not carry; "
+        "state neither inductance_H nor heat_capacity_J_per_K",
         {"fmu", "s.toml"},
         true},
        {"a place that cannot be written",

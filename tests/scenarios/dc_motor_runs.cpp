@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,17 +42,21 @@ TEST_CASE("random drives with a motor have the same events by both methods of cv
   };
   long events = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const std::vector<std::string> words{fmt::format("effect.dc_motor.resistance_ohm={}", between(0.3, 5.0)),
-                                         fmt::format("effect.dc_motor.inductance_H={}", between(1e-5, 1e-1)),
-                                         fmt::format("effect.dc_motor.torque_constant_Nm_per_A={}", between(0.01, 0.1)),
-                                         fmt::format("effect.dc_motor.supply_voltage_V={}", between(3.0, 48.0)),
-                                         fmt::format("effect.worm_coulomb.torque_Nm={}", between(1e-4, 1e-2)),
-                                         fmt::format("mesh.friction={}", between(0.01, 0.4)),
-                                         fmt::format("motor.torque.amplitude_Nm={}", between(0.01, 1.0)),
-                                         fmt::format("motor.torque.frequency_Hz={}", between(0.3, 30.0)),
-                                         fmt::format("load.torque_Nm={}", between(0.01, 2.0)),
-                                         "run.duration_s=0.5",
-                                         "run.relative_tolerance=1e-12"};
+    const std::vector<std::string> words{
+        fmt::format("effect.dc_motor.resistance_ohm={}", between(0.3, 5.0)),
+        fmt::format("effect.dc_motor.inductance_H={}", between(1e-5, 1e-1)),
+        fmt::format("effect.dc_motor.torque_constant_Nm_per_A={}", between(0.01, 0.1)),
+        fmt::format("effect.dc_motor.supply_voltage_V={}", between(3.0, 48.0)),
+        fmt::format("effect.dc_motor.heat_capacity_J_per_K={}", between(1e-3, 10.0)),
+        fmt::format("effect.dc_motor.thermal_resistance_K_per_W={}", between(0.5, 50.0)),
+        "effect.dc_motor.temperature_coefficient_per_K=0.0039",
+        fmt::format("effect.worm_coulomb.torque_Nm={}", between(1e-4, 1e-2)),
+        fmt::format("mesh.friction={}", between(0.01, 0.4)),
+        fmt::format("motor.torque.amplitude_Nm={}", between(0.01, 1.0)),
+        fmt::format("motor.torque.frequency_Hz={}", between(0.3, 30.0)),
+        fmt::format("load.torque_Nm={}", between(0.01, 2.0)),
+        "run.duration_s=0.5",
+        "run.relative_tolerance=1e-12"};
     INFO(fmt::format("{}", fmt::join(words, " ")));
     const Trajectory a = simulate_scenario(motor_scenario(words)),
                      b = simulate_scenario(motor_scenario(words, "adams"));
@@ -77,11 +82,13 @@ TEST_CASE("without inductance both solvers have the same events, also where the 
 
 TEST_CASE("the energy from the supply is found in the load, in heat and in what moves, to 1e-9") {
   const double closing_angle = GearMesh<double>(table1()).closing_lead_angle() / unit::degree;
-  for (const std::string L : {"0", "0.0015", "0.02"}) {
-    const Scenario scenario =
-        motor_scenario({fmt::format("mesh.lead_angle_deg={}", closing_angle), "effect.dc_motor.inductance_H=" + L});
-    const AuditReport report = *run_scenario(scenario, {.audit = true}).audit;
-    INFO(L);
+  for (const std::string motor : {"inductance_H=0", "inductance_H=0.0015", "inductance_H=0.02",
+                                  "heat_capacity_J_per_K=2 effect.dc_motor.temperature_coefficient_per_K=0.0039"}) {
+    std::vector<std::string> words{fmt::format("mesh.lead_angle_deg={}", closing_angle)};
+    std::istringstream stated("effect.dc_motor." + motor);
+    for (std::string word; stated >> word;) words.push_back(word);
+    const AuditReport report = *run_scenario(motor_scenario(words), {.audit = true}).audit;
+    INFO(motor);
     REQUIRE(report.findings.empty());
     REQUIRE(report.work > 1.0);
     REQUIRE(std::abs(report.energy_error) <= 1e-9 * report.work);
