@@ -133,6 +133,14 @@ struct Effects {
         },
         t);
   }
+  /// Whether what effects do bends where the load changes its sign.
+  bool bend_with_load() const {
+    bool any = false;
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (requires { E::bends_with_load; }) any = any || effect;
+    });
+    return any;
+  }
   /// Torque that the effects add on the worm shaft [N m].
   template <class S>
   S worm_torque(const Moment<S>& at, Motion motion) const {

@@ -29,6 +29,8 @@ class TorqueBalance {
     friction_changes_ = effects_.change_friction();
     pitch_varies_ = effects_.pitch_varies();
     ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
+    bends_with_load_ = effects_.bend_with_load();
+    for_each_bend(turning(), Motion::stuck, [this](const auto&) { ++bend_count_; });
   }
 
   /// The mesh with the inertias that effects add; its friction is that without effects.
@@ -87,6 +89,16 @@ class TorqueBalance {
 
   /// Highest number of periods per radian of the gear in what depends on its angle.
   double ripple() const { return ripple_; }
+
+  /// How many quantities there are at whose zeros the equations bend, as where a stop is met.
+  int bend_count() const { return bend_count_; }
+  /// Calls visit with each of them, always in the same order.
+  template <class S, template <class> class M, class Visit>
+  void for_each_bend(const M<S>& at, Motion motion, Visit&& visit) const {
+    const Moment<S>& moment = at;
+    if constexpr (requires { load_.for_each_bend(moment, visit); }) load_.for_each_bend(moment, visit);
+    if (bends_with_load_) visit(effects_.load_torque(load_, moment, motion));
+  }
 
   // ---- torques ------------------------------------------------------------------------------------------------
 
@@ -226,6 +238,8 @@ class TorqueBalance {
   bool friction_changes_ = false;  ///< else C is that of the mesh alone
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
   double ripple_ = 0.0;
+  bool bends_with_load_ = false;
+  int bend_count_ = 0;
 };
 
 }  // namespace wormdrive

@@ -16,6 +16,7 @@
 #include "core/numbers/crossing.hpp"
 #include "core/ripple.hpp"
 #include "events/allowed_error.hpp"
+#include "events/bend_watch.hpp"
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
 #include "events/growth.hpp"
@@ -198,6 +199,7 @@ class CvodeSolver {
     floor_ = starts.floor;
     fired_ = starts.fallen;
     guards_ = guards_at(ahead_);
+    bends_.begin(ahead_);
   }
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
@@ -235,6 +237,8 @@ class CvodeSolver {
       fired_ = g;
     }
     guards_ = there;
+    const auto bend = bends_.first_between([this](double clock) { return at(clock); }, left, right, end);
+    if (bend && (fired_ == no_guard || *bend < first)) first = *bend, fired_ = bends_.guard;
     if (fired_ == no_guard) return;
     ahead_ = at(first);
   }
@@ -258,10 +262,8 @@ class CvodeSolver {
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
   void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
-
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
-  /// When the clock showed a time of the latest step.
   Eigen::Map<State> state_at(double clock) {
     check_cvode(CVodeGetDky(memory(), clock, 0, y_.get()));
     return state();
@@ -276,7 +278,7 @@ class CvodeSolver {
   CvodeOwned<SUNNonlinearSolver> fixed_point_;
   CvodeMemory memory_;
   Instant ahead_{};                                  ///< how far CVODE has gone without a guard firing ...
-  int fired_ = no_guard;                             ///< ... or the guard that fired there
+  int fired_ = no_guard;                             ///< ... or the guard that fired there, a bend's among them
   bool finite_ = true;                               ///< every acceleration since the latest restart was a number
   bool leaves_rest_ = false;                         ///< the first step is still to be made
   std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
@@ -287,6 +289,7 @@ class CvodeSolver {
   double waited_ = 0.0;                              ///< how long the clock has stood for first steps [s]
   Guards guards_{};                                  ///< where CVODE is ...
   std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero
+  BendWatch<System> bends_{system_};
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   double origin_ = 0.0;  ///< where CVODE's clock began [s] ...
   double clock_ = 0.0;   ///< ... what it shows [s] ...

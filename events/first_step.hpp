@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "events/bend_watch.hpp"
 #include "events/segment_start.hpp"
 #include "events/solver_settings.hpp"
 #include "events/taylor/accuracy.hpp"
@@ -44,6 +45,10 @@ class FirstStep {
     for (int k = 0; k < others; ++k) {
       take(flow[2 * shafts + k], rounded[2 * shafts + k], others_[k]);
       rounding_[shafts + k] = roundings_of_series * rounded[2 * shafts + k][1].rounding;
+    }
+    if (BendWatch<System> bends(system); !bends.none()) {
+      bends.begin(now);
+      h = bends.first_within(at, now.mode, order, h, search_).value_or(h);
     }
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit - now.t ? now.t + h : limit;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers/crossing.hpp"
+#include "events/bend_watch.hpp"
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 
@@ -32,6 +33,8 @@ class RestWatch {
     if (starts.fallen != no_guard) return Crossing{now_.t, starts.fallen};
     floor_ = starts.floor;
     Guards left = guards_at(now_.t);
+    BendWatch<System> bends(system_);
+    bends.begin(now_);
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
     if (system_.fastest_input(now_.t) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
     for (double a = now_.t; a < end;) {
@@ -44,6 +47,8 @@ class RestWatch {
         const auto t = falling_crossing(guard, a, left[g], b, right[g]);
         if (t && (!first || *t < first->t)) first = Crossing{*t, g};
       }
+      if (const auto bend = bends.first_between([this](double t) { return at(t); }, a, b, at(b)))
+        if (!first || *bend < first->t) first = Crossing{*bend, bends.guard};
       if (first) return first;
       a = b;
       left = right;
@@ -54,10 +59,13 @@ class RestWatch {
  private:
   using Guards = decltype(std::declval<const System&>().guards_ahead(std::declval<const Instant&>()));
 
-  Guards guards_at(double t) const {
+  Instant at(double t) const {
     Instant then = now_;
     then.t = t;
-    Guards guards = system_.guards_ahead(then);
+    return then;
+  }
+  Guards guards_at(double t) const {
+    Guards guards = system_.guards_ahead(at(t));
     for (int g = 0; g < System::guard_count; ++g) {
       if (!std::isfinite(guards[g][0])) throw SolverFault("a guard of the state of rest is not a finite number");
       guards[g][0] += floor_[g];

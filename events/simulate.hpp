@@ -103,6 +103,10 @@ template <class System, class Solver, class Controller, class Recorder>
       }
       case Reason::guard: {
         const auto before = now.mode;
+        if (cause.guard >= System::guard_count) {  // a bend of the equations changes no mode
+          log.count(now.t, "bend of the equations", before, before);
+          break;
+        }
         now = jump(system, solver, now, cause.guard);
         log.count(now.t, System::guard_name(before, cause.guard), before, now.mode);
         break;

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/energy.hpp"
 #include "core/steady.hpp"
 #include "description/build.hpp"
+#include "simulation/steady_scenario.hpp"
 
 namespace wormdrive {
 namespace {
@@ -39,6 +41,7 @@ OperatingPoint operating_point(Drive& drive, double theta_g, double worm_speed, 
 
 std::vector<OperatingPoint> efficiency_map(Scenario scenario, const std::vector<double>& worm_speeds,
                                            const std::vector<double>& load_torques) {
+  scenario = with_open_brake(std::move(scenario));
   scenario.motor = {};
   scenario.effects.for_each([]<class Effect>(std::optional<Effect>& effect) {
     if constexpr (Effect::place == Place::load) effect.reset();

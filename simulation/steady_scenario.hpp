@@ -1,13 +1,23 @@
 #pragma once
+#include <optional>
+#include <tuple>
+
 #include "core/steady.hpp"
 #include "description/build.hpp"
 
 namespace wormdrive {
 
+/// A scenario whose drive turns at constant speed: its brake is open, if it ever opens.
+inline Scenario with_open_brake(Scenario scenario) {
+  auto& brake = std::get<std::optional<HoldingBrake<double>>>(scenario.effects.list);
+  if (brake && (brake->opens || brake->closes)) brake.reset();
+  return scenario;
+}
+
 /// The motor torque [N m] that keeps the drive of a scenario at a worm speed other than 0 [rad/s], with the load of
 /// time 0 and the initial angle.
 inline double steady_torque(const Scenario& scenario, double worm_speed) {
-  auto drive = make_drive(scenario);
+  auto drive = make_drive(with_open_brake(scenario));
   drive.enter(0.0);
   return steady_torque(drive, worm_speed, scenario.initial.theta_g, 0.0);
 }

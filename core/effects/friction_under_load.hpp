@@ -4,12 +4,13 @@
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
+#include "core/numbers/series.hpp"
 #include "core/place.hpp"
 
 namespace wormdrive {
 
 /// Friction that grows with the load on the gear, -motion share |tau_l|. Where the load changes its sign the torque
-/// bends and does not jump: no event is needed there.
+/// bends and does not jump.
 template <class T>
 struct FrictionUnderLoad {
   static constexpr std::string_view id = "friction_under_load";
@@ -19,6 +20,7 @@ struct FrictionUnderLoad {
   static constexpr std::string_view source =
       "P. Hamon, M. Gautier, P. Garrec, Dynamic identification of robots with a dry friction model depending on load "
       "and velocity, IROS 2010";
+  static constexpr bool bends_with_load = true;  ///< where tau_l passes zero
   T share{};
 
   static constexpr auto fields() {
@@ -28,7 +30,7 @@ struct FrictionUnderLoad {
   /// Torque on the gear shaft under a load [N m].
   template <class S>
   S torque_under_load(const S& tau_l, const Moment<S>&, Motion motion) const {
-    const S size = tau_l < S(0.0) ? -tau_l : tau_l;
+    const S size = is_positive(tau_l) ? tau_l : -tau_l;
     return S(-sign(motion) * share) * size;
   }
 };

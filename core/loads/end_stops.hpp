@@ -6,6 +6,7 @@
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
+#include "core/numbers/series.hpp"
 
 namespace wormdrive {
 
@@ -39,7 +40,16 @@ struct EndStops {
   double fastest() const { return 0.0; }
   double ripple() const { return 0.0; }
 
-  /// Load torque tau_l [N m]. It bends where a stop is met and does not jump.
+  /// Calls visit with every quantity at whose zero the torque bends: it does not jump where a stop is met or left.
+  template <class S, class Visit>
+  void for_each_bend(const Moment<S>& at, Visit&& visit) const {
+    if (low) visit(S(at.theta_g - S(*low)));
+    if (high) visit(S(at.theta_g - S(*high)));
+    if (damping == 0.0) return;  // else it pulls where the shaft leaves faster than the stop follows
+    if (low) visit(S(S(1.0) - damping * at.omega_g));
+    if (high) visit(S(S(1.0) + damping * at.omega_g));
+  }
+  /// Load torque tau_l [N m].
   template <class S>
   S torque(const Moment<S>& at) const {
     S torque(0.0);
@@ -51,8 +61,8 @@ struct EndStops {
  private:
   template <class S>
   S push(const S& depth, const S& rate) const {
-    const S nothing(0.0), force = stiffness * (depth + depth * (damping * rate));
-    return depth > nothing && force > nothing ? force : nothing;
+    const S force = stiffness * (depth + depth * (damping * rate));
+    return is_positive(depth) && is_positive(force) ? force : S(0.0);
   }
 };
 

@@ -104,6 +104,15 @@ class SummedLoad {
     return torque(at, motion_of(at.omega_g));
   }
 
+  /// Calls visit with every quantity at whose zero the torque bends.
+  template <class S, class Visit>
+  void for_each_bend(const Moment<S>& at, Visit&& visit) const {
+    const auto of_one = [&](const auto& load) {
+      if constexpr (requires { load.for_each_bend(at, visit); }) load.for_each_bend(at, visit);
+    };
+    std::apply([&](const auto&... list) { (for_each(list, of_one), ...); }, lists_);
+  }
+
   /// All functions of time, or nullptr.
   const TimedLoad* over_time() const { return timed_.signal.terms.empty() ? nullptr : &timed_; }
   /// The arm, if there is nothing else.

@@ -70,6 +70,9 @@ struct Rounded {
   }
 };
 
+/// Within what is not known of it, as blur() has that.
+inline bool is_zero(const Rounded& x) { return !(std::abs(x.value) > 8.0 * x.rounding); }
+
 /// Adds a rounding that a value has from elsewhere.
 inline void widen(Rounded& x, double rounding) { x.rounding += rounding; }
 template <int N>

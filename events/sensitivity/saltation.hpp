@@ -39,7 +39,10 @@ auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
   const auto before = drive.derivative(now.t, now.x, now.mode);
   T t(now.t);
   switch (stop.cause.reason) {
-    case Reason::guard: t = crossing_time(drive, now, stop.cause.guard); break;
+    case Reason::guard:
+      if (stop.cause.guard >= Drive::guard_count) return t;  // at a bend the derivative goes on
+      t = crossing_time(drive, now, stop.cause.guard);
+      break;
     case Reason::knot:
       drive.enter_motor(now.t);
       t = drive.motor_arrival();

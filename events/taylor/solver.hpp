@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/ripple.hpp"
+#include "events/bend_watch.hpp"
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
@@ -26,7 +28,12 @@ class TaylorSolver {
 
   /// The system must outlive the solver; its inputs may change between restarts, its parameters must not.
   TaylorSolver(const System& system, const SolverSettings& settings)
-      : system_(system), accuracy_(settings), max_step_(settings.max_step), nominal_(system), taped_(system) {}
+      : system_(system),
+        accuracy_(settings),
+        max_step_(settings.max_step),
+        nominal_(system),
+        taped_(system),
+        bends_(system) {}
 
   /// The mode in which the system goes on after its inputs were set from outside.
   Mode settle(const Instant& now) {
@@ -52,6 +59,7 @@ class TaylorSolver {
     end_ = now.t;
     waited_ = 0.0;
     fired_ = no_guard;
+    bends_.begin(now);
     if constexpr (NominalFlow<System>::known) nominal_.begin(now);
   }
 
@@ -141,7 +149,7 @@ class TaylorSolver {
 
   /// The polynomials from now on to the first event, or to as far as they are accurate.
   void step(const Instant& now, double limit) {
-    const double h = std::min(limit - now.t, max_step_);
+    const double h = std::min(limit - now.t, longest_step(now));
     expand(now, h);
     ++count_.steps;
     ++count_.evaluations;
@@ -175,11 +183,26 @@ class TaylorSolver {
       length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
+    if (const auto bend = bends_.none() ? std::nullopt
+                                        : bends_.first_within(system_.ahead(now, series_.order + 1), now.mode,
+                                                              series_.order, length_, search_)) {
+      end_ = std::min(now.t + *bend, end_);
+      length_ = brief ? *bend : end_ - now.t;
+      fired_ = bends_.guard;
+    }
     if (!brief || (waited_ += length_) < ulp) return;
     end_ = now.t + ulp;
     waited_ = 0.0;
   }
 
+  /// Quantities at whose zeros the equations bend are followed by their series: these have to be theirs.
+  double longest_step(const Instant& now) {
+    if (bends_.none()) return max_step_;
+    const double rate = std::max(system_.fastest_input(now.t), ripple_rate(system_, now.x));
+    const double looks = rate > 0.0 ? phase_between_looks(false) / rate : max_step_;
+    const double first = bends_.first_step(), longest = std::min(max_step_, looks);
+    return first > 0.0 ? std::min(first, longest) : longest;
+  }
   void expand(const Instant& now, double h) {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
@@ -258,6 +281,7 @@ class TaylorSolver {
   double max_step_;
   NominalFlow<System> nominal_;
   TapedFlow<System> taped_;
+  BendWatch<System> bends_;
   Expansion<System::guard_count> series_;
   Instant begin_{};      ///< of the present step
   double end_ = 0.0;     ///< of the present step [s] ...

@@ -1,12 +1,14 @@
 #include "simulation/efficiency_map.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/steady_scenario.hpp"
 #include "support.hpp"
 
 // What a drive at constant speed makes of the power that it is given.
@@ -82,6 +84,19 @@ TEST_CASE("a gear that locks itself returns nothing, a worm that locks itself is
   const Scenario worm = load_scenario(shipped("fig09_switching.toml"), {"mesh.friction=20"}, Purpose::look);
   for (const OperatingPoint& p : efficiency_map(worm, speeds, loads))
     if (p.worm_speed * p.load_torque < 0.0) CHECK(std::isnan(p.efficiency));
+}
+
+TEST_CASE(
+    "a brake that opens is open where efficiency and steady torque are asked for, and one that never does is not") {
+  const auto seen = [](const std::string& word) {
+    const Scenario s = load_scenario(shipped("hatch.toml"), {word}, Purpose::look);
+    return std::pair(steady_torque(s, 30.0), efficiency_map(s, {30.0}, {-2.0}).front().efficiency);
+  };
+  const auto without = seen("effect.holding_brake.on=false"), with = seen("title=x"),
+             closed = seen("effect.holding_brake={torque_Nm=0.01}");
+  CHECK(with == without);
+  CHECK(std::abs(closed.first - without.first - 0.01) < 1e-12);
+  CHECK(closed.second < without.second);
 }
 
 }  // namespace wormdrive::test::scenarios_efficiency_map

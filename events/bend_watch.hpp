@@ -1,0 +1,126 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/numbers/crossing.hpp"
+#include "core/numbers/rounded.hpp"
+#include "events/segment_start.hpp"
+#include "events/taylor/polynomial_root.hpp"
+
+namespace wormdrive {
+
+/// Watches the quantities of a system at whose zeros its equations bend, as where a stop is met: a solver that steps
+/// across one without a look may never see what lies behind it. A bend is a guard that changes no mode: the step ends
+/// there, and the motion is taken up anew.
+template <class System>
+class BendWatch {
+ public:
+  using Instant = typename System::Instant;
+  using Mode = typename System::Mode;
+
+  /// The number of a guard that stands for all bends.
+  static constexpr int guard = System::guard_count;
+
+  explicit BendWatch(const System& system) : system_(system), sides_(count(system)) {}
+  /// Whether there is nothing to watch.
+  bool none() const { return sides_.empty(); }
+
+  /// Begins where a segment starts: on which side of zero each quantity is just after it.
+  void begin(const Instant& now) {
+    if (none()) return;
+    if constexpr (Foresees<System>) {
+      const double resolution = time_resolution(now.t);
+      std::size_t k = 0;
+      visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
+        const double sign = sign_just_after(b, resolution) < 0 ? -1.0 : 1.0, unknown = 2.0 * blur(b, 0, resolution);
+        sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
+      });
+      here_ = values(now);
+      unsure_ = std::numeric_limits<double>::infinity();
+      for (k = 0; k < sides_.size(); ++k)
+        if (sides_[k].floor > 0.0 && here_[k][1] > 0.0)
+          unsure_ = std::min(unsure_, 2.0 * sides_[k].floor / here_[k][1]);
+    }
+  }
+  /// How long [s] the first step has to be, 0 where that does not matter: where a segment starts at a bend, rounding
+  /// may have left it on the other side, and a series from there has the equations of that side. Asked for once.
+  double first_step() { return std::exchange(unsure_, 0.0); }
+
+  /// The first bend in [left, right], to which nobody has looked yet; at(x) is where the motion is at x, end that at
+  /// right. x runs as time does.
+  template <class At>
+  std::optional<double> first_between(const At& at, double left, double right, const Instant& end) {
+    std::optional<double> first;
+    if (none()) return first;
+    const std::vector<Series<double, 1>> there = values(end);
+    for (std::size_t k = 0; k < there.size(); ++k) {
+      const auto fall = falling_crossing([&](double x) { return values(at(x))[k]; }, left, here_[k], right, there[k]);
+      if (fall && (!first || *fall < *first)) first = fall;
+    }
+    here_ = there;
+    return first;
+  }
+
+  /// The first bend within h [s] of a motion by power series of an order.
+  template <class M>
+  std::optional<double> first_within(const M& motion, const Mode& mode, int order, double h, RootSearch& search) const {
+    std::optional<double> first;
+    for (const auto& b : watched(motion, mode)) {
+      const std::size_t terms = static_cast<std::size_t>(order) + 1;
+      const auto fall = search.first_fall({b.c.data(), terms}, first.value_or(h), b[0] > 0.0).at;
+      if (fall && *fall < h) first = fall;
+    }
+    return first;
+  }
+
+ private:
+  /// Which sign a quantity has, and its rounding where it starts at zero.
+  struct Side {
+    double sign = 1.0, floor = 0.0;
+  };
+
+  static std::size_t count(const System& system) {
+    if constexpr (requires { system.rigid(); })
+      return static_cast<std::size_t>(system.rigid().bend_count());
+    else if constexpr (requires { system.bend_count(); })
+      return static_cast<std::size_t>(system.bend_count());
+    else
+      return 0;
+  }
+  template <class M, class Use>
+  void visit(const M& moment, const Mode& mode, Use&& use) const {
+    if constexpr (requires { system_.rigid(); })
+      system_.rigid().for_each_bend(moment, mode.gear, use);
+    else if constexpr (requires { system_.bend_count(); })
+      system_.for_each_bend(moment, mode.motion, use);
+  }
+  /// The quantities along a motion, each positive where it began.
+  template <class M>
+  auto watched(const M& moment, const Mode& mode) const {
+    using S = decltype(moment.theta_g);
+    std::vector<S> all;
+    visit(moment, mode, [&](const S& b) {
+      const Side& side = sides_[all.size()];
+      all.push_back(side.sign * b);
+      all.back()[0] += side.floor;
+    });
+    return all;
+  }
+  /// The same with their rates.
+  std::vector<Series<double, 1>> values(const Instant& now) const {
+    if constexpr (Foresees<System>)
+      return watched(system_.template ahead<1>(now), now.mode);
+    else
+      return {};
+  }
+
+  const System& system_;
+  std::vector<Side> sides_;
+  std::vector<Series<double, 1>> here_;  ///< where the latest look was
+  double unsure_ = 0.0;
+};
+
+}  // namespace wormdrive
