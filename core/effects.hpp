@@ -137,7 +137,7 @@ struct Effects {
   bool bend_with_load() const {
     bool any = false;
     for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (requires { E::bends_with_load; }) any = any || effect;
+      if constexpr (requires { effect->bends_with_load(); }) any = any || (effect && effect->bends_with_load());
     });
     return any;
   }

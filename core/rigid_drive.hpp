@@ -67,11 +67,16 @@ constexpr bool continuous(const Field<Owner, Value>& field) {
 
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are
 /// on. Throws std::invalid_argument where the teeth are elastic, for such a drive is not rigid, or an effect has a
-/// state.
+/// state, or torques bend.
 inline std::vector<Parameter> continuous_parameters(const RigidDrive& drive) {
   if (has_elastic_teeth(drive.effects)) throw std::invalid_argument("a drive with elastic teeth is not rigid");
   if (const auto id = drive.effects.first_with_states(); !id.empty())
     throw std::invalid_argument("effect." + std::string(id) + " has a state, which sensitivities do not follow");
+  if (std::get<std::optional<FrictionUnderLoad<double>>>(drive.effects.list) ||
+      WormDrive<double, SummedLoad>(drive.mesh, make_load(drive.load), drive.effects, drive.motor).bend_count() > 0)
+    throw std::invalid_argument(
+        "the torques bend where a stop is met or a load changes its sign (end_stops, effect.friction_under_load), "
+        "which sensitivities do not follow");
   std::vector<Parameter> all;
   for_each_table(drive, [&]<class P>(std::string_view table, const P& parameters) {
     for_each_field<P>([&](const auto& field) {

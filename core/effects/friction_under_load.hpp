@@ -20,13 +20,14 @@ struct FrictionUnderLoad {
   static constexpr std::string_view source =
       "P. Hamon, M. Gautier, P. Garrec, Dynamic identification of robots with a dry friction model depending on load "
       "and velocity, IROS 2010";
-  static constexpr bool bends_with_load = true;  ///< where tau_l passes zero
   T share{};
 
   static constexpr auto fields() {
     return std::tuple{Field{&FrictionUnderLoad::share, "share", unit::none, bounds::not_negative,
                             "friction torque while the gear turns, per torque of the load"}};
   }
+  /// Whether its torque bends where tau_l passes zero.
+  bool bends_with_load() const { return !(share == T(0)); }
   /// Torque on the gear shaft under a load [N m].
   template <class S>
   S torque_under_load(const S& tau_l, const Moment<S>&, Motion motion) const {

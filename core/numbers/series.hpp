@@ -164,7 +164,10 @@ template <class S>
 using ConstantOf = typename ConstantOfScalar<S>::type;
 
 /// Whether a coefficient decides nothing.
-inline bool is_zero(double x) { return x == 0.0; }
+template <class T>
+bool is_zero(const T& x) {
+  return x == T(0.0);
+}
 
 /// Whether a quantity is positive, or at zero just about to be: on which side of a bend an equation goes on.
 template <class S>
@@ -173,9 +176,8 @@ bool is_positive(const S& x) {
 }
 template <class T, int N, bool open>
 bool is_positive(const Series<T, N, open>& x) {
-  if constexpr (requires { is_zero(x[0]); })
-    for (int k = 0; k < x.last; ++k)
-      if (!is_zero(x[k])) return x[k] > T(0.0);
+  for (int k = 0; k < x.last; ++k)
+    if (!is_zero(x[k])) return x[k] > T(0.0);
   return x[x.last] > T(0.0);
 }
 

@@ -69,15 +69,15 @@ Effects<double> one_of_each() {
                  FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
                  TorqueMap<double>{MapAxis::worm_speed, 1.2, map_over({-120, -40, 0, 30, 120}), MapShaft::gear},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
-                 FrictionUnderLoad<double>{0.1}, GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05},
-                 LoadAngle<double>{0.05}, LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01},
-                 EncoderOffset<double>{0.01});
+                 GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},
+                 LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
 }
 
-/// What makes the teeth elastic belongs to another drive; a late angle has a test of its own.
+/// What makes the teeth elastic belongs to another drive; a late angle and what bends have tests of their own.
 template <class Effect>
-constexpr bool left_out = std::is_same_v<Effect, ToothCompliance<double>> || std::is_same_v<Effect, Backlash<double>> ||
-                          std::is_same_v<Effect, EncoderDelay<double>>;
+constexpr bool left_out =
+    std::is_same_v<Effect, ToothCompliance<double>> || std::is_same_v<Effect, Backlash<double>> ||
+    std::is_same_v<Effect, EncoderDelay<double>> || std::is_same_v<Effect, FrictionUnderLoad<double>>;
 
 }  // namespace
 
@@ -90,6 +90,20 @@ TEST_CASE("series, CVODES and differences agree within 1e-6 on the derivatives b
       check_effect(*effect);
     }
   });
+}
+
+TEST_CASE("drives whose torques bend are refused, for a bend moves with the parameters") {
+  const char* const why =
+      "the torques bend where a stop is met or a load changes its sign (end_stops, effect.friction_under_load), which "
+      "sensitivities do not follow";
+  for (const double share : {0.0, 0.1})
+    REQUIRE_THROWS_WITH(continuous_parameters(lively(effects(FrictionUnderLoad<double>{share}))), why);
+  EndStops stop;
+  stop.low = -1.0;
+  stop.stiffness = 10.0;
+  RigidDrive stopped = lively();
+  stopped.load.terms.emplace_back(stop);
+  REQUIRE_THROWS_WITH(continuous_parameters(stopped), why);
 }
 
 TEST_CASE("they agree where the parameters are zero, as they are where a fit starts", "[slow]") {
