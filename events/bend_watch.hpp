@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -39,15 +40,15 @@ class BendWatch {
         sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
       });
       here_ = values(now);
-      unsure_ = std::numeric_limits<double>::infinity();
+      unsure_ = never;
       for (k = 0; k < sides_.size(); ++k)
         if (sides_[k].floor > 0.0 && here_[k][1] > 0.0)
           unsure_ = std::min(unsure_, 2.0 * sides_[k].floor / here_[k][1]);
     }
   }
-  /// How long [s] the first step has to be, 0 where that does not matter: where a segment starts at a bend, rounding
-  /// may have left it on the other side, and a series from there has the equations of that side. Asked for once.
-  double first_step() { return std::exchange(unsure_, 0.0); }
+  /// How long [s] the first step may be, infinity mostly: where a segment starts at a bend, rounding may have left it
+  /// on the other side, and a series from there has the equations of that side. Asked for once.
+  double first_step() { return std::exchange(unsure_, never); }
 
   /// The first bend in [left, right], to which nobody has looked yet; at(x) is where the motion is at x, end that at
   /// right. x runs as time does.
@@ -77,6 +78,8 @@ class BendWatch {
   }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
   /// Which sign a quantity has, and its rounding where it starts at zero.
   struct Side {
     double sign = 1.0, floor = 0.0;
@@ -120,7 +123,7 @@ class BendWatch {
   const System& system_;
   std::vector<Side> sides_;
   std::vector<Series<double, 1>> here_;  ///< where the latest look was
-  double unsure_ = 0.0;
+  double unsure_ = never;                ///< for so long [s] rounding may hide the side
 };
 
 }  // namespace wormdrive

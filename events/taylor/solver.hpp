@@ -200,8 +200,7 @@ class TaylorSolver {
     if (bends_.none()) return max_step_;
     const double rate = std::max(system_.fastest_input(now.t), ripple_rate(system_, now.x));
     const double looks = rate > 0.0 ? phase_between_looks(false) / rate : max_step_;
-    const double first = bends_.first_step(), longest = std::min(max_step_, looks);
-    return first > 0.0 ? std::min(first, longest) : longest;
+    return std::min({max_step_, looks, bends_.first_step()});
   }
   void expand(const Instant& now, double h) {
     if constexpr (NominalFlow<System>::known)
