@@ -101,6 +101,25 @@ TEST_CASE("a surface that is touched and not crossed has the sign of its curvatu
   REQUIRE(sign_just_after(known({{0.0, 1e-16}, {-1e-6, 1e-16}, {1.0, 1e-16}}), 0.0) == -1);
 }
 
+TEST_CASE(
+    "a swing that rounding all but hides is over by its rate or by nothing, never by the term that brings it back") {
+  const double rounding = 1e-16;
+  for (const double blurs : {0.3, 0.5, 0.8, 1.0, 1.3, 1.6, 2.0, 10.0, 1e6})
+    for (const double omega : {1e-5, 1.0, 1e3, 1e9}) {
+      const double amplitude = blurs * 8.0 * rounding;
+      Series<Rounded, 3> x;  // amplitude sin(omega t), whose acceleration is rounding
+      x[0] = {0.0, rounding};
+      x[1] = {amplitude * omega, 1e-16 * amplitude * omega};
+      x[2] = {0.0, 0.5 * omega * omega * rounding};
+      x[3] = {-amplitude * omega * omega * omega / 6.0, 1e-16 * omega * omega * omega * amplitude};
+      INFO("amplitude " << blurs << " of what is not known, at " << omega << " rad/s");
+      REQUIRE(sign_just_after(x, 0.0) >= 0);
+      if (blurs >= 2.0) REQUIRE(sign_just_after(x, 0.0) == 1);
+      x = -x;
+      REQUIRE(sign_just_after(x, 0.0) <= 0);
+    }
+}
+
 TEST_CASE("what a value changes within the resolution of time does not count as its sign") {
   REQUIRE(sign_just_after(known({{1e-12, 0.0}, {-1.0, 0.0}}), 1e-11) == -1);
   REQUIRE(sign_just_after(known({{1e-10, 0.0}, {-1.0, 0.0}}), 1e-11) == 1);

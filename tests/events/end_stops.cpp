@@ -94,4 +94,30 @@ TEST_CASE("a gear that locks itself stays wedged in a stop, and it takes its bre
   }
 }
 
+TEST_CASE("an arm that falls into a stop comes to rest where the stop carries it, though nothing but the teeth rubs") {
+  // The friction of the teeth vanishes with the load that rests in the stop, so the last swings are those of rounding.
+  near_ties::Dice dice(11, 0);
+  for (int drawn = 0; drawn < 24; ++drawn) {
+    MeshParameters<double> p = table1(dice.between(0.05, 0.1));
+    p.i = std::round(dice.between(5.0, 40.0));
+    p.lambda = dice.between(10.0, 25.0) * unit::degree;
+    p.lg = p.i * p.lw * std::tan(p.lambda);
+    p.Jg = dice.decades(1e-5, 1e-1);
+    p.Jw = p.Jg / (p.i * p.i) * dice.decades(0.03, 3.0);
+    GravityArm arm;
+    const double weight = dice.decades(0.1, 10.0), high = dice.between(0.01, 1.0), stiffness = dice.decades(10.0, 1e5);
+    arm.amplitude = weight;
+    const EndStops stops = beyond(high, stiffness, dice.chance(0.3) ? 0.0 : dice.decades(0.01, 1.0));
+    double carried = high;  // weight cos(theta) = stiffness (theta - high), by Newton's method
+    for (int k = 0; k < 50; ++k)
+      carried += (weight * std::cos(carried) - stiffness * (carried - high)) / (weight * std::sin(carried) + stiffness);
+    const double J = p.Jg + p.i * p.i * p.Jw, swings = 6e3 * std::sqrt(J / stiffness);
+    const Timetable times(0, swings + 30.0 * std::sqrt(J / weight), swings);
+    INFO("drawn " << drawn << ": weight " << weight << ", stop at " << high << " of " << stiffness << " N m/rad");
+    const auto seen = run(drive(p, LoadSum{{arm, stops}}, Signal{}), times, {}, tight(taylor, 1e-10));
+    REQUIRE(std::abs(seen.end.x[1]) <= 1e-9);
+    REQUIRE(std::abs(seen.end.x[0] - carried) <= 1e-12);
+  }
+}
+
 }  // namespace wormdrive::test::events_end_stops
