@@ -35,7 +35,9 @@
 #include "core/effects/transmission_error.hpp"
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_inertia.hpp"
+#include "core/effects/worm_lugre.hpp"
 #include "core/effects/worm_viscous.hpp"
+#include "core/states/effect_states.hpp"
 
 namespace wormdrive {
 
@@ -52,12 +54,15 @@ struct Optional {
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
 using EffectList =
-    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
-             WormCoulomb, WormViscous, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,          // worm shaft
-             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,         // mesh
-             FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,               // mesh
-             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia,                                  // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring,                                                      // load
-             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
+    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,     // actuator
+             WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,  // worm shaft
+             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
+             FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,                  // mesh
+             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia,                                     // gear shaft
+             LoadMagnitude, LoadAngle, LoadSpring,                                                         // load
+             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor
+
+/// How many states all effects may have together.
+inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;
 
 }  // namespace wormdrive

@@ -13,9 +13,6 @@
 
 namespace wormdrive {
 
-/// How many states all effects may have together.
-inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;
-
 /// A moment with the states of the effects.
 template <class S>
 struct MomentOfEffects : Moment<S> {
@@ -76,14 +73,21 @@ struct Effects {
         },
         at);
   }
-  /// The id of the first effect that has a state; empty if none has.
-  std::string_view first_with_states() const {
-    std::string_view id;
+  /// Calls visit(id of its effect, state, its place among all) for every state that there is.
+  template <class Visit>
+  void for_each_state(Visit&& visit) const {
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>)
-        if (id.empty() && effect && effect->has_states()) id = E::id;
+        if (effect && effect->has_states())
+          for (std::size_t k = 0; k < E::states.size(); ++k)
+            visit(E::id, E::states[k], EffectStates::template first<E>() + k);
     });
-    return id;
+  }
+  /// The id of the first effect that has a state; empty if none has.
+  std::string_view first_with_states() const {
+    std::string_view first;
+    for_each_state([&](std::string_view id, const EffectState&, std::size_t) { first = first.empty() ? id : first; });
+    return first;
   }
   bool have_states() const { return !first_with_states().empty(); }
   /// How a scenario states that effect so that it has none.
@@ -97,25 +101,16 @@ struct Effects {
   }
   /// Rates of the states of the effects, for a command [N m].
   template <class S>
-  std::array<S, effect_state_count> state_rates(const S& command, const MomentOfEffects<S>& at) const {
+  std::array<S, effect_state_count> state_rates(const S& command, const MomentOfEffects<S>& at, Motion motion) const {
     std::array<S, effect_state_count> rates{};
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>) {
         if (!effect || !effect->has_states()) return;
-        const auto own = effect->state_rates(command, at, EffectStates::template of<E>(at.states));
+        const auto own = effect->state_rates(command, at, motion, EffectStates::template of<E>(at.states));
         std::copy(own.begin(), own.end(), rates.begin() + EffectStates::template first<E>());
       }
     });
     return rates;
-  }
-  /// How fast the fastest of them settles [1/s], 0 without a state.
-  double fastest_state() const {
-    double fastest = 0.0;
-    for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (MayHaveStates<E>)
-        if (effect && effect->has_states()) fastest = std::max(fastest, value_of(effect->fastest_state()));
-    });
-    return fastest;
   }
   /// Lets effects that change at given times take the piece that holds from t on.
   void enter(double t) {
@@ -147,6 +142,18 @@ struct Effects {
     return through(
         list, S(0.0),
         [](const auto& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
+          return sum + e.worm_torque(now, way);
+        },
+        at, motion);
+  }
+  /// The same where effects have states.
+  template <class S>
+  S worm_torque(const MomentOfEffects<S>& at, Motion motion) const {
+    return through(
+        list, S(0.0),
+        []<class E>(const E& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
+          if constexpr (MayHaveStates<E>)
+            if (e.has_states()) return sum + e.worm_torque(now, way, EffectStates::template of<E>(now.states));
           return sum + e.worm_torque(now, way);
         },
         at, motion);

@@ -155,18 +155,19 @@ class TorqueBalance {
 
   // ---- the same from torques that are known already -----------------------------------------------------------
 
-  template <class S>
-  SideTorques<S> side_torques(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
+  template <class S, template <class> class M>
+  SideTorques<S> side_torques(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
     return with_bearings<S>({input.worm + disturbance_, input.gear}, at, motion);
   }
-  template <class S>
-  SideTorques<S> with_bearings(const SideTorques<S>& input, const Moment<S>& at, Motion motion) const {
+  template <class S, template <class> class M>
+  SideTorques<S> with_bearings(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
-    return {input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
+    return {input.worm + worm,
+            input.gear + effects_.gear_torque(input.gear, static_cast<const Moment<S>&>(at), motion)};
   }
   /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
-  template <class S>
-  S worm_torque_at_rest(const Moment<S>& at) const {
+  template <class S, template <class> class M>
+  S worm_torque_at_rest(const M<S>& at) const {
     const S idle = effects_.worm_torque(at, Motion::stuck);
     const S least = effects_.worm_torque(at, Motion::forward), most = effects_.worm_torque(at, Motion::backward);
     return idle < least ? least : idle > most ? most : idle;

@@ -37,7 +37,6 @@ class WormDrive : public TorqueBalance<T, Load> {
   using Mode = wormdrive::Mode;
   template <class S>
   using MomentHere = std::conditional_t<with_states, MomentOfEffects<S>, Moment<S>>;
-
   static constexpr int guard_count = 2;
   static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
   static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
@@ -64,7 +63,7 @@ class WormDrive : public TorqueBalance<T, Load> {
     rate[0] = mode.motion == Motion::stuck ? T(0) : x[1];
     rate[1] = acceleration(at, mode);
     if constexpr (with_states) {
-      const auto of_effects = state_rates(at);
+      const auto of_effects = state_rates(at, mode);
       std::copy(of_effects.begin(), of_effects.end(), rate.data() + 2);
     }
     return rate;
@@ -83,7 +82,7 @@ class WormDrive : public TorqueBalance<T, Load> {
       J.row(1) = a.v.transpose();
     }
     if constexpr (with_states) {
-      const auto of_effects = state_rates(at);
+      const auto of_effects = state_rates(at, mode);
       for (int k = 2; k < state_size; ++k) J.row(k) = of_effects[k - 2].v.transpose();
       if (mode.motion == Motion::stuck) J.template leftCols<2>().setZero();  // or pivoting would round the speed off 0
     }
@@ -195,14 +194,16 @@ class WormDrive : public TorqueBalance<T, Load> {
     const MomentHere<double> at = moment(now);
     const SideTorques<double> input = inputs(at, now.mode.motion), tau = side_torques(input, at, now.mode.motion);
     const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
-    return {.theta_g = now.x[0],
-            .omega_g = now.x[1],
-            .alpha_g = alpha,
-            .tau_m = input.worm,
-            .tau_l = input.gear,
-            .normal_force = normal_force(tau, at, alpha, now.mode),
-            .mode = now.mode,
-            .winding = winding(effects(), motor_command(at.t), at)};
+    Observation o{.theta_g = now.x[0],
+                  .omega_g = now.x[1],
+                  .alpha_g = alpha,
+                  .tau_m = input.worm,
+                  .tau_l = input.gear,
+                  .normal_force = normal_force(tau, at, alpha, now.mode),
+                  .mode = now.mode,
+                  .winding = winding(effects(), motor_command(at.t), at)};
+    if constexpr (with_states) o.states = at.states;
+    return o;
   }
 
  private:
@@ -215,7 +216,7 @@ class WormDrive : public TorqueBalance<T, Load> {
       const auto over = [k](const C& x) { return k == 0 ? x : x / C(k + 1); };
       const auto a = acceleration(known, now.mode);
       if constexpr (with_states) {
-        const auto rates = state_rates(known);
+        const auto rates = state_rates(known, now.mode);
         for (std::size_t j = 0; j < rates.size(); ++j) at.states[j].append(k + 1, over(coefficient(rates[j])));
       }
       at.t.know(k + 1);
@@ -240,8 +241,8 @@ class WormDrive : public TorqueBalance<T, Load> {
     }
   }
   template <class S>
-  auto state_rates(const MomentOfEffects<S>& at) const {
-    return effects().state_rates(motor_command(at.t), at);
+  auto state_rates(const MomentOfEffects<S>& at, Mode mode) const {
+    return effects().state_rates(motor_command(at.t), at, mode.motion);
   }
   template <class S, template <class> class M>
   static M<S> resting(M<S> at, const Instant& now) {

@@ -70,13 +70,22 @@ std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) 
   return "";
 }
 
-std::string refusal(const DcMotor<double>& motor, const Scenario& scenario) {
+std::string refusal(const DcMotor<double>& motor, const Scenario&) {
   if (!motor.heat_capacity && (motor.thermal_resistance || motor.temperature_coefficient))
     return fmt::format("states {} without heat_capacity_J_per_K, which says how fast the winding warms up; add it",
                        motor.thermal_resistance ? "thermal_resistance_K_per_W" : "temperature_coefficient_per_K");
-  if (!motor.has_states() || !has_elastic_teeth(scenario.effects)) return "";
-  return fmt::format("has states, which elastic teeth do not carry; {}, or switch effect.tooth_compliance off",
-                     motor.without_states);
+  return "";
+}
+
+std::string refusal(const WormLuGre<double>& friction, const Scenario&) {
+  if (friction.static_torque.has_value() != friction.stribeck_speed.has_value())
+    return fmt::format("states {} without {}; add it, or leave out both",
+                       friction.static_torque ? "static_torque_Nm" : "stribeck_speed_rad_per_s",
+                       friction.static_torque ? "stribeck_speed_rad_per_s, the speed by which it falls"
+                                              : "static_torque_Nm, from which friction falls");
+  if (friction.damping && !friction.stiffness)
+    return "states damping_Nms_per_rad without stiffness_Nm_per_rad, which says how far the bristles bend; add it";
+  return "";
 }
 
 /// Why an effect cannot be on along with another one that is; empty if it can.
@@ -95,7 +104,11 @@ std::string conflict(const Effects<double>& on) {
 template <class Effect>
 std::string why_not(const Effect& effect, const Scenario& scenario) {
   if (Effect::place == Place::mesh && !stated_mesh(scenario).has_teeth) return "needs teeth, but mesh.kind is \"none\"";
-  const std::string refused = refusal(effect, scenario);
+  std::string refused = refusal(effect, scenario);
+  if constexpr (MayHaveStates<Effect>)
+    if (refused.empty() && effect.has_states() && has_elastic_teeth(scenario.effects))
+      refused = fmt::format("has states, which elastic teeth do not carry; {}, or switch effect.tooth_compliance off",
+                            Effect::without_states);
   return refused.empty() ? conflict<Effect>(scenario.effects) : refused;
 }
 
@@ -253,11 +266,6 @@ std::optional<ControllerRejection> window_rejection(const Scenario& scenario) {
     return ControllerRejection{
         "from_s", fmt::format("metrics.from_s = {} s must be less than the duration, {} s", window.from, duration)};
   return std::nullopt;
-}
-
-std::string taylor_without_states(std::string_view id) {
-  return fmt::format(
-      "run.solver = \"taylor\" carries no states of effects, but effect.{} has one; set run.solver = \"cvode\"", id);
 }
 
 std::optional<std::string> why_the_drive_cannot_run(const Scenario& scenario) {

@@ -18,9 +18,6 @@ std::vector<EffectRejection> effect_rejections(const Scenario& scenario);
 /// Why no unique motion exists: friction beyond mu_g, where the worm locks itself, or against eq. 17.
 std::optional<std::string> why_it_cannot_move(const Scenario& scenario);
 
-/// Why the solver "taylor" does not run a scenario where an effect with this id has a state.
-std::string taylor_without_states(std::string_view id);
-
 /// A key of a controller's table whose values give no controlled run.
 struct ControllerRejection {
   std::string key, what;

@@ -134,8 +134,9 @@ class Audit {
     const double swing =
         std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
     steps = std::max(steps, std::lround(finer * swing * span / phase));
-    if constexpr (requires { system_.effects(); })  // advance() keeps them stable, this exact
-      steps = std::max(steps, std::lround(finer * system_.effects().fastest_state() * span));
+    if constexpr (System::state_size >
+                  2 * shaft_count<System>())  // advance() keeps what effects remember stable, this exact
+      steps = std::max(steps, std::lround(finer * std::max(fastest_rate(start), fastest_rate(end)) * span));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
@@ -185,27 +186,39 @@ class Audit {
   void advance(Instant& now, double h, Power& work) const {
     constexpr double rate_in_a_part = 0.5, most_parts = 1e5;  // the method is stable up to 2.8; more parts take seconds
     const auto J = system_.jacobian(now.t, now.x, now.mode);
-    const double rate = J.allFinite() ? fastest_rate(J) : 0.0;
-    const double parts = std::clamp(std::ceil(h * rate / rate_in_a_part), 1.0, most_parts);
+    double parts = 1.0;
+    // no eigenvalue is larger than the largest sum of a row, which costs next to nothing
+    if (J.allFinite() && h * J.cwiseAbs().rowwise().sum().maxCoeff() > rate_in_a_part)
+      parts = std::clamp(std::ceil(h * wormdrive::fastest_rate(J) / rate_in_a_part), 1.0, most_parts);
     for (double k = 0.0; k < parts; ++k) {
       step(now, h / parts, work);
       now.t += h / parts;
     }
   }
 
+  /// The largest magnitude of the eigenvalues at a moment [1/s].
+  double fastest_rate(const Instant& now) const {
+    const auto J = system_.jacobian(now.t, now.x, now.mode);
+    return J.allFinite() ? wormdrive::fastest_rate(J) : 0.0;
+  }
   /// One Runge-Kutta step, with the powers integrated alongside.
   void step(Instant& now, double h, Power& work) const {
     const auto at = [&](double dt, const typename System::State& x) { return Instant{now.t + dt, x, now.mode}; };
     const auto f = [&](const Instant& i) { return system_.derivative(i.t, i.x, i.mode); };
-    const Instant a = now, b = at(h / 2, now.x + h / 2 * f(a)), c = at(h / 2, now.x + h / 2 * f(b)),
-                  d = at(h, now.x + h * f(c));
+    const Instant a = now;
+    const typename System::State fa = f(a);
+    const Instant b = at(h / 2, now.x + h / 2 * fa);
+    const typename System::State fb = f(b);
+    const Instant c = at(h / 2, now.x + h / 2 * fb);
+    const typename System::State fc = f(c);
+    const Instant d = at(h, now.x + h * fc);
     for (const auto& [instant, weight] : {std::pair{a, h / 6}, {b, h / 3}, {c, h / 3}, {d, h / 6}}) {
       const Power p = power(system_, instant);
       work.motor += weight * p.motor;
       work.load += weight * p.load;
       work.loss += weight * p.loss;
     }
-    now.x += h / 6 * (f(a) + 2 * f(b) + 2 * f(c) + f(d));
+    now.x += h / 6 * (fa + 2 * fb + 2 * fc + f(d));
   }
 
   /// Time at which a guard falls to zero in a step, infinity if it stays positive; notes how near it came.

@@ -11,6 +11,7 @@ namespace wormdrive {
 /// The largest real part of the eigenvalues of a Jacobian [1/s].
 template <int n>
 double largest_growth(const Eigen::Matrix<double, n, n>& J) {
+  static_assert(n <= most_rows);
   return eigenvalues(J).real().maxCoeff();
 }
 inline double largest_growth(const Eigen::Matrix2d& J) {  // of rows (0, 1) and (a, b)
@@ -21,6 +22,7 @@ inline double largest_growth(const Eigen::Matrix2d& J) {  // of rows (0, 1) and 
 /// The largest magnitude of the eigenvalues of a Jacobian [1/s]: an explicit method has to follow it.
 template <int n>
 double fastest_rate(const Eigen::Matrix<double, n, n>& J) {
+  static_assert(n <= most_rows);
   return eigenvalues(J).cwiseAbs().maxCoeff();
 }
 inline double fastest_rate(const Eigen::Matrix2d& J) {

@@ -9,13 +9,11 @@ namespace wormdrive {
 template <class System, class Use>
 decltype(auto) with_solver(const System& system, const SolverSettings& settings, Use&& use) {
   if (settings.solver == SolverKind::taylor) {
-    if constexpr (System::state_size == 2) {
+    if constexpr (shaft_count<System>() == 1) {
       TaylorSolver<System> solver(system, settings);
       return use(solver);
     } else {
-      throw SolverFault(shaft_count<System>() == 1
-                            ? "the solver \"taylor\" carries no states of effects; set run.solver = \"cvode\""
-                            : "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
+      throw SolverFault("the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
     }
   }
   CvodeSolver<System> solver(system, settings);

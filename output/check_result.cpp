@@ -82,10 +82,13 @@ void check_diagnosis(hid_t file) {
 
 void check_run(hid_t file) {
   const StoredTable trajectory(file, "trajectory"), events(file, "events");
-  const bool elastic = trajectory.has("gear_motion");
-  check_table(trajectory, descriptions(trajectory_columns(elastic, trajectory.has("motor_current")), Axis::rotary),
-              Range::rising, Range::finite);
-  check_table(events, descriptions(event_columns(elastic), Axis::rotary), Range::ordered, Range::finite);
+  RunContents contents{.elastic = trajectory.has("gear_motion"), .winding = trajectory.has("motor_current")};
+  StateLayout<EffectList<double>>::for_each([&](std::string_view id, const EffectState& state, std::size_t place) {
+    if (const StateColumn column = state_column(id, state, place); trajectory.has(column.description.name))
+      contents.states.push_back(column);
+  });
+  check_table(trajectory, descriptions(trajectory_columns(contents), Axis::rotary), Range::rising, Range::finite);
+  check_table(events, descriptions(event_columns(contents.elastic), Axis::rotary), Range::ordered, Range::finite);
   if (!has_member(file, "controller")) return;
   const StoredTable controller(file, "controller");
   Columns columns = descriptions(controller_columns(), Axis::rotary);

@@ -19,7 +19,14 @@ std::vector<RunColumn<Source>> joined(std::vector<RunColumn<Source>> columns, bo
 /// Whose speed has the sign of the motion.
 std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
 
-std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic, bool winding) {
+}  // namespace
+
+StateColumn state_column(std::string_view id, const EffectState& state, std::size_t place) {
+  return {{fmt::format("{}_{}", id, state.name), std::string(state.unit.symbol), std::string(state.meaning)}, place};
+}
+
+std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents) {
+  const bool elastic = contents.elastic;
   std::vector<RunColumn<Row>> columns{
       {{"time", "s", "time"}, [](const Row& r) { return r.t; }},
       {{"gear_angle", "rad", "gear angle theta_g"}, [](const Row& r) { return r.at.theta_g; }},
@@ -43,8 +50,8 @@ std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic, bool winding) 
                     {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
                       motions, signs},
                      [](const Row& r) { return sign(r.at.teeth->gear); }}});
-  return joined(
-      columns, winding,
+  columns = joined(
+      columns, contents.winding,
       {{{"motor_voltage", "V", "voltage U on the motor's winding"}, [](const Row& r) { return r.at.winding->voltage; }},
        {{"motor_current", "A", "current I through the motor's winding"},
         [](const Row& r) { return r.at.winding->current; }},
@@ -52,7 +59,12 @@ std::vector<RunColumn<Row>> make_trajectory_columns(bool elastic, bool winding) 
        {{"winding_loss", "W", "heat in the motor's winding"}, [](const Row& r) { return r.at.winding->loss; }},
        {{"winding_temperature_rise", "K", "temperature of the motor's winding above its surroundings"},
         [](const Row& r) { return r.at.winding->warmth; }}});
+  for (const auto& [description, state] : contents.states)
+    columns.push_back({description, [state](const Row& r) { return r.at.states[state]; }});
+  return columns;
 }
+
+namespace {
 
 /// The kinds of event that a drive can have, as flags: those of a rigid drive come first.
 ColumnDescription kinds_column(bool elastic) {
@@ -99,12 +111,6 @@ std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
 
 }  // namespace
 
-const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic, bool winding) {
-  static const std::vector<RunColumn<Row>> columns[] = {
-      make_trajectory_columns(false, false), make_trajectory_columns(true, false), make_trajectory_columns(false, true),
-      make_trajectory_columns(true, true)};
-  return columns[(elastic ? 1 : 0) + (winding ? 2 : 0)];
-}
 const std::vector<RunColumn<Event>>& event_columns(bool elastic) {
   static const std::vector<RunColumn<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
   return columns[elastic ? 1 : 0];

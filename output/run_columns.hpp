@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "control/closed_loop.hpp"
@@ -38,8 +39,12 @@ std::vector<std::vector<double>> values(const std::vector<RunColumn<Source>>& co
   return table;
 }
 
-/// The columns of a run's tables, with those of elastic teeth and of a motor's winding behind them.
-const std::vector<RunColumn<Row>>& trajectory_columns(bool elastic, bool winding);
+/// The column of a state of an effect; place: among the states of all.
+StateColumn state_column(std::string_view id, const EffectState& state, std::size_t place);
+
+/// The columns of a run's tables, with those of elastic teeth, of a motor's winding and of states of effects behind
+/// them.
+std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents);
 const std::vector<RunColumn<Event>>& event_columns(bool elastic);
 const std::vector<RunColumn<ControlRecord>>& controller_columns();
 

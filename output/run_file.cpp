@@ -1,6 +1,7 @@
 #include "output/run_file.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,18 +12,17 @@ namespace wormdrive {
 
 RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axis, RunContents contents,
                  Replace replace)
-    : file_(path, provenance.kind, replace), contents_(contents) {
+    : file_(path, provenance.kind, replace), contents_(std::move(contents)) {
   write_provenance(file_.file(), provenance);
-  trajectory_.emplace(file_.file(), "trajectory",
-                      descriptions(trajectory_columns(contents_.elastic, contents_.winding), axis));
+  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(contents_), axis));
   events_.emplace(file_.file(), "events", descriptions(event_columns(contents_.elastic), axis));
-  if (contents.controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
+  if (contents_.controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
   file_.flush();
   flushed_ = Clock::now();
 }
 
 void RunFile::append(const Trajectory& part) {
-  trajectory_->append(values(trajectory_columns(contents_.elastic, contents_.winding), part.rows));
+  trajectory_->append(values(trajectory_columns(contents_), part.rows));
   events_->append(values(event_columns(contents_.elastic), part.events));
   // HDF5 writes how long a column is before it writes where the data are: killed between the two, the last rows are
   // lost. Flushing after every portion, one kill in a hundred hit these 50 us; now it is one in ten thousand.

@@ -14,11 +14,18 @@
 
 namespace wormdrive {
 
+/// A state of an effect, as a column of a run.
+struct StateColumn {
+  ColumnDescription description;
+  std::size_t state;  ///< its place among all
+};
+
 /// What a run shows beside the rigid drive.
 struct RunContents {
   bool controlled = false;  ///< there will be samples of a controller
   bool elastic = false;     ///< worm and gear move on their own
   bool winding = false;     ///< the motor has one
+  std::vector<StateColumn> states{};
 };
 
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.

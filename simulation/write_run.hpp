@@ -6,7 +6,7 @@
 #include "core/elastic/elastic_teeth.hpp"
 #include "core/states/winding.hpp"
 #include "description/build.hpp"
-#include "output/run_file.hpp"
+#include "output/run_columns.hpp"
 
 namespace wormdrive {
 
@@ -18,7 +18,12 @@ inline std::string describe_solver(const RunSettings& run) {
 
 /// What the run of a scenario will show.
 inline RunContents contents_of(const Scenario& scenario) {
-  return {scenario.control.has_value(), has_elastic_teeth(scenario.effects), dc_motor(scenario.effects).has_value()};
+  RunContents contents{
+      scenario.control.has_value(), has_elastic_teeth(scenario.effects), dc_motor(scenario.effects).has_value(), {}};
+  scenario.effects.for_each_state([&](std::string_view id, const EffectState& state, std::size_t place) {
+    if (!state.meaning.empty()) contents.states.push_back(state_column(id, state, place));
+  });
+  return contents;
 }
 
 /// Writes the constants of a drive that readers of a run need beside its columns: surface and ratio, if it has a gear.

@@ -82,8 +82,7 @@ PYBIND11_MODULE(_core, m) {
   py::class_<RunResult>(m, "Run")
       .def("trajectory",
            [](const RunResult& r) {
-             return table(trajectory_columns(r.contents().elastic, r.contents().winding), r.scenario().axis,
-                          r.trajectory().rows);
+             return table(trajectory_columns(r.contents()), r.scenario().axis, r.trajectory().rows);
            })
       .def("events",
            [](const RunResult& r) {

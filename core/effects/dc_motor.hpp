@@ -67,7 +67,7 @@ struct DcMotor {
   bool has_states() const { return has_inductance() || heat_capacity; }
   /// I' [A/s] and h' [K/s]; the winding warms up from its surroundings on.
   template <class S>
-  std::array<S, 2> state_rates(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+  std::array<S, 2> state_rates(const S& command, const Moment<S>& at, Motion, const std::array<S, 2>& state) const {
     const S R = hot_resistance(state), I = current(command, at, state);
     std::array<S, 2> rates{S(0.0), S(0.0)};
     if (has_inductance()) rates[0] = (voltage(command) - torque_constant * at.omega_w - R * I) / *inductance;
@@ -75,12 +75,6 @@ struct DcMotor {
     rates[1] = R * I * I / *heat_capacity;
     if (thermal_resistance) rates[1] = rates[1] - state[1] / (*thermal_resistance * *heat_capacity);
     return rates;
-  }
-  /// How fast the faster of them settles [1/s].
-  T fastest_state() const {
-    const T electrical = has_inductance() ? resistance / *inductance : T(0);
-    const T thermal = heat_capacity && thermal_resistance ? T(1) / (*thermal_resistance * *heat_capacity) : T(0);
-    return electrical > thermal ? electrical : thermal;
   }
 
   // ---- what it does -------------------------------------------------------------------------------------------

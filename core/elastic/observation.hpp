@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <optional>
 
+#include "core/effect_list.hpp"
 #include "core/mode.hpp"
 
 namespace wormdrive {
@@ -27,15 +29,16 @@ struct Winding {
 
 /// What a drive shows at one instant, in SI.
 struct Observation {
-  double theta_g;                       ///< gear angle [rad]
-  double omega_g;                       ///< gear speed [rad/s]
-  double alpha_g;                       ///< gear acceleration [rad/s^2]
-  double tau_m;                         ///< motor torque [N m]
-  double tau_l;                         ///< load torque on the gear [N m]
-  double normal_force;                  ///< Wn [N]
-  Mode mode;                            ///< of elastic teeth the worm's motion
-  std::optional<ElasticTeeth> teeth{};  ///< of elastic teeth only
-  std::optional<Winding> winding{};     ///< of a motor with a winding only
+  double theta_g;                                   ///< gear angle [rad]
+  double omega_g;                                   ///< gear speed [rad/s]
+  double alpha_g;                                   ///< gear acceleration [rad/s^2]
+  double tau_m;                                     ///< motor torque [N m]
+  double tau_l;                                     ///< load torque on the gear [N m]
+  double normal_force;                              ///< Wn [N]
+  Mode mode;                                        ///< of elastic teeth the worm's motion
+  std::optional<ElasticTeeth> teeth{};              ///< of elastic teeth only
+  std::optional<Winding> winding{};                 ///< of a motor with a winding only
+  std::array<double, effect_state_count> states{};  ///< of the effects
 };
 
 }  // namespace wormdrive

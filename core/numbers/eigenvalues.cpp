@@ -4,7 +4,7 @@
 
 namespace wormdrive {
 
-Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> eigenvalues(const SmallMatrix& matrix) {
+Eigenvalues eigenvalues(const SmallMatrix& matrix) {
   return Eigen::EigenSolver<SmallMatrix>(matrix, false).eigenvalues();
 }
 

@@ -7,10 +7,12 @@ namespace wormdrive {
 
 // Compiled once, for these solvers take seconds wherever they are instantiated.
 
-/// A square matrix of at most four rows.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
+/// A square matrix of few rows.
+inline constexpr int most_rows = 8;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_rows, most_rows>;
 /// Eigenvalues of a real matrix.
-Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> eigenvalues(const SmallMatrix& matrix);
+using Eigenvalues = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, most_rows, 1>;
+Eigenvalues eigenvalues(const SmallMatrix& matrix);
 
 /// Eigenvalues of a real matrix, and a column of length one for each of them.
 struct Eigenpairs {

@@ -10,10 +10,11 @@
 
 namespace wormdrive {
 
-/// What an effect calls a state of its own; it is 0 at the start.
+/// What an effect calls a state of its own; it is 0 at the start. With a meaning it is a column of the results.
 struct EffectState {
   std::string_view name;
   Unit unit;
+  std::string_view meaning{};
 };
 
 /// Effects that may have states: they name them, say whether they have them with their parameters, and give rates.
@@ -39,6 +40,15 @@ struct StateLayout<std::tuple<std::optional<Effect>...>> {
   }
   static constexpr std::size_t size = (count<Effect>() + ... + 0);
 
+  /// Calls visit(id of its effect, state, its place among all) for every state that an effect may have.
+  template <class Visit>
+  static void for_each(Visit&& visit) {
+    const auto each = [&]<class One>() {
+      if constexpr (MayHaveStates<One>)
+        for (std::size_t k = 0; k < One::states.size(); ++k) visit(One::id, One::states[k], first<One>() + k);
+    };
+    (each.template operator()<Effect>(), ...);
+  }
   /// Where those of an effect begin.
   template <class Sought>
   static constexpr std::size_t first() {

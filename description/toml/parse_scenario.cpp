@@ -100,9 +100,6 @@ class ScenarioReader {
             "solver",
             "run.solver = \"taylor\" supports rigid teeth only, but effect.tooth_compliance makes them elastic; set "
             "run.solver = \"cvode\"");
-      if (const auto id = scenario_.effects.first_with_states();
-          purpose != Purpose::show && scenario_.run.solver == SolverKind::taylor && !id.empty())
-        run.fault("solver", taylor_without_states(id));
       const double duration = scenario_.run.duration, every = scenario_.run.rows_every();
       if (duration > 0.0 && every > duration)
         run.fault("report_interval_s",

@@ -190,6 +190,7 @@ std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magni
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
                                 {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
                                 {"holding_brake", "a brake to state, not a deviation"},
+                                {"worm_lugre", "bristles in the bearings are to be stated, not a deviation"},
                                 {"torque_map", "a table that fits anything claims no cause"}};
   if (m.has_teeth && has_standard_friction(stated))
     list.push_back({"stribeck", "effect.agma states already how friction falls with the sliding speed"});
@@ -205,7 +206,8 @@ std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magni
   if (!m.has_teeth)
     for (const std::string_view effect : {"gear_coulomb", "gear_viscous", "gear_inertia"})
       list.push_back({effect, "without a gear the worm's side stands for both"});
-  if (m.has_teeth) list.push_back({"friction_under_load", "the friction between the teeth grows with the load as well"});
+  if (m.has_teeth)
+    list.push_back({"friction_under_load", "the friction between the teeth grows with the load as well"});
   if (m.load_torque <= 0.0) {
     for (const std::string_view effect : {"load_magnitude", "load_angle"}) list.push_back({effect, "there is no load"});
     if (!m.has_teeth) list.push_back({"friction_under_load", "there is no load"});

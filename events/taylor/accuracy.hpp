@@ -65,14 +65,14 @@ class TaylorAccuracy {
     return 4.0 * std::numeric_limits<double>::epsilon() * (size[0] + size[1]);
   }
 
-  /// Whether the last terms of speed and guards are negligible over a step of h.
+  /// Whether the last terms of speed, states of effects and guards are negligible over a step of h.
   template <class Expansion>
   bool suffices(Expansion& e, double h) const {
     if (e.order < least_order) return false;
     const Powers powers = powers_of(h, e.order);
-    const double most = allowed(e.omega[0], h) * h;
-    for (int k = 0; k < window; ++k)
-      if (!(std::abs(e.omega[e.order - window + 1 + k]) * powers[k] <= most)) return false;
+    if (!fades(e.omega, e.order, h, powers)) return false;
+    for (const Coefficients& state : e.states)
+      if (!fades(state, e.order, h, powers)) return false;
     for (std::size_t g = 0; g < e.guards.size(); ++g)
       if (guard_step(e, static_cast<int>(g), h, powers) < h) return false;
     return true;
@@ -81,15 +81,8 @@ class TaylorAccuracy {
   /// The step within h over which the series suffices.
   template <class Expansion>
   double step(Expansion& e, double h) const {
-    const double allowed_log2 = rough_log2(std::min(1.0, loosest_step / relative_) * allowed(e.omega[0]));
-    double log2_step = rough_log2(h);
-    for (int k = e.order - window + 1; k <= e.order; ++k) {
-      // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
-      const double size = rough_log2(std::abs(e.omega[k]));
-      const double room = allowed_log2 + 4.0 * (e.order - k) - size;
-      // beyond a second the error is that of a step
-      log2_step = std::min(log2_step, room * reciprocal[room > 0.0 ? k : k - 1]);
-    }
+    double log2_step = log2_of_step(e.omega, e.order, rough_log2(h));
+    for (const Coefficients& state : e.states) log2_step = log2_of_step(state, e.order, log2_step);
     h = std::min(h, rough_exp2(log2_step));
     double shortest = h;
     const Powers powers = powers_of(h, e.order);
@@ -99,6 +92,27 @@ class TaylorAccuracy {
   }
 
  private:
+  /// Whether the last terms of one of them are negligible. powers: of h.
+  template <class Powers>
+  [[gnu::always_inline]] bool fades(const Coefficients& c, int order, double h, const Powers& powers) const {
+    const double most = allowed(c[0], h) * h;
+    for (int k = 0; k < window; ++k)
+      if (!(std::abs(c[order - window + 1 + k]) * powers[k] <= most)) return false;
+    return true;
+  }
+  /// Base-2 logarithm of the step within one, given by the same, over which they are.
+  [[gnu::always_inline]] double log2_of_step(const Coefficients& c, int order, double log2_step) const {
+    const double allowed_log2 = rough_log2(std::min(1.0, loosest_step / relative_) * allowed(c[0]));
+    for (int k = order - window + 1; k <= order; ++k) {
+      // Terms fall by at least 2^4 each. That lets earlier ones count where the last happen to vanish.
+      const double size = rough_log2(std::abs(c[k]));
+      const double room = allowed_log2 + 4.0 * (order - k) - size;
+      // beyond a second the error is that of a step
+      log2_step = std::min(log2_step, room * reciprocal[room > 0.0 ? k : k - 1]);
+    }
+    return log2_step;
+  }
+
   static constexpr double coarsest = 1e-13;     ///< tolerance from which on a looser one does not lower the order ...
   static constexpr double loosest_step = 1e-8;  ///< ... nor lengthen a free step, which a guard would halve again
 

@@ -19,7 +19,8 @@ template <class System>
 class SeriesFlow {
  public:
   using Instant = typename System::Instant;
-  using Motion = Expansion<System::guard_count>;
+  static constexpr int effect_states = System::state_size - 2;
+  using Motion = Expansion<System::guard_count, effect_states>;
 
   /// The motion from now on, accurate over a step of at most h.
   static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
@@ -31,6 +32,8 @@ class SeriesFlow {
       std::copy_n(at.theta_g.c.begin(), order + 2, e.theta.begin());
       std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
       for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
+      if constexpr (effect_states > 0)
+        for (int k = 0; k < effect_states; ++k) std::copy_n(at.states[k].c.begin(), order + 1, e.states[k].begin());
       e.step = h;
       if (accuracy.suffices(e, h)) break;
       if (order + higher <= highest_order && order < accuracy.order()) continue;
@@ -38,6 +41,15 @@ class SeriesFlow {
       break;
     }
     end_where_it_fails(system, now, accuracy, e);
+  }
+
+  /// The state s after the start of a series.
+  static typename System::State state_after(const Motion& e, double s) {
+    typename System::State x;
+    x[0] = value(e.angle(), s);
+    x[1] = value(e.speed(), s);
+    for (int k = 0; k < effect_states; ++k) x[2 + k] = value(e.state(k), s);
+    return x;
   }
 
   /// Ends the step where the equations are no longer those of the series.
@@ -54,16 +66,21 @@ class SeriesFlow {
   }
 
  private:
-  /// What acceleration [rad/s^2] and guards [their units] may differ by because inputs and torques are rounded.
+  /// What acceleration [rad/s^2], rates of states and guards [their units] may differ by because inputs and torques are
+  /// rounded.
   struct Roundings {
     double acceleration = 0.0;
+    std::array<double, effect_states> states{};
     std::array<double, System::guard_count> guards{};
   };
   /// Where torques all but cancel, or a sinusoid passes zero, this is more than the tolerance of what is left.
   static Roundings roundings(const System& system, const Instant& now) {
     const auto ahead = system.template ahead<1, Rounded>(now);
     const auto guards = system.guards(ahead, now.mode);
-    Roundings of{roundings_of_series * ahead.omega_g[1].rounding, {}};
+    Roundings of;
+    of.acceleration = roundings_of_series * ahead.omega_g[1].rounding;
+    if constexpr (effect_states > 0)
+      for (int k = 0; k < effect_states; ++k) of.states[k] = roundings_of_series * ahead.states[k][1].rounding;
     for (int g = 0; g < System::guard_count; ++g) of.guards[g] = roundings_of_series * guards[g][0].rounding;
     return of;
   }
@@ -82,12 +99,22 @@ class SeriesFlow {
       return std::abs(found - value(c, s)) <=
              allowed + (accuracy.relative() + rounding) * size + 4.0 * epsilon * std::abs(t) * rate;
     };
-    const auto there = system.moment(t, value(e.angle(), s), value(e.speed(), s));
-    Coefficients rate;
-    for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * e.omega[k];
-    const double a = system.acceleration(there, now.mode);
-    const double allowed = e.order * accuracy.allowed(there.omega_g) + inputs.acceleration;
-    if (!near(a, {rate.data(), static_cast<std::size_t>(e.order)}, allowed)) return false;
+    Instant then = now;
+    then.t = t;
+    then.x = state_after(e, s);
+    const auto there = system.moment(then);
+    const auto follows = [&](double found, const Coefficients& c, double value_there, double rounded) {
+      Coefficients rate;
+      for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * c[k];
+      const double allowed = e.order * accuracy.allowed(value_there) + rounded;
+      return near(found, {rate.data(), static_cast<std::size_t>(e.order)}, allowed);
+    };
+    if (!follows(system.acceleration(there, now.mode), e.omega, there.omega_g, inputs.acceleration)) return false;
+    if constexpr (effect_states > 0) {
+      const auto rates = system.derivative(t, then.x, now.mode);
+      for (int k = 0; k < effect_states; ++k)
+        if (!follows(rates[2 + k], e.states[k], then.x[2 + k], inputs.states[k])) return false;
+    }
     const auto guards = system.guards(there, now.mode);
     const auto terms = system.guard_terms(there, now.mode);
     for (int g = 0; g < System::guard_count; ++g)

@@ -140,7 +140,7 @@ class TaylorSolver {
       }
     then.t = t;
     const double s = t == end_ ? length_ : t - begin_.t;
-    if (leapt_ == Leap::none) then.x = {value(series_.angle(), s), value(series_.speed(), s)};
+    if (leapt_ == Leap::none) then.x = SeriesFlow<System>::state_after(series_, s);
     if constexpr (TapedFlow<System>::known)
       if (leapt_ == Leap::taped) then.x = taped_.state(t - begin_.t);
     System::keep_within_mode(then);
@@ -219,7 +219,7 @@ class TaylorSolver {
     constexpr int last = 4;
     const auto ahead = guard_series<last>(system_, now)[guard];
     const int vanishing = undecided(ahead, resolution);
-    if (guard == System::speed_guard && now.x[1] == 0.0) leave_rest(ahead, vanishing, resolution);
+    if (guard == System::speed_guard && System::leaves_rest(now)) leave_rest(ahead, vanishing, resolution);
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
   }
   /// The same for what most starts come to, told by the sizes of the terms alone: what decides is far above all that
@@ -281,7 +281,7 @@ class TaylorSolver {
   NominalFlow<System> nominal_;
   TapedFlow<System> taped_;
   BendWatch<System> bends_;
-  Expansion<System::guard_count> series_;
+  typename SeriesFlow<System>::Motion series_;
   Instant begin_{};      ///< of the present step
   double end_ = 0.0;     ///< of the present step [s] ...
   double length_ = 0.0;  ///< ... and how far it goes, which may be less than time resolves [s]

@@ -146,7 +146,7 @@ class DriveStepper final : public SteppedDrive {
 /// A stepper of a drive with the solver that its scenario names.
 template <class Drive>
 std::unique_ptr<SteppedDrive> stepper_of(Drive drive, const Scenario& scenario, bool lane) {
-  if constexpr (Drive::state_size == 2)
+  if constexpr (shaft_count<Drive>() == 1)
     if (scenario.run.solver == SolverKind::taylor)
       return std::make_unique<DriveStepper<Drive, TaylorSolver<Drive>>>(std::move(drive), scenario, lane);
   return std::make_unique<DriveStepper<Drive, CvodeSolver<Drive>>>(std::move(drive), scenario, lane);

@@ -114,8 +114,6 @@ std::unique_ptr<SteppedDrive> make_stepped_drive(const Scenario& scenario) {
   const bool elastic = has_elastic_teeth(plant.effects);
   if (elastic && plant.run.solver == SolverKind::taylor)
     reject({"drive"}, "the solver \"taylor\" follows rigid drives only; set run.solver = \"cvode\"");
-  if (const auto id = plant.effects.first_with_states(); !id.empty() && plant.run.solver == SolverKind::taylor)
-    reject({"drive"}, taylor_without_states(id));
   auto drive = elastic                       ? make_compliant_stepper(plant)
                : plant.effects.have_states() ? make_stepper_with_states(plant)
                                              : with_drive_for_runs(plant, [&](auto& rigid) {

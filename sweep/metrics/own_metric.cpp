@@ -48,7 +48,7 @@ OwnMeters::OwnMeters(const std::vector<OwnMetric>& metrics, const Scenario& scen
     if (metrics[k].of_controller)
       of_sample_[k] = column(controller_columns(), metrics[k].column);
     else
-      of_row_[k] = column(trajectory_columns(contents.elastic, contents.winding), metrics[k].column);
+      of_row_[k] = column(trajectory_columns(contents), metrics[k].column);
 }
 
 RunListeners OwnMeters::listeners() {

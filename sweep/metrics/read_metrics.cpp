@@ -40,9 +40,8 @@ ColumnUnit unit_of(const std::string& symbol) {
 /// The columns of a table that change over time.
 std::vector<ColumnDescription> columns_of(const Scenario& scenario, bool of_controller) {
   const RunContents contents = contents_of(scenario);
-  std::vector<ColumnDescription> columns =
-      of_controller ? descriptions(controller_columns(), scenario.axis)
-                    : descriptions(trajectory_columns(contents.elastic, contents.winding), scenario.axis);
+  std::vector<ColumnDescription> columns = of_controller ? descriptions(controller_columns(), scenario.axis)
+                                                         : descriptions(trajectory_columns(contents), scenario.axis);
   std::erase_if(columns, [](const ColumnDescription& c) { return c.name == "time"; });
   return columns;
 }

@@ -69,8 +69,6 @@ TEST_CASE("friction whose effects carry it below zero, to mu_g or beyond eq. 17 
 TEST_CASE("a motor whose current is a state is rejected with what cannot carry it") {
   const std::string motor = "[effect.dc_motor]\nresistance_ohm = 1.2\ntorque_constant_Nm_per_A = 0.025\ninductance_H = 1e-3\n";
   check_rejected(Folder(), {
-      {"power series", edited(with(motor), "duration_s = 0.01", "duration_s = 0.01\nsolver = \"taylor\""),
-       "s.toml:19:10: error: run.solver = \"taylor\" carries no states of effects, but effect.dc_motor has one; set run.solver = \"cvode\""},
       {"elastic teeth", with(motor + "[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
        "s.toml:19:1: error: effect.dc_motor has states, which elastic teeth do not carry; state neither inductance_H nor heat_capacity_J_per_K, or switch effect.tooth_compliance off"},
       {"a winding without a heat capacity", with("[effect.dc_motor]\nresistance_ohm = 1\ntorque_constant_Nm_per_A = 0.025\nthermal_resistance_K_per_W = 3\n"),
@@ -81,6 +79,21 @@ TEST_CASE("a motor whose current is a state is rejected with what cannot carry i
        "s.toml:22:16: error: effect.dc_motor.inductance_H = -0.001 H must be at least 0 H"},
       {"no torque constant", with("[effect.dc_motor]\nresistance_ohm = 1\n"),
        "*"}});
+}
+
+TEST_CASE("bristles that are half stated are rejected with what is missing") {
+  const std::string bristles = "[effect.worm_lugre]\ncoulomb_torque_Nm = 0.01\n";
+  check_rejected(Folder(), {
+      {"no speed", with(bristles + "static_torque_Nm = 0.02\n"),
+       "s.toml:19:1: error: effect.worm_lugre states static_torque_Nm without stribeck_speed_rad_per_s, the speed by which it falls; add it, or leave out both"},
+      {"no static torque", with(bristles + "stribeck_speed_rad_per_s = 2\n"),
+       "s.toml:19:1: error: effect.worm_lugre states stribeck_speed_rad_per_s without static_torque_Nm, from which friction falls; add it, or leave out both"},
+      {"no stiffness", with(bristles + "damping_Nms_per_rad = 1e-3\n"),
+       "s.toml:19:1: error: effect.worm_lugre states damping_Nms_per_rad without stiffness_Nm_per_rad, which says how far the bristles bend; add it"},
+      {"elastic teeth", with(bristles + "stiffness_Nm_per_rad = 20\n[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.worm_lugre has states, which elastic teeth do not carry; leave stiffness_Nm_per_rad out, or switch effect.tooth_compliance off"},
+      {"no friction", with("[effect.worm_lugre]\ncoulomb_torque_Nm = 0\n"),
+       "s.toml:20:21: error: effect.worm_lugre.coulomb_torque_Nm = 0 N m must be greater than 0 N m"}});
 }
 
 }  // namespace wormdrive::test::cli_bad_effects

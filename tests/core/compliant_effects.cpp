@@ -18,6 +18,7 @@ std::vector<Effects<double>> each_effect() {
           effects(Cogging<double>{0.02, 3.0, 0.4}),
           effects(WormCoulomb<double>{0.01}),
           effects(DcMotor<double>{1.2, 0.025}),
+          effects(WormLuGre<double>{0.01, 0.02, 30.0}),
           effects(WormViscous<double>{2e-4}),
           effects(WormCoulomb<double>{0.01}, WormViscous<double>{2e-4}, BearingAsymmetry<double>{0.005, 1e-4}),
           effects(HoldingBrake<double>{0.01}),
