@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "core/effects.hpp"
@@ -30,7 +31,6 @@ class TorqueBalance {
     pitch_varies_ = effects_.pitch_varies();
     ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
     bends_with_load_ = effects_.bend_with_load();
-    for_each_bend(turning(), Motion::stuck, [this](const auto&) { ++bend_count_; });
   }
 
   /// The mesh with the inertias that effects add; its friction is that without effects.
@@ -90,14 +90,25 @@ class TorqueBalance {
   /// Highest number of periods per radian of the gear in what depends on its angle.
   double ripple() const { return ripple_; }
 
-  /// How many quantities there are at whose zeros the equations bend, as where a stop is met.
-  int bend_count() const { return bend_count_; }
+  /// How many quantities there are at whose zeros the equations bend, as where a stop is met. M: a moment, with the
+  /// states of effects or without.
+  template <template <class> class M>
+  int bend_count() const {
+    int count = 0;
+    for_each_bend(M<T>{turning()}, Motion::stuck, [&](const auto&) { ++count; });
+    return count;
+  }
   /// Calls visit with each of them, always in the same order.
   template <class S, template <class> class M, class Visit>
   void for_each_bend(const M<S>& at, Motion motion, Visit&& visit) const {
     const Moment<S>& moment = at;
     if constexpr (requires { load_.for_each_bend(moment, visit); }) load_.for_each_bend(moment, visit);
     if (bends_with_load_) visit(effects_.load_torque(load_, moment, motion));
+    // With states rest is integrated. Its margins bend where another flank would carry what starts.
+    if constexpr (std::is_same_v<M<S>, MomentOfEffects<S>>)
+      if (mesh_.has_teeth)
+        for (const Motion way : {Motion::forward, Motion::backward})
+          visit(motion == Motion::stuck ? beyond_surface(at, way) : S(T(1)));
   }
 
   // ---- torques ------------------------------------------------------------------------------------------------
@@ -240,7 +251,6 @@ class TorqueBalance {
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
   double ripple_ = 0.0;
   bool bends_with_load_ = false;
-  int bend_count_ = 0;
 };
 
 }  // namespace wormdrive

@@ -258,7 +258,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
   template <class S>
   Flank flank_at(const S& beyond) const {
-    return !mesh().has_teeth ? Flank::none : beyond <= S(T(0)) ? Flank::left : Flank::right;
+    return !mesh().has_teeth ? Flank::none : is_positive(beyond) ? Flank::right : Flank::left;
   }
   /// On the surface itself, the flank just after.
   template <int N>

@@ -134,9 +134,6 @@ class Audit {
     const double swing =
         std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
     steps = std::max(steps, std::lround(finer * swing * span / phase));
-    if constexpr (System::state_size >
-                  2 * shaft_count<System>())  // advance() keeps what effects remember stable, this exact
-      steps = std::max(steps, std::lround(finer * std::max(fastest_rate(start), fastest_rate(end)) * span));
     const double h = span / static_cast<double>(steps);
 
     Instant now = start;
@@ -184,7 +181,9 @@ class Audit {
 
   /// One step in as many parts as what settles or swings fastest takes, for the method has no Jacobian of its own.
   void advance(Instant& now, double h, Power& work) const {
-    constexpr double rate_in_a_part = 0.5, most_parts = 1e5;  // the method is stable up to 2.8; more parts take seconds
+    // The method is stable up to 2.8; what effects remember it is to follow as well. More parts take seconds.
+    constexpr double rate_in_a_part = System::state_size > 2 * shaft_count<System>() ? 1.0 / finer : 0.5,
+                     most_parts = 1e5;
     const auto J = system_.jacobian(now.t, now.x, now.mode);
     double parts = 1.0;
     // no eigenvalue is larger than the largest sum of a row, which costs next to nothing
@@ -196,11 +195,6 @@ class Audit {
     }
   }
 
-  /// The largest magnitude of the eigenvalues at a moment [1/s].
-  double fastest_rate(const Instant& now) const {
-    const auto J = system_.jacobian(now.t, now.x, now.mode);
-    return J.allFinite() ? wormdrive::fastest_rate(J) : 0.0;
-  }
   /// One Runge-Kutta step, with the powers integrated alongside.
   void step(Instant& now, double h, Power& work) const {
     const auto at = [&](double dt, const typename System::State& x) { return Instant{now.t + dt, x, now.mode}; };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/moment.hpp"
 #include "core/numbers/crossing.hpp"
 #include "core/numbers/rounded.hpp"
 #include "events/segment_start.hpp"
@@ -36,7 +37,9 @@ class BendWatch {
       const double resolution = time_resolution(now.t);
       std::size_t k = 0;
       visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
-        const double sign = sign_just_after(b, resolution) < 0 ? -1.0 : 1.0, unknown = 2.0 * blur(b, 0, resolution);
+        const double sign = sign_just_after(b, resolution) < 0 ? -1.0 : 1.0;
+        // one that stays at zero, as the load of a stop that is not met, bends nothing until it leaves it
+        const double unknown = std::max(2.0 * blur(b, 0, resolution), std::numeric_limits<double>::min());
         sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
       });
       here_ = values(now);
@@ -71,10 +74,24 @@ class BendWatch {
     std::optional<double> first;
     for (const auto& b : watched(motion, mode)) {
       const std::size_t terms = static_cast<std::size_t>(order) + 1;
-      const auto fall = search.first_fall({b.c.data(), terms}, first.value_or(h), b[0] > 0.0).at;
+      const auto fall = search.first_fall({b.c.data(), terms}, first.value_or(h), true).at;
       if (fall && *fall < h) first = fall;
     }
     return first;
+  }
+  /// How long [s] from now on, at a bend, rounding may hide on which side of it the motion is. A series has the
+  /// equations of the side that it begins on, so the next one begins behind that.
+  double hidden_for(const Instant& now) const {
+    double hidden = 0.0;
+    if constexpr (Foresees<System>) {
+      const double resolution = time_resolution(now.t);
+      visit(system_.template ahead<2, Rounded>(now), now.mode, [&](const auto& b) {
+        const double unknown = 2.0 * blur(b, 0, resolution), rate = std::abs(b[1].value);
+        if (std::abs(b[0].value) <= unknown && rate > 2.0 * blur(b, 1, resolution))
+          hidden = std::max(hidden, 2.0 * unknown / rate);
+      });
+    }
+    return hidden;
   }
 
  private:
@@ -87,9 +104,9 @@ class BendWatch {
 
   static std::size_t count(const System& system) {
     if constexpr (requires { system.rigid(); })
-      return static_cast<std::size_t>(system.rigid().bend_count());
-    else if constexpr (requires { system.bend_count(); })
-      return static_cast<std::size_t>(system.bend_count());
+      return static_cast<std::size_t>(system.rigid().template bend_count<Moment>());
+    else if constexpr (requires { system.template bend_count<System::template MomentHere>(); })
+      return static_cast<std::size_t>(system.template bend_count<System::template MomentHere>());
     else
       return 0;
   }
@@ -97,7 +114,7 @@ class BendWatch {
   void visit(const M& moment, const Mode& mode, Use&& use) const {
     if constexpr (requires { system_.rigid(); })
       system_.rigid().for_each_bend(moment, mode.gear, use);
-    else if constexpr (requires { system_.bend_count(); })
+    else if constexpr (requires { system_.template bend_count<System::template MomentHere>(); })
       system_.for_each_bend(moment, mode.motion, use);
   }
   /// The quantities along a motion, each positive where it began.

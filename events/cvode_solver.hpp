@@ -238,7 +238,7 @@ class CvodeSolver {
     }
     guards_ = there;
     const auto bend = bends_.first_between([this](double clock) { return at(clock); }, left, right, end);
-    if (bend && (fired_ == no_guard || *bend < first)) first = *bend, fired_ = bends_.guard;
+    if (bend && *bend <= first + time_resolution(origin_ + first)) first = *bend, fired_ = bends_.guard;
     if (fired_ == no_guard) return;
     ahead_ = at(first);
   }

@@ -91,18 +91,17 @@ double blur(const Series<Rounded, N>& x, int k, double resolution) {
   return 8.0 * x[k].rounding + rate * resolution;
 }
 
-/// Whether a coefficient before the k-th lifts a series by more than a few roundings to the other side before the k-th
-/// takes it back, as in a swing: then neither decides.
+/// Whether the coefficient two before the k-th lifts a series by more than a few roundings to the other side before the
+/// k-th takes it back, as in a swing, which comes back again: then neither decides.
 template <int N>
-bool comes_back(const Series<Rounded, N>& x, int k, double resolution) {
-  for (int j = 1; j < k; ++j) {
-    const double opposed = -x[j].value / x[k].value;
-    if (opposed <= 0.0 || std::abs(x[j].value) <= blur(x, j, resolution)) continue;
-    const double turns = std::pow(opposed * j / k, 1.0 / (k - j));  // where |x_j| s^j - |x_k| s^k is highest [s]
-    const double highest = std::abs(x[j].value) * std::pow(turns, j) * (k - j) / k;
-    if (highest > blur(x, 0, resolution) / 4.0) return true;
-  }
-  return false;
+bool swings(const Series<Rounded, N>& x, int k, double resolution) {
+  const int j = k - 2;
+  if (j < 1 || std::abs(x[j].value) <= blur(x, j, resolution)) return false;
+  const double opposed = -x[j].value / x[k].value;
+  if (opposed <= 0.0) return false;
+  const double turns = std::sqrt(opposed * j / k);  // where |x_j| s^j - |x_k| s^k is highest [s]
+  const double highest = std::abs(x[j].value) * std::pow(turns, j) * 2.0 / k;
+  return highest > blur(x, 0, resolution) / 4.0;
 }
 
 /// How many leading coefficients do not decide the sign of a series just after the present moment: they vanish within
@@ -135,7 +134,7 @@ int undecided(const Series<Rounded, N>& x, double resolution) {
     double power = hidden;
     for (int j = k + 1; j <= last; ++j, power *= hidden)
       outweighed = outweighed || (std::abs(x[j].value) > blur(x, j, resolution) && std::abs(x[j].value) * power > size);
-    if (!outweighed) return comes_back(x, k, resolution) ? N + 1 : k;
+    if (!outweighed) return swings(x, k, resolution) ? N + 1 : k;
   }
   return N + 1;
 }

@@ -10,7 +10,9 @@
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
+#include "events/taylor/leave_rest.hpp"
 #include "events/taylor/nominal.hpp"
+#include "events/taylor/nominal_start.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
 #include "events/taylor/taped.hpp"
@@ -176,25 +178,47 @@ class TaylorSolver {
         continue;
       }
       const RootSearch::Fall fall = armed_[g] ? search_.first_fall(series_.guard(g), length_, true)
-                                              : search_.fall_from_start(series_.guard(g), length_, vanishing[g]);
+                                    : is_undecided(vanishing[g], g)
+                                        ? fall_beyond_rounding(now, g)
+                                        : search_.fall_from_start(series_.guard(g), length_, vanishing[g]);
       armed_[g] = armed_[g] || fall.armed;
       if (!fall.at || (fired_ != no_guard && *fall.at >= length_)) continue;
       end_ = std::min(now.t + *fall.at, end_);
       length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
-    if (const auto bend = bends_.none() ? std::nullopt
-                                        : bends_.first_within(system_.ahead(now, series_.order + 1), now.mode,
-                                                              series_.order, length_, search_)) {
-      end_ = std::min(now.t + *bend, end_);
+    if (const auto bend = bends_.none()
+                              ? std::nullopt
+                              : bends_.first_within(system_.ahead(now, series_.order + 1), now.mode, series_.order,
+                                                    length_ + time_resolution(end_), search_)) {
+      // Of a bend and a guard that falls there the bend comes first: behind it the guard may be another one. What has
+      // stepped behind it goes on by the equations of that side.
+      end_ = std::min(now.t + *bend, limit);
       length_ = brief ? *bend : end_ - now.t;
+      end_ = std::min(end_ + bends_.hidden_for(at(end_)), limit);
+      if (!brief) length_ = end_ - now.t;
       fired_ = bends_.guard;
     }
+    if constexpr (System::state_size > 2) get_behind_release();
     if (!brief || (waited_ += length_) < ulp) return;
     end_ = now.t + ulp;
     waited_ = 0.0;
   }
 
+  /// Lets a step that ends at a release end where the state itself says so: what starts is judged by that. A margin
+  /// that only touches zero where another flank would carry releases nothing.
+  void get_behind_release() {
+    if (fired_ == no_guard || fired_ == bends_.guard || begin_.mode.motion != Motion::stuck) return;
+    const double ulp = std::nextafter(end_, std::numeric_limits<double>::infinity()) - end_;
+    for (int tries = 0; tries < 8; ++tries) {
+      const auto left = system_.guards_ahead(at(end_))[fired_];
+      if (!(left[0] >= 0.0)) return;
+      if (left[1] > 0.0) fired_ = bends_.guard;  // it comes back on the other side of a bend
+      if (left[1] >= 0.0) return;
+      length_ += std::max(ulp, 2.0 * left[0] / -left[1]);
+      end_ = begin_.t + length_;
+    }
+  }
   /// Quantities at whose zeros the equations bend are followed by their series: these have to be theirs.
   double longest_step(const Instant& now) {
     if (bends_.none()) return max_step_;
@@ -210,69 +234,33 @@ class TaylorSolver {
     SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
   }
 
+  /// Whether nothing decides what a guard does just after the start of a segment; a motion that has no speed yet goes
+  /// on by what is left of it, see leave_rest().
+  bool is_undecided(std::size_t vanishing, int guard) const {
+    return vanishing >= series_.guard(guard).size() && !(guard == System::speed_guard && System::leaves_rest(begin_));
+  }
+  /// When a guard that is zero to rounding falls by more than that.
+  RootSearch::Fall fall_beyond_rounding(const Instant& now, int guard) {
+    Coefficients c = series_.guards[guard];
+    c[0] += guard_start(system_, now, guard, c).floor;
+    if (!(c[0] > 0.0)) return {};  // it stays at zero
+    return {search_.first_fall({c.data(), series_.guard(guard).size()}, length_, true).at, false};
+  }
+
   /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
   std::size_t vanishing_at_start(const Instant& now, int guard) {
-    if (const auto few = vanishing_by_far(now, guard)) return *few;
+    if constexpr (NominalFlow<System>::known)
+      if (const auto few = vanishing_by_far(system_, nominal_, series_, now, guard)) return *few;
     const Polynomial c = series_.guard(guard);
     const double resolution = time_resolution(now.t);
     if (const auto few = undecided_at_once(guard_series<1>(system_, now)[guard], c[2], c[3], resolution)) return *few;
     constexpr int last = 4;
     const auto ahead = guard_series<last>(system_, now)[guard];
     const int vanishing = undecided(ahead, resolution);
-    if (guard == System::speed_guard && System::leaves_rest(now)) leave_rest(ahead, vanishing, resolution);
+    if (guard == System::speed_guard && System::leaves_rest(now))
+      leave_rest(series_, guard, ahead, vanishing, resolution);
     return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
   }
-  /// The same for what most starts come to, told by the sizes of the terms alone: what decides is far above all that
-  /// rounding may be, and what does not is below the least that it is.
-  std::optional<std::size_t> vanishing_by_far(const Instant& now, int guard) {
-    if constexpr (NominalFlow<System>::known) {
-      const auto terms = [&](int k) { return nominal_.guard_terms(series_, now.t, guard, k); };
-      const auto value = terms(0), rate = terms(1);
-      if (!value) return std::nullopt;
-      const Polynomial c = series_.guard(guard);
-      const double resolution = time_resolution(now.t), far = 4.0;
-      const double phase = system_.fastest_input(now.t) * std::abs(now.t) + system_.ripple() * std::abs(now.x[0]);
-      // phases of inputs and angles are known to their own rounding only
-      const double share = 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * phase;
-      const double least = 16.0 * Rounded::unit;  // of what is not known: eight times two roundings, see blur()
-      if (c[0] > share * value->most && c[0] > far * std::abs(c[1]) * resolution) return 0;
-      if (std::abs(c[0]) > least * value->present + std::abs(c[1]) * resolution) return std::nullopt;
-      double hidden = share * value->most / std::abs(c[1]) + resolution;  // how long [s] rounding hides the rise
-      if (hidden < series_.step && std::abs(c[1]) > far * (share * rate->most + std::abs(c[2]) * (hidden + resolution) +
-                                                           std::abs(c[3]) * hidden * hidden))
-        return 1;
-      // from rest the rate is the value that starts
-      if (guard != System::speed_guard || c[0] != 0.0 || std::abs(c[1]) > least * rate->present) return std::nullopt;
-      const double bend = std::abs(c[2]);
-      hidden = 2.0 * share * rate->most / bend + 4.0 * resolution;
-      if (hidden >= series_.step ||
-          !(bend > far * (share * terms(2)->most + std::abs(c[3]) * (hidden + 3.0 * resolution) +
-                          2.0 * std::abs(c[4]) * hidden * hidden)))
-        return std::nullopt;
-      stay(1);
-      return 2;
-    }
-    return std::nullopt;
-  }
-  /// Motion from rest: what the start holds of speed and acceleration may be rounding, and would point anywhere. A
-  /// coefficient that is more than rounding counts, though another may outweigh it.
-  template <int last>
-  void leave_rest(const Series<Rounded, last>& speed, int vanishing, double resolution) {
-    // Under falling friction a rounding grows by itself. One that points against the mode would hold the motion at
-    // zero, in steps as short as the growth, for ever; its mirror image is as likely.
-    const Coefficients& c = series_.guards[System::speed_guard];
-    if (vanishing > last && 2.0 * c[2] * series_.step / c[1] > 1.0) return c[1] < 0.0 ? mirror() : void();
-    for (int k = 0; k <= last && k < vanishing; ++k)
-      if (std::abs(speed[k].value) <= blur(speed, k, resolution)) stay(k);
-  }
-  void mirror() {
-    for (int k = 1; k <= series_.order; ++k)
-      for (double* const c : {&series_.omega[k], &series_.theta[k + 1], &series_.guards[System::speed_guard][k]})
-        *c = -*c;
-  }
-  /// Takes a coefficient of the speed for rounding.
-  void stay(int k) { series_.omega[k] = series_.theta[k + 1] = series_.guards[System::speed_guard][k] = 0.0; }
-
   static constexpr int most_stalled = 1000, most_steps = 100'000;
 
   const System& system_;

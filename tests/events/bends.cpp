@@ -96,4 +96,30 @@ TEST_CASE("where a run begins at a bend, the mode is that of the side it goes to
   }
 }
 
+TEST_CASE(
+    "friction under the load of a damped stop alone has the same events by every solver, where the load is zero") {
+  near_ties::Dice dice(31, 0);
+  for (int drawn = 0; drawn < 12; ++drawn) {
+    MeshParameters<double> p = table1(dice.between(0.03, 0.1));
+    p.i = std::round(dice.between(20.0, 50.0));
+    p.lambda = dice.between(10.0, 25.0) * unit::degree;
+    p.lg = p.i * p.lw * std::tan(p.lambda);
+    p.Jw = dice.decades(1e-6, 1e-5);
+    p.Jg = dice.decades(1e-5, 1e-4);
+    EndStops stops;
+    stops.low = -dice.between(0.3, 1.0);
+    stops.high = dice.between(0.3, 1.0);
+    stops.stiffness = dice.decades(0.3, 30.0);
+    stops.damping = dice.decades(0.1, 3.0);
+    const Signal push{{Sinusoid{.amplitude = 0.004, .frequency = dice.between(1.0, 8.0), .phase = -1.0},
+                       Sinusoid{.amplitude = 0.004, .frequency = 0.8, .phase = 0.3}}};
+    const auto d = on(GearMesh<double>(p), LoadSum{{stops}}, push, dice.between(0.02, 0.3));
+    const auto seen = [&](By by) { return run(d, Timetable(0, 1, 0.1), {0, {0.0, 0.2}, {}}, tight(by, 1e-11)); };
+    INFO("drawn " << drawn);
+    const auto series = seen(taylor), steps = seen(bdf);
+    REQUIRE(series.modes() == steps.modes());
+    REQUIRE(std::abs(series.end.x[0] - steps.end.x[0]) <= 1e-6);
+  }
+}
+
 }  // namespace wormdrive::test::events_bends

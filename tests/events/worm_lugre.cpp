@@ -195,4 +195,35 @@ TEST_CASE("bristles that were bent go on pushing a gear that has locked itself")
   }
 }
 
+TEST_CASE("a gear that locks itself rests while its load passes zero, though bristles or a winding are integrated") {
+  DcMotor<double> motor{1.2, 0.025};
+  motor.inductance = 1e-3;
+  for (const Effects<double>& on : {effects(bristles(0.01, 1.0)), effects(motor)})
+    for (double phase = 0.0; phase < 360.0; phase += 20.0)
+      for (const By by : every_solver) {
+        const Signal load{{Sinusoid{.amplitude = 0.1, .frequency = 1.0, .phase = phase * unit::degree}}};
+        const auto seen = run(with_bristles(GearMesh<double>(table1()), load, Signal{}, on), Timetable(0, 2, 0.01), {},
+                              tight(by, 1e-10));
+        INFO("phase " << phase << " deg");
+        REQUIRE(seen.events.empty());
+        REQUIRE(seen.end.x[0] == 0.0);
+      }
+}
+
+TEST_CASE("without a load, where a gear starts as the switching surface is crossed, every solver has the same events") {
+  DcMotor<double> motor{1.2, 0.025};
+  for (const double inductance : {5e-2, 1e-2, 1.5e-3, 5e-4})
+    for (const double phase : {-40.0, 10.0, 75.0}) {
+      motor.inductance = inductance;
+      const Signal push{{Sinusoid{.amplitude = 0.05, .frequency = 1.5, .phase = phase * unit::degree}}};
+      const auto events = [&](By by) {
+        return run(with_bristles(GearMesh<double>(table1()), Signal{}, push, effects(motor, WormCoulomb<double>{0.02})),
+                   Timetable(0, 2, 0.01), {}, tight(by, 1e-12))
+            .modes();
+      };
+      INFO("inductance " << inductance << ", phase " << phase);
+      REQUIRE(events(taylor) == events(bdf));
+    }
+}
+
 }  // namespace wormdrive::test::events_worm_lugre
