@@ -51,23 +51,13 @@ struct Effects {
   T lag() const {
     return through(list, T(0.0), [](const auto& e, const T& sum) -> decltype(sum + e.lag()) { return sum + e.lag(); });
   }
-  /// Torque that the motor gives for a command [N m].
-  template <class S>
-  S motor_torque(const S& command, const Moment<S>& at) const {
-    return through(
-        list, command,
-        [](const auto& e, const S& torque, const auto& now) -> decltype(e.motor_torque(torque, now)) {
-          return e.motor_torque(torque, now);
-        },
-        at);
-  }
-  /// The same where effects have states.
-  template <class S>
-  S motor_torque(const S& command, const MomentOfEffects<S>& at) const {
+  /// Torque that the motor gives for a command [N m]. M: a moment, with the states of effects or without.
+  template <class S, template <class> class M>
+  S motor_torque(const S& command, const M<S>& at) const {
     return through(
         list, command,
         []<class E>(const E& e, const S& torque, const auto& now) -> decltype(e.motor_torque(torque, now)) {
-          if constexpr (MayHaveStates<E>)
+          if constexpr (MayHaveStates<E> && requires { now.states; })
             if (e.has_states()) return e.motor_torque(torque, now, EffectStates::template of<E>(now.states));
           return e.motor_torque(torque, now);
         },
@@ -136,23 +126,13 @@ struct Effects {
     });
     return any;
   }
-  /// Torque that the effects add on the worm shaft [N m].
-  template <class S>
-  S worm_torque(const Moment<S>& at, Motion motion) const {
-    return through(
-        list, S(0.0),
-        [](const auto& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
-          return sum + e.worm_torque(now, way);
-        },
-        at, motion);
-  }
-  /// The same where effects have states.
-  template <class S>
-  S worm_torque(const MomentOfEffects<S>& at, Motion motion) const {
+  /// Torque that the effects add on the worm shaft [N m]. M as above.
+  template <class S, template <class> class M>
+  S worm_torque(const M<S>& at, Motion motion) const {
     return through(
         list, S(0.0),
         []<class E>(const E& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
-          if constexpr (MayHaveStates<E>)
+          if constexpr (MayHaveStates<E> && requires { now.states; })
             if (e.has_states()) return sum + e.worm_torque(now, way, EffectStates::template of<E>(now.states));
           return sum + e.worm_torque(now, way);
         },

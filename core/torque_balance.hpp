@@ -31,6 +31,8 @@ class TorqueBalance {
     pitch_varies_ = effects_.pitch_varies();
     ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
     bends_with_load_ = effects_.bend_with_load();
+    bend_count_ = counted_bends<Moment>();
+    bend_count_with_states_ = counted_bends<MomentOfEffects>();
   }
 
   /// The mesh with the inertias that effects add; its friction is that without effects.
@@ -94,9 +96,7 @@ class TorqueBalance {
   /// states of effects or without.
   template <template <class> class M>
   int bend_count() const {
-    int count = 0;
-    for_each_bend(M<T>{turning()}, Motion::stuck, [&](const auto&) { ++count; });
-    return count;
+    return std::is_same_v<M<T>, MomentOfEffects<T>> ? bend_count_with_states_ : bend_count_;
   }
   /// Calls visit with each of them, always in the same order.
   template <class S, template <class> class M, class Visit>
@@ -173,8 +173,7 @@ class TorqueBalance {
   template <class S, template <class> class M>
   SideTorques<S> with_bearings(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
-    return {input.worm + worm,
-            input.gear + effects_.gear_torque(input.gear, static_cast<const Moment<S>&>(at), motion)};
+    return {input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
   }
   /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
   template <class S, template <class> class M>
@@ -235,6 +234,12 @@ class TorqueBalance {
     else
       return motor_(at.t);
   }
+  template <template <class> class M>
+  int counted_bends() const {
+    int count = 0;
+    for_each_bend(M<T>{turning()}, Motion::stuck, [&](const auto&) { ++count; });
+    return count;
+  }
   static Moment<T> turning() { return {T(0), T(0), T(1), T(1), T(0)}; }
   template <class Torque>
   static bool depends_on_motion(Torque torque) {
@@ -251,6 +256,7 @@ class TorqueBalance {
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
   double ripple_ = 0.0;
   bool bends_with_load_ = false;
+  int bend_count_ = 0, bend_count_with_states_ = 0;
 };
 
 }  // namespace wormdrive

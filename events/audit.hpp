@@ -188,7 +188,7 @@ class Audit {
     double parts = 1.0;
     // no eigenvalue is larger than the largest sum of a row, which costs next to nothing
     if (J.allFinite() && h * J.cwiseAbs().rowwise().sum().maxCoeff() > rate_in_a_part)
-      parts = std::clamp(std::ceil(h * wormdrive::fastest_rate(J) / rate_in_a_part), 1.0, most_parts);
+      parts = std::clamp(std::ceil(h * fastest_rate(J) / rate_in_a_part), 1.0, most_parts);
     for (double k = 0.0; k < parts; ++k) {
       step(now, h / parts, work);
       now.t += h / parts;

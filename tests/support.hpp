@@ -39,6 +39,14 @@ inline MeshParameters<double> closing(MeshParameters<double> p) {
   return p;
 }
 
+/// The same gear with another ratio and lead angle, and the pitch radius that these need.
+inline MeshParameters<double> closing(MeshParameters<double> p, double i, double lambda) {
+  p.i = i;
+  p.lambda = lambda;
+  p.lg = p.i * p.lw * std::tan(p.lambda);
+  return p;
+}
+
 inline Signal constant(double torque) { return {{Constant{torque}}}; }
 
 /// The paper's fig. 9: a motor torque 0.05 cos(3 pi t + pi/2) against an almost balanced arm.
@@ -61,6 +69,13 @@ template <class Load>
 auto drive(const MeshParameters<double>& p, const Load& load, const Signal& motor, Effects<double> on = {}) {
   using Made = decltype(make_load(load));
   return WormDrive<double, Made>(GearMesh<double>(p), make_load(load), std::move(on), motor);
+}
+
+/// One that carries the states of its effects.
+template <class Load>
+auto drive_with_states(const GearMesh<double>& mesh, const Load& load, const Signal& motor, const Effects<double>& on) {
+  using Made = decltype(make_load(load));
+  return WormDrive<double, Made, true>(mesh, make_load(load), on, motor);
 }
 
 /// A drive with its inputs frozen at t, ready to be asked for accelerations.

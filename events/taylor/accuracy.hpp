@@ -92,8 +92,21 @@ class TaylorAccuracy {
   }
 
  private:
+  static constexpr double coarsest = 1e-13;     ///< tolerance from which on a looser one does not lower the order ...
+  static constexpr double loosest_step = 1e-8;  ///< ... nor lengthen a free step, which a guard would halve again
+
+  /// Powers of a step, of the terms in the window.
+  using Powers = std::array<double, window>;
+  static Powers powers_of(double h, int order) {
+    Powers powers;
+    double power = h, square = h;
+    for (int n = order - window; n > 0; n /= 2, square *= square)
+      if (n % 2 == 1) power *= square;
+    for (double& p : powers) p = std::exchange(power, power * h);
+    return powers;
+  }
+
   /// Whether the last terms of one of them are negligible. powers: of h.
-  template <class Powers>
   [[gnu::always_inline]] bool fades(const Coefficients& c, int order, double h, const Powers& powers) const {
     const double most = allowed(c[0], h) * h;
     for (int k = 0; k < window; ++k)
@@ -111,20 +124,6 @@ class TaylorAccuracy {
       log2_step = std::min(log2_step, room * reciprocal[room > 0.0 ? k : k - 1]);
     }
     return log2_step;
-  }
-
-  static constexpr double coarsest = 1e-13;     ///< tolerance from which on a looser one does not lower the order ...
-  static constexpr double loosest_step = 1e-8;  ///< ... nor lengthen a free step, which a guard would halve again
-
-  /// Powers of a step, of the terms in the window.
-  using Powers = std::array<double, window>;
-  static Powers powers_of(double h, int order) {
-    Powers powers;
-    double power = h, square = h;
-    for (int n = order - window; n > 0; n /= 2, square *= square)
-      if (n % 2 == 1) power *= square;
-    for (double& p : powers) p = std::exchange(power, power * h);
-    return powers;
   }
 
   /// The longest of the steps h, h/2, h/4 ... over which a guard certainly has no root behind its start, or else that

@@ -43,12 +43,12 @@ OwnMeters::OwnMeters(const std::vector<OwnMetric>& metrics, const Scenario& scen
       of_row_(metrics.size()),
       of_sample_(metrics.size()),
       courses_(metrics.size()) {
-  const RunContents contents = contents_of(scenario);
+  const std::vector<RunColumn<Row>> columns = trajectory_columns(contents_of(scenario));
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].of_controller)
       of_sample_[k] = column(controller_columns(), metrics[k].column);
     else
-      of_row_[k] = column(trajectory_columns(contents), metrics[k].column);
+      of_row_[k] = column(columns, metrics[k].column);
 }
 
 RunListeners OwnMeters::listeners() {

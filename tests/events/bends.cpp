@@ -100,10 +100,9 @@ TEST_CASE(
     "friction under the load of a damped stop alone has the same events by every solver, where the load is zero") {
   near_ties::Dice dice(31, 0);
   for (int drawn = 0; drawn < 12; ++drawn) {
-    MeshParameters<double> p = table1(dice.between(0.03, 0.1));
-    p.i = std::round(dice.between(20.0, 50.0));
-    p.lambda = dice.between(10.0, 25.0) * unit::degree;
-    p.lg = p.i * p.lw * std::tan(p.lambda);
+    const double mu = dice.between(0.03, 0.1), ratio = std::round(dice.between(20.0, 50.0)),
+                 lead = dice.between(10.0, 25.0) * unit::degree;
+    MeshParameters<double> p = closing(table1(mu), ratio, lead);
     p.Jw = dice.decades(1e-6, 1e-5);
     p.Jg = dice.decades(1e-5, 1e-4);
     EndStops stops;

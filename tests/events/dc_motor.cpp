@@ -24,12 +24,6 @@ DcMotor<double> motor(double inductance) {
   return m;
 }
 
-template <class Load>
-auto drive_with_states(const GearMesh<double>& mesh, const Load& load, const Signal& volts, const Effects<double>& on) {
-  using Made = decltype(make_load(load));
-  return WormDrive<double, Made, true>(mesh, make_load(load), on, volts);
-}
-
 /// x(t) of x' = A x + c from x(0), by the formula for two states.
 Eigen::Vector2d linear_motion(const Eigen::Matrix2d& A, const Eigen::Vector2d& c, const Eigen::Vector2d& start,
                               double t) {

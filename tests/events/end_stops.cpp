@@ -98,10 +98,9 @@ TEST_CASE("an arm that falls into a stop comes to rest where the stop carries it
   // The friction of the teeth vanishes with the load that rests in the stop, so the last swings are those of rounding.
   near_ties::Dice dice(11, 0);
   for (int drawn = 0; drawn < 24; ++drawn) {
-    MeshParameters<double> p = table1(dice.between(0.05, 0.1));
-    p.i = std::round(dice.between(5.0, 40.0));
-    p.lambda = dice.between(10.0, 25.0) * unit::degree;
-    p.lg = p.i * p.lw * std::tan(p.lambda);
+    const double mu = dice.between(0.05, 0.1), ratio = std::round(dice.between(5.0, 40.0)),
+                 lead = dice.between(10.0, 25.0) * unit::degree;
+    MeshParameters<double> p = closing(table1(mu), ratio, lead);
     p.Jg = dice.decades(1e-5, 1e-1);
     p.Jw = p.Jg / (p.i * p.i) * dice.decades(0.03, 3.0);
     GravityArm arm;

@@ -24,12 +24,6 @@ WormLuGre<double> bristles(double torque, std::optional<double> stiffness, std::
   return friction;
 }
 
-template <class Load>
-auto with_bristles(const GearMesh<double>& mesh, const Load& load, const Signal& motor, const Effects<double>& on) {
-  using Made = decltype(make_load(load));
-  return WormDrive<double, Made, true>(mesh, make_load(load), on, motor);
-}
-
 template <class State>
 double deflection(const State& x) {
   return x[2 + StateLayout<EffectList<double>>::first<WormLuGre<double>>()];
@@ -47,8 +41,8 @@ TEST_CASE("bristles follow the solution of Dahl along every way, to and fro, at 
     push.frequency = swing * dice.decades(0.02, 0.5) / (2.0 * std::numbers::pi);
     const double end = 3.0 / push.frequency;
     for (const By by : every_solver) {
-      const auto machine = with_bristles(GearMesh<double>::without_teeth(J), Signal{}, Signal{{push}},
-                                         effects(bristles(torque, torque / slides)));
+      const auto machine = drive_with_states(GearMesh<double>::without_teeth(J), Signal{}, Signal{{push}},
+                                             effects(bristles(torque, torque / slides)));
       SolverSettings settings = tight(by, by.solver == SolverKind::taylor ? 1e-12 : 1e-11);
       settings.absolute_tolerance = 1e-13 * std::min(1.0, slides);
       const auto seen = run(machine, Timetable(0, end, end / 200), {}, settings);
@@ -80,8 +74,8 @@ TEST_CASE("a worm on bristles turns as fast as sliding friction lets it, faster 
       WormLuGre<double> friction = bristles(fast, 1.0, 0.01);
       friction.static_torque = slow;
       friction.stribeck_speed = stribeck;
-      const auto machine = with_bristles(GearMesh<double>::without_teeth(J), Signal{}, constant(push),
-                                         effects(friction, WormViscous<double>{viscous}));
+      const auto machine = drive_with_states(GearMesh<double>::without_teeth(J), Signal{}, constant(push),
+                                             effects(friction, WormViscous<double>{viscous}));
       const auto seen = run(machine, Timetable(0, 8, 1), {}, tight(by, 1e-11));
       const auto excess = [&](double w) {
         return push - viscous * w - fast - (slow - fast) * std::exp(-w * w / (stribeck * stribeck));
@@ -143,8 +137,8 @@ TEST_CASE("what a ramp breaks away at falls with its rate, as a program of fixed
       WormLuGre<double> bristle = bristles(fast, k, d);
       bristle.static_torque = slow;
       bristle.stribeck_speed = stribeck;
-      const auto machine = with_bristles(GearMesh<double>::without_teeth(J), Signal{}, Signal{{Ramp{.rate = rate}}},
-                                         effects(bristle, WormViscous<double>{viscous}));
+      const auto machine = drive_with_states(GearMesh<double>::without_teeth(J), Signal{}, Signal{{Ramp{.rate = rate}}},
+                                             effects(bristle, WormViscous<double>{viscous}));
       const auto seen = run(machine, Timetable(0, end, end), {}, tight(by, 1e-12));
       INFO("rate " << rate);
       REQUIRE(std::abs(seen.end.x[0] - finest.theta) <= 1e-8);
@@ -168,9 +162,9 @@ TEST_CASE("the paper's drive on stiff bristles becomes the one with dry bearings
                   tight(taylor))) <= 1e-12);  // without stiffness it is that friction
   double before = 0.0;
   for (const double stiffness : {1e3, 1e4, 1e5}) {
-    const double now = off(
-        run(with_bristles(GearMesh<double>(table1()), fig9_load(), fig9_motor(), effects(bristles(torque, stiffness))),
-            times, {}, tight(bdf, 1e-12)));
+    const double now = off(run(
+        drive_with_states(GearMesh<double>(table1()), fig9_load(), fig9_motor(), effects(bristles(torque, stiffness))),
+        times, {}, tight(bdf, 1e-12)));
     INFO("stiffness " << stiffness << ", off by " << now);
     if (before > 0.0) REQUIRE(std::abs(std::log10(before / now) - 2.0 / 3.0) <= 0.02);
     before = now;
@@ -182,7 +176,7 @@ TEST_CASE("bristles that were bent go on pushing a gear that has locked itself")
   const double load = -1.0, torque = 0.01, rate = 0.05, off = 0.4, pull = 1.5;
   const Signal motor{{Step{0.15, 0.0}, Step{-0.15, off}, Ramp{.rate = rate, .start = pull}}};
   for (const By by : every_solver) {
-    const auto seen = run(with_bristles(GearMesh<double>(p), constant(load), motor, effects(bristles(torque, 0.5))),
+    const auto seen = run(drive_with_states(GearMesh<double>(p), constant(load), motor, effects(bristles(torque, 0.5))),
                           Timetable(0, 6, 0.1), {}, tight(by, 1e-12));
     const auto start =
         std::find_if(seen.events.begin(), seen.events.end(), [&](const auto& e) { return e.after.t >= pull; });
@@ -202,8 +196,8 @@ TEST_CASE("a gear that locks itself rests while its load passes zero, though bri
     for (double phase = 0.0; phase < 360.0; phase += 20.0)
       for (const By by : every_solver) {
         const Signal load{{Sinusoid{.amplitude = 0.1, .frequency = 1.0, .phase = phase * unit::degree}}};
-        const auto seen = run(with_bristles(GearMesh<double>(table1()), load, Signal{}, on), Timetable(0, 2, 0.01), {},
-                              tight(by, 1e-10));
+        const auto seen = run(drive_with_states(GearMesh<double>(table1()), load, Signal{}, on), Timetable(0, 2, 0.01),
+                              {}, tight(by, 1e-10));
         INFO("phase " << phase << " deg");
         REQUIRE(seen.events.empty());
         REQUIRE(seen.end.x[0] == 0.0);
@@ -217,7 +211,8 @@ TEST_CASE("without a load, where a gear starts as the switching surface is cross
       motor.inductance = inductance;
       const Signal push{{Sinusoid{.amplitude = 0.05, .frequency = 1.5, .phase = phase * unit::degree}}};
       const auto events = [&](By by) {
-        return run(with_bristles(GearMesh<double>(table1()), Signal{}, push, effects(motor, WormCoulomb<double>{0.02})),
+        return run(drive_with_states(GearMesh<double>(table1()), Signal{}, push,
+                                     effects(motor, WormCoulomb<double>{0.02})),
                    Timetable(0, 2, 0.01), {}, tight(by, 1e-12))
             .modes();
       };
