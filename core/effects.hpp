@@ -102,6 +102,17 @@ struct Effects {
     });
     return rates;
   }
+  /// Calls visit with every quantity at whose zero what an effect with states does bends, for a command [N m].
+  template <class S, class Visit>
+  void for_each_bend(const S& command, const MomentOfEffects<S>& at, Visit&& visit) const {
+    for_each([&]<class E>(const std::optional<E>& effect) {
+      if constexpr (MayHaveStates<E>) {
+        const auto own = EffectStates::template of<E>(at.states);
+        if constexpr (requires { effect->for_each_bend(command, at, own, visit); })
+          if (effect) effect->for_each_bend(command, at, own, visit);
+      }
+    });
+  }
   /// Lets effects that change at given times take the piece that holds from t on.
   void enter(double t) {
     for_each([t](auto& effect) {

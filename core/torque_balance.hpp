@@ -104,11 +104,13 @@ class TorqueBalance {
     const Moment<S>& moment = at;
     if constexpr (requires { load_.for_each_bend(moment, visit); }) load_.for_each_bend(moment, visit);
     if (bends_with_load_) visit(effects_.load_torque(load_, moment, motion));
-    // With states rest is integrated. Its margins bend where another flank would carry what starts.
-    if constexpr (std::is_same_v<M<S>, MomentOfEffects<S>>)
+    if constexpr (std::is_same_v<M<S>, MomentOfEffects<S>>) {
+      effects_.for_each_bend(command_at(at), at, visit);
+      // With states rest is integrated. Its margins bend where another flank would carry what starts.
       if (mesh_.has_teeth)
         for (const Motion way : {Motion::forward, Motion::backward})
           visit(motion == Motion::stuck ? beyond_surface(at, way) : S(T(1)));
+    }
   }
 
   // ---- torques ------------------------------------------------------------------------------------------------

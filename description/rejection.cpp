@@ -71,6 +71,16 @@ std::string refusal(const Backlash<double>& backlash, const Scenario& scenario) 
 }
 
 std::string refusal(const DcMotor<double>& motor, const Scenario&) {
+  if (motor.current_bandwidth && motor.amplifier_gain)
+    return "states both amplifier_gain_V_per_Nm and current_bandwidth_Hz: the amplifier gives a voltage or controls "
+           "the "
+           "current; leave out one of them";
+  if (motor.current_bandwidth && !motor.has_inductance())
+    return "states current_bandwidth_Hz without inductance_H, against which the loop changes the current; add it";
+  if (motor.current_limit && !motor.current_bandwidth)
+    return "states current_limit_A without current_bandwidth_Hz: only an amplifier that controls the current limits "
+           "it; "
+           "add it, or leave out the limit";
   if (!motor.heat_capacity && (motor.thermal_resistance || motor.temperature_coefficient))
     return fmt::format("states {} without heat_capacity_J_per_K, which says how fast the winding warms up; add it",
                        motor.thermal_resistance ? "thermal_resistance_K_per_W" : "temperature_coefficient_per_K");

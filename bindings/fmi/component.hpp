@@ -202,8 +202,8 @@ inline Status free_state(void* c, const char* function, void** state) {
 inline Status set_states(void* c, const char* function, const double x[], std::size_t count) {
   return call(c, function, Phase::event | Phase::continuous, [&](FmuInstance& instance) {
     need(x, "the list of states");
-    instance.with_moved_run([&]<class Run>(Run& run) {
-      need_count(count, Run::state_size, "states");
+    instance.with_moved_run([&](auto& run) {
+      need_count(count, run.present().size(), "states");
       for (std::size_t k = 0; k < count; ++k)
         if (!std::isfinite(x[k])) throw std::invalid_argument(fmt::format("state {} = {} is not finite", k, x[k]));
       run.set_states(x);
@@ -222,14 +222,17 @@ Status get_list(void* c, const char* function, double values[], std::size_t coun
     });
   });
 }
-inline constexpr auto states_of = [](auto& run) { return run.states(); };
-inline constexpr auto rates_of = [](auto& run) { return run.rates(); };
+/// Of numbers that all states of a drive's type have, those of the states that there are.
+template <class Run>
+std::vector<double> present_of(const Run& run, const typename Run::States& all) {
+  std::vector<double> present;
+  for (const std::size_t k : run.present()) present.push_back(all[k]);
+  return present;
+}
+inline constexpr auto states_of = [](auto& run) { return present_of(run, run.states()); };
+inline constexpr auto rates_of = [](auto& run) { return present_of(run, run.rates()); };
 inline constexpr auto indicators_of = [](auto& run) { return run.indicators(); };
-/// Angles and speeds are of the order of 1 in SI.
-inline constexpr auto nominals_of = []<class Run>(Run&) {
-  typename Run::States nominals;
-  nominals.fill(1.0);
-  return nominals;
-};
+/// Angles, speeds, currents and shares are of the order of 1 in SI.
+inline constexpr auto nominals_of = [](auto& run) { return std::vector<double>(run.present().size(), 1.0); };
 
 }  // namespace wormdrive

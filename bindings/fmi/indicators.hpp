@@ -13,8 +13,9 @@ namespace wormdrive {
 inline constexpr double hysteresis = 1e-12;
 
 /// What a guard of a drive is divided by to be about 1, in the order of the indicators.
-template <class Load>
-auto indicator_scales(const WormDrive<double, Load>& drive, const typename WormDrive<double, Load>::Instant& now) {
+template <class Load, bool with_states>
+auto indicator_scales(const WormDrive<double, Load, with_states>& drive,
+                      const typename WormDrive<double, Load, with_states>::Instant& now) {
   const auto rest = drive.guards(drive.moment(now), Mode{});
   const double a = std::max(std::abs(rest[0]), std::abs(rest[1])), acceleration = a > 0.0 && std::isfinite(a) ? a : 1.0;
   const double surface = drive.mesh().has_teeth ? acceleration * drive.mesh().Jw * drive.mesh().i : 1.0;

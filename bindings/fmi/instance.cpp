@@ -37,9 +37,6 @@ void FmuInstance::begin() {
   state_.run.reset();
   const Scenario& set = model_.scenario;
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
-  if (const auto id = set.effects.first_with_states(); !id.empty())
-    throw std::invalid_argument(
-        fmt::format("effect.{} has a state, which the FMU does not carry; {}", id, set.effects.without_states()));
   const auto move_from_outside = [&]<class Drive>(Drive drive) {
     state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
   };
@@ -57,6 +54,11 @@ void FmuInstance::begin() {
       move_from_outside(std::move(drive));
     else
       solve_inside(std::move(drive));
+  } else if (set.effects.have_states()) {
+    if (type_ == InterfaceType::model_exchange)
+      move_from_outside(make_drive<true>(set));
+    else
+      solve_inside(make_drive<true>(set));
   } else if (type_ == InterfaceType::model_exchange) {
     move_from_outside(make_drive(set));
   } else {

@@ -15,15 +15,17 @@
 
 namespace wormdrive {
 
-/// Every drive that an FMU may be: with rigid and with elastic teeth, moved from outside or by a solver inside, which
-/// has formulas for some loads.
+/// Every drive that an FMU may be: with rigid teeth, with states of effects or without, and with elastic ones; moved
+/// from outside or by a solver inside, which has formulas for some loads.
 template <class Loads>
 struct FmuRuns;
 template <class... Parameters>
 struct FmuRuns<std::variant<Parameters...>> {
   template <class P>
   using Load = decltype(make_load(std::declval<const P&>()));
+  using DriveWithStates = WormDrive<double, SummedLoad, true>;
   using type = std::variant<PlantRun<WormDrive<double, SummedLoad>>, PlantRun<CompliantDrive<double, SummedLoad>>,
+                            PlantRun<DriveWithStates>, StepRun<DriveWithStates>,
 #ifdef WORMDRIVE_FMU_CVODE
                             StepRun<CompliantDrive<double, SummedLoad>>,
 #endif
@@ -54,7 +56,7 @@ class FmuInstance {
   // ---- life ------------------------------------------------------------------------------------------------------
 
   /// The states and event indicators of the drive.
-  InterfaceNames ports() const { return InterfaceNames(has_elastic_teeth(model_.scenario.effects)); }
+  InterfaceNames ports() const { return InterfaceNames(model_.scenario.effects); }
 
   /// What an importer states before the initialization, in seconds.
   struct Experiment {

@@ -40,6 +40,8 @@ double FmuInstance::real(unsigned reference) {
   if (variable == ScalarVariable::reference_speed) return reference_point(reference).speed;
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
+    if (const InterfaceNames there = ports(); reference >= first_effect_state && !there.has_state(variable))
+      unknown(reference);
     const auto at = [&](const auto& list) {
       return static_cast<std::size_t>(std::find(list.begin(), list.end(), variable) - list.begin());
     };

@@ -27,6 +27,7 @@ class PlantRun {
       : drive_(std::move(drive)),
         torque_(torque),
         commanded_(torque),
+        present_(present_states<Drive>(drive_.effects())),
         now_(start(drive_, initial, t, torque)),
         indicators_(drive_, now_),
         entered_(t),
@@ -34,7 +35,12 @@ class PlantRun {
         events_{0, t} {}
 
   void set_time(double t) { now_.t = t; }
-  void set_states(const double* x) { std::copy_n(x, state_size, now_.x.data()); }
+  /// The places of the states that an importer sees.
+  const std::vector<std::size_t>& present() const { return present_; }
+  /// x: of the states that it sees.
+  void set_states(const double* x) {
+    for (const std::size_t k : present_) now_.x[static_cast<Eigen::Index>(k)] = *x++;
+  }
   States states() const {
     States x;
     std::copy_n(now_.x.data(), state_size, x.begin());
@@ -149,6 +155,7 @@ class PlantRun {
 
   Drive drive_;
   double torque_, commanded_;
+  std::vector<std::size_t> present_;
   typename Drive::Instant now_;
   Indicators<Drive> indicators_;
   double entered_;  ///< when the load was last frozen to its piece [s]

@@ -40,23 +40,49 @@ auto encoder_angle(const Drive& drive, const M& at, bool on_worm) {
   return drive.effects().measured_angle(on_worm ? at.theta_w / drive.mesh().i : at.theta_g);
 }
 
+/// A moment with the states of the effects that says what the motor is told [N m].
+template <class S>
+struct CommandedMomentOfEffects : MomentOfEffects<S> {
+  S command;
+};
+
+/// At a time [s] with states, the motor told a torque [N m].
+template <class S, class Load, bool with_states, std::size_t count>
+auto commanded_moment(const WormDrive<double, Load, with_states>& drive, const S& t, const std::array<S, count>& x,
+                      const S& told) {
+  const Moment<S> at = drive.moment(t, x[0], x[1]);
+  if constexpr (with_states) {
+    CommandedMomentOfEffects<S> with{{at, {}}, told};
+    std::copy(x.begin() + 2, x.end(), with.states.begin());
+    return with;
+  } else {
+    return CommandedMoment<S>{at, told};
+  }
+}
+
 /// At a time [s], with states and a motor that is told a torque [N m]; the mode is that of an instant.
-template <class S, class Load>
-auto show(const WormDrive<double, Load>& drive, const Indicators<WormDrive<double, Load>>& indicators,
-          const typename WormDrive<double, Load>::Instant& now, const S& t, const std::array<S, 2>& x, const S& told,
-          bool on_worm) {
+template <class S, class Load, bool with_states, std::size_t count>
+auto show(const WormDrive<double, Load, with_states>& drive,
+          const Indicators<WormDrive<double, Load, with_states>>& indicators,
+          const typename WormDrive<double, Load, with_states>::Instant& now, const S& t, const std::array<S, count>& x,
+          const S& told, bool on_worm) {
+  using Drive = WormDrive<double, Load, with_states>;
   const Mode mode = now.mode;
-  CommandedMoment<S> at{drive.moment(t, x[0], x[1]), told};
+  auto at = commanded_moment(drive, t, x, told);
   const bool stuck = mode.motion == Motion::stuck;
   if (stuck) at.rest = t - now.since;
   const S acceleration = drive.acceleration(at, mode);
-  return Shown<WormDrive<double, Load>, S>{
-      x,
-      {stuck ? S(0.0) : x[1], acceleration},
-      drive.inputs(at, mode.motion).worm,
-      drive.normal_force(drive.side_torques(at, mode.motion), at, acceleration, mode),
-      encoder_angle(drive, at, on_worm),
-      indicators.all(drive.guards(at, mode), now)};
+  std::array<S, count> rates{stuck ? S(0.0) : x[1], acceleration};
+  if constexpr (with_states) {
+    const auto of_effects = drive.effects().state_rates(told, at, mode.motion);
+    std::copy(of_effects.begin(), of_effects.end(), rates.begin() + 2);
+  }
+  return Shown<Drive, S>{x,
+                         rates,
+                         drive.inputs(at, mode.motion).worm,
+                         drive.normal_force(drive.side_torques(at, mode.motion), at, acceleration, mode),
+                         encoder_angle(drive, at, on_worm),
+                         indicators.all(drive.guards(at, mode), now)};
 }
 template <class S, class Load>
 auto show(const CompliantDrive<double, Load>& drive, const Indicators<CompliantDrive<double, Load>>& indicators,
@@ -75,8 +101,8 @@ auto show(const CompliantDrive<double, Load>& drive, const Indicators<CompliantD
 }
 
 /// The input of the motor, whatever the teeth.
-template <class Load>
-const MotorInput<double>& motor_of(const WormDrive<double, Load>& drive) {
+template <class Load, bool with_states>
+const MotorInput<double>& motor_of(const WormDrive<double, Load, with_states>& drive) {
   return drive.motor_input();
 }
 template <class Load>

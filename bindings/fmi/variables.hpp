@@ -1,9 +1,13 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/elastic/compliant_drive.hpp"
+#include "core/elastic/elastic_teeth.hpp"
 #include "core/load.hpp"
 #include "core/worm_drive.hpp"
 
@@ -33,19 +37,36 @@ enum class ScalarVariable : unsigned {
   event_count,
   sample_clock = 30,
 };
-inline constexpr unsigned first_indicator = 40;   ///< value reference of the first event indicator
-inline constexpr unsigned first_parameter = 100;  ///< and of the first parameter
+inline constexpr unsigned first_indicator = 40;     ///< value reference of the first event indicator
+inline constexpr unsigned first_effect_state = 50;  ///< of the first state of an effect, by its place among all
+inline constexpr unsigned first_effect_rate = 75;   ///< and of its rate
+inline constexpr unsigned first_parameter = 100;    ///< and of the first parameter
+static_assert(first_effect_state + effect_state_count <= first_effect_rate &&
+              first_effect_rate + effect_state_count <= first_parameter);
+
+/// Value references of a drive's own numbers, and behind them of as many of its effects.
+template <std::size_t count, std::size_t own>
+constexpr std::array<ScalarVariable, count> and_of_effects(const std::array<ScalarVariable, own>& first,
+                                                           unsigned first_of_effects) {
+  std::array<ScalarVariable, count> all{};
+  for (std::size_t k = 0; k < count; ++k)
+    all[k] = k < own ? first[k] : static_cast<ScalarVariable>(first_of_effects + (k - own));
+  return all;
+}
 
 /// The guards of a drive by their names, each one event indicator, whatever the mode; and the states in their order.
 template <class Drive>
 struct Interface;
 
-template <class T, class Load>
-struct Interface<WormDrive<T, Load>> {
+template <class T, class Load, bool with_states>
+struct Interface<WormDrive<T, Load, with_states>> {
+  static constexpr std::size_t count = WormDrive<T, Load, with_states>::state_size;
   static constexpr std::array<std::string_view, 4> indicators{"gear speed", "switching surface", "forward break-in",
                                                               "backward break-in"};
-  static constexpr std::array states{ScalarVariable::gear_angle, ScalarVariable::gear_speed};
-  static constexpr std::array rates{ScalarVariable::gear_angle_rate, ScalarVariable::gear_speed_rate};
+  static constexpr auto states =
+      and_of_effects<count>(std::array{ScalarVariable::gear_angle, ScalarVariable::gear_speed}, first_effect_state);
+  static constexpr auto rates = and_of_effects<count>(
+      std::array{ScalarVariable::gear_angle_rate, ScalarVariable::gear_speed_rate}, first_effect_rate);
 };
 
 template <class T, class Load>
@@ -65,24 +86,48 @@ struct Interface<CompliantDrive<T, Load>> {
                                     ScalarVariable::gear_angle_rate, ScalarVariable::gear_speed_rate};
 };
 
+/// The places of the states that a drive has among those of its type: an effect that is off has none.
+template <class Drive>
+std::vector<std::size_t> present_states(const Effects<double>& effects) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < Interface<Drive>::states.size(); ++k)
+    if (static_cast<unsigned>(Interface<Drive>::states[k]) < first_effect_state) places.push_back(k);
+  if (const std::size_t own = places.size(); own < Interface<Drive>::states.size())
+    effects.for_each_state(
+        [&](std::string_view, const EffectState&, std::size_t place) { places.push_back(own + place); });
+  return places;
+}
+
 /// The same for whoever does not know the type of the drive.
 struct InterfaceNames {
   std::span<const std::string_view> indicators;
-  std::span<const ScalarVariable> states, rates;
+  std::vector<ScalarVariable> states, rates;
 
-  explicit InterfaceNames(bool elastic_teeth) {
-    if (elastic_teeth)
-      take<CompliantDrive<double, SummedLoad>>();
+  explicit InterfaceNames(const Effects<double>& effects) {
+    if (has_elastic_teeth(effects))
+      take<CompliantDrive<double, SummedLoad>>(effects);
+    else if (effects.have_states())
+      take<WormDrive<double, SummedLoad, true>>(effects);
     else
-      take<WormDrive<double, SummedLoad>>();
+      take<WormDrive<double, SummedLoad>>(effects);
+  }
+
+  /// Whether this is a state that there is, or its rate.
+  bool has_state(ScalarVariable variable) const {
+    const auto in = [variable](const auto& list) {
+      return std::find(list.begin(), list.end(), variable) != list.end();
+    };
+    return in(states) || in(rates);
   }
 
  private:
   template <class Drive>
-  void take() {
+  void take(const Effects<double>& effects) {
     indicators = Interface<Drive>::indicators;
-    states = Interface<Drive>::states;
-    rates = Interface<Drive>::rates;
+    for (const std::size_t k : present_states<Drive>(effects)) {
+      states.push_back(Interface<Drive>::states[k]);
+      rates.push_back(Interface<Drive>::rates[k]);
+    }
   }
 };
 

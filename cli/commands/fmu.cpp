@@ -36,7 +36,7 @@ int fmu_command(const FmuOptions& options) {
   reject_overwriting(output, options.scenario.file);
   export_fmu(model, options.version, output, options.replace);
   const Offered has = offered(model);
-  const InterfaceNames ports(has_elastic_teeth(scenario.effects));
+  const InterfaceNames ports(scenario.effects);
   const std::size_t indicators = has.model_exchange ? ports.indicators.size() : 0;
   const std::size_t parameters = plant_parameters(model.scenario).size();
   if (options.scenario.json)

@@ -1,29 +1,36 @@
 #pragma once
 #include <array>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <tuple>
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
+#include "core/numbers/series.hpp"
 #include "core/place.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
 
-/// A motor with brushes on an amplifier that gives a voltage. With an inductance its current is a state; without one
-/// the current follows voltage and speed at once. With a heat capacity the temperature of its winding is a state.
+/// A motor with brushes, or the torque axis of one without, on an amplifier that gives a voltage or, with a current
+/// loop, a current. With an inductance its current is a state; without one it follows voltage and speed at once. With a
+/// heat capacity the temperature of its winding is a state.
 template <class T>
 struct DcMotor {
   static constexpr std::string_view id = "dc_motor";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause =
-      "an amplifier gives a voltage, and back-EMF, resistance and inductance of the winding say what current flows";
+      "an amplifier gives a voltage or controls the current, and back-EMF, resistance and inductance of the winding "
+      "say "
+      "what current flows";
   static constexpr std::string_view law =
       "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
-      "h/thermal_resistance";
+      "h/thermal_resistance; with a current loop U = R I + torque_constant theta_w' + 2 pi current_bandwidth "
+      "inductance "
+      "(u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit";
   static constexpr std::string_view source =
       "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};
@@ -31,6 +38,8 @@ struct DcMotor {
   std::optional<T> inductance{};
   std::optional<T> supply_voltage{};
   std::optional<T> amplifier_gain{};
+  std::optional<T> current_bandwidth{};
+  std::optional<T> current_limit{};
   std::optional<T> heat_capacity{};
   std::optional<T> thermal_resistance{};
   std::optional<T> temperature_coefficient{};
@@ -50,6 +59,12 @@ struct DcMotor {
               "voltage per commanded torque; if not stated resistance / torque_constant, which gives that torque at "
               "standstill",
               o},
+        Field{&P::current_bandwidth, "current_bandwidth", unit::hertz, bounds::positive,
+              "of a loop that brings the current to command / torque_constant; if not stated the amplifier gives a "
+              "voltage",
+              o},
+        Field{&P::current_limit, "current_limit", unit::ampere, bounds::positive,
+              "largest current that the loop asks for in either direction; unlimited if not stated", o},
         Field{&P::heat_capacity, "heat_capacity", unit::joule_per_kelvin, bounds::positive,
               "of the winding and what is as warm as it; if not stated the winding stays as it is", o},
         Field{&P::thermal_resistance, "thermal_resistance", unit::kelvin_per_watt, bounds::positive,
@@ -70,24 +85,43 @@ struct DcMotor {
   std::array<S, 2> state_rates(const S& command, const Moment<S>& at, Motion, const std::array<S, 2>& state) const {
     const S R = hot_resistance(state), I = current(command, at, state);
     std::array<S, 2> rates{S(0.0), S(0.0)};
-    if (has_inductance()) rates[0] = (voltage(command) - torque_constant * at.omega_w - R * I) / *inductance;
+    if (has_inductance()) rates[0] = (voltage(command, at, state) - torque_constant * at.omega_w - R * I) / *inductance;
     if (!heat_capacity) return rates;
     rates[1] = R * I * I / *heat_capacity;
     if (thermal_resistance) rates[1] = rates[1] - state[1] / (*thermal_resistance * *heat_capacity);
     return rates;
   }
+  /// Calls visit with what is zero where the current loop reaches the voltage of the supply, or leaves it.
+  template <class S, class Visit>
+  void for_each_bend(const S& command, const Moment<S>& at, const std::array<S, 2>& state, Visit&& visit) const {
+    if (!current_bandwidth || !supply_voltage) return;
+    const S asked = asked_voltage(command, at, state);
+    visit(S(*supply_voltage - asked));
+    visit(S(*supply_voltage + asked));
+  }
 
   // ---- what it does -------------------------------------------------------------------------------------------
 
-  /// U [V].
+  /// U [V], without a state that of a current that is what is commanded ...
   template <class S>
-  S voltage(const S& command) const {
-    return gain() * command;
+  S voltage(const S& command, const Moment<S>& at) const {
+    if (!current_bandwidth) return gain() * command;
+    return resistance * current(command, at) + torque_constant * at.omega_w;
+  }
+  /// ... and with the states.
+  template <class S>
+  S voltage(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    if (!current_bandwidth) return gain() * command;
+    const S asked = asked_voltage(command, at, state);
+    if (!supply_voltage) return asked;
+    const S highest(*supply_voltage), lowest(-*supply_voltage);
+    return is_positive(S(asked - highest)) ? highest : is_positive(S(lowest - asked)) ? lowest : asked;
   }
   /// I [A] without a state.
   template <class S>
   S current(const S& command, const Moment<S>& at) const {
-    return (voltage(command) - torque_constant * at.omega_w) / resistance;
+    if (current_bandwidth) return command / torque_constant;
+    return (gain() * command - torque_constant * at.omega_w) / resistance;
   }
   /// R of a winding that has warmed up [ohm].
   template <class S>
@@ -98,7 +132,7 @@ struct DcMotor {
   template <class S>
   S current(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
     if (has_inductance()) return state[0];
-    return (voltage(command) - torque_constant * at.omega_w) / hot_resistance(state);
+    return (gain() * command - torque_constant * at.omega_w) / hot_resistance(state);
   }
   /// Motor torque [N m] for a command, with the current that follows at once ...
   template <class S>
@@ -110,12 +144,22 @@ struct DcMotor {
   S motor_torque(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
     return torque_constant * current(command, at, state);
   }
-  /// Largest magnitude of the command [N m], infinity without a supply that ends it.
+  /// Largest magnitude of the command [N m], infinity without a limit.
   T torque_limit() const {
-    return supply_voltage ? *supply_voltage / gain() : T(std::numeric_limits<double>::infinity());
+    const T none(std::numeric_limits<double>::infinity());
+    if (current_bandwidth) return current_limit ? torque_constant * *current_limit : none;
+    return supply_voltage ? *supply_voltage / gain() : none;
   }
 
  private:
+  /// Voltage of a proportional-integral current loop whose integral has cancelled the pole of the winding and whose
+  /// feedforward the back-EMF [V]: the current follows as a lag of first order, unless the supply ends it.
+  template <class S>
+  S asked_voltage(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    const T omega_c = T(2.0 * std::numbers::pi) * *current_bandwidth;
+    return hot_resistance(state) * state[0] + torque_constant * at.omega_w +
+           *inductance * omega_c * (command / torque_constant - state[0]);
+  }
   T gain() const { return amplifier_gain ? *amplifier_gain : resistance / torque_constant; }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -19,12 +20,21 @@ template <template <class> class M>
 std::optional<Winding> winding(const Effects<double>& effects, double command, const M<double>& at) {
   const auto& motor = dc_motor(effects);
   if (!motor) return std::nullopt;
-  std::array<double, 2> state{motor->current(command, at), 0.0};
   if constexpr (requires { at.states; }) {
-    state = StateLayout<EffectList<double>>::of<DcMotor<double>>(at.states);
+    auto state = StateLayout<EffectList<double>>::of<DcMotor<double>>(at.states);
     state[0] = motor->current(command, at, state);
+    return Winding{motor->voltage(command, at, state), state[0], motor->hot_resistance(state) * state[0] * state[0],
+                   state[1]};
+  } else {
+    const double current = motor->current(command, at);
+    return Winding{motor->voltage(command, at), current, motor->resistance * current * current, 0.0};
   }
-  return Winding{motor->voltage(command), state[0], motor->hot_resistance(state) * state[0] * state[0], state[1]};
+}
+
+/// Whether the supply can give the voltage of the winding.
+inline bool is_within_supply(const Effects<double>& effects, const std::optional<Winding>& winding) {
+  if (!winding || !dc_motor(effects)->supply_voltage) return true;
+  return std::abs(winding->voltage) <= *dc_motor(effects)->supply_voltage;
 }
 
 /// Energy in the field of the winding [J].

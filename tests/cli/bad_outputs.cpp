@@ -102,7 +102,10 @@ TEST_CASE("a full disk at any moment is reported in one line, and nothing is lef
     REQUIRE(folder.run(words).exit == 0);
     const auto whole = static_cast<rlim_t>(std::filesystem::file_size(folder / "r.h5"));
     std::filesystem::remove(folder / "r.h5");
-    std::vector<rlim_t> limits{0, 1, 96, 800, 2048, 5000, 20000, 40000};
+    std::vector<rlim_t> limits{1, 96, 800, 2048, 5000, 20000, 40000};
+#ifndef __SANITIZE_THREAD__  // which writes a file of its own before the program begins
+    limits.push_back(0);
+#endif
     for (int k = 1; k < 8; ++k) limits.push_back(whole * static_cast<rlim_t>(k) / 8);
     for (const rlim_t missing : {4096, 1000, 100}) limits.push_back(whole - missing);
     for (const rlim_t limit : limits) {

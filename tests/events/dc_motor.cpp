@@ -1,10 +1,8 @@
 #include <cmath>
-#include <complex>
 #include <optional>
 
-#include <Eigen/LU>
-
 #include "catch.hpp"
+#include "events/linear_motion.hpp"
 #include "support.hpp"
 
 // A motor with a winding against closed forms: the linear machine, its torque-speed line, the rise of the current at
@@ -22,18 +20,6 @@ DcMotor<double> motor(double inductance) {
   m.inductance = inductance;
   m.amplifier_gain = 1.0;
   return m;
-}
-
-/// x(t) of x' = A x + c from x(0), by the formula for two states.
-Eigen::Vector2d linear_motion(const Eigen::Matrix2d& A, const Eigen::Vector2d& c, const Eigen::Vector2d& start,
-                              double t) {
-  const Eigen::Vector2d rest = -A.inverse() * c;
-  const double s = 0.5 * A.trace();
-  const std::complex<double> q = std::sqrt(std::complex<double>(s * s - A.determinant()));
-  const double cosh = std::real(std::cosh(q * t)), sinh = std::real(std::sinh(q * t) / q);
-  const Eigen::Matrix2d e =
-      std::exp(s * t) * (cosh * Eigen::Matrix2d::Identity() + sinh * (A - s * Eigen::Matrix2d::Identity()));
-  return rest + e * (start - rest);
 }
 
 /// C of a signed friction m [YehWu2009, eq. 9].

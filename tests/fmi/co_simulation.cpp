@@ -162,6 +162,19 @@ TEST_CASE("co-simulation of a closed loop around elastic teeth makes its impacts
 }
 #endif
 
+TEST_CASE("co-simulation takes the states of effects along, and shows them") {
+  agrees(shipped("dc_motor.toml"), {"run.duration_s=1", "run.report_interval_s=1e-3"}, 4);
+  agrees(shipped("current_loop.toml"), {"run.report_interval_s=1e-3"}, 2);
+  agrees(shipped("presliding.toml"), {"run.report_interval_s=1e-3"}, 4);
+  const Exported motor(shipped("dc_motor.toml"), {"run.duration_s=0.5", "run.relative_tolerance=1e-13"}, loop);
+  Stepper stepper(*motor.fmu, 0.5);
+  stepper.last(0.5, 0.1);
+  const Observation end = simulate_scenario(motor.scenario).rows.back().at;
+  CHECK(std::abs(end.winding->current) > 1.0);
+  CHECK(std::abs(stepper.model.real("effect.dc_motor.current") - end.winding->current) < 1e-8);
+  CHECK_FALSE(motor.fmu->references().contains("effect.worm_lugre.deflection"));  // off
+}
+
 TEST_CASE("co-simulation carries delays, a lag and late samples") {
   const Folder folder;
   agrees(delayed(folder), {}, 2);
@@ -252,6 +265,7 @@ TEST_CASE("an importer that goes back to a kept state, or to one in bytes in ano
   const Folder folder;
   goes_back(Exported(shipped("fig09_switching.toml"), {}, loop));
   goes_back(Exported(delayed(folder), {}, loop));
+  goes_back(Exported(shipped("dc_motor.toml"), {}, loop));
   goes_back(Exported(shipped("fig10_pid_014rad_bare.toml"), {"run.duration_s=1", "metrics.from_s=0"}, loop));
   goes_back(Exported(shipped("fig10_pid_014rad_bare.toml"), limited("back_calculation"), loop));
   goes_back(Exported(shipped("fig10_sliding_014rad_bare.toml"), limited("conditional"), loop));

@@ -1,6 +1,7 @@
 // Directional derivatives of an FMU, judged by central differences through the same FMU, and by the equations of the
 // paper; over random drives, states and torques.
 #include <algorithm>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -28,6 +29,13 @@ class Plant {
         states.insert(states.end(), {shaft + "_angle", shaft + "_speed"});
         unknowns.insert(unknowns.end(), {"der(" + shaft + "_angle)", "der(" + shaft + "_speed)"});
       }
+    std::map<unsigned, std::string> of_effects;
+    for (const auto& [name, reference] : fmu.references())
+      if (name.starts_with("der(effect.")) of_effects[reference] = name;
+    for (const auto& [reference, name] : of_effects) {
+      states.push_back(name.substr(4, name.size() - 5));
+      unknowns.push_back(name);
+    }
     knowns = states;
     knowns.emplace_back("motor_torque");
     unknowns.insert(unknowns.end(), {"normal_force", "measured_angle"});
@@ -140,6 +148,12 @@ const Names everything{"initial.gear_speed_rad_per_s=0.1",
                        "effect.load_spring.angle_deg=0",
                        "effect.encoder_scale.share=0.01"};
 
+/// Effects with states: a current loop whose supply does not end its voltage, a winding that warms up, and bristles.
+const Names with_states{
+    "effect.dc_motor={resistance_ohm=1.2,torque_constant_Nm_per_A=0.025,inductance_H=0.5,current_bandwidth_Hz=2,"
+    "supply_voltage_V=1000,heat_capacity_J_per_K=2,temperature_coefficient_per_K=0.004}",
+    "effect.worm_lugre={coulomb_torque_Nm=0.002,stiffness_Nm_per_rad=0.01,damping_Nms_per_rad=1e-4}"};
+
 }  // namespace
 
 TEST_CASE("directional derivatives are what central differences through the FMU give, whatever effects are on") {
@@ -157,6 +171,15 @@ TEST_CASE("directional derivatives of elastic teeth and of one mass are what cen
   CHECK(differences(teeth, of_a_mesh, 0.003, 20, false) > 3);
   const Exported axis(shipped("measured_servo_axis.toml"), {"initial.speed_m_per_s=0.1"});
   CHECK(differences(axis, {{"initial.speed_m_per_s", -1.0, 1.0}}, 50.0, 10, true) == 0);
+}
+
+TEST_CASE("directional derivatives of effects with states are what central differences give, by these states too") {
+  Names words = everything;
+  words.insert(words.end(), with_states.begin(), with_states.end());
+  const Exported full(shipped("fig09_switching.toml"), words);
+  REQUIRE(Plant(*full.fmu).states.size() == 5);
+  CHECK(differences(full, of_a_mesh, 0.1, 40, true) == 0);
+  CHECK(differences(full, of_a_mesh, 0.003, 20, false) > 3);
 }
 
 TEST_CASE("the derivatives of a bare drive are those of the paper's equations") {

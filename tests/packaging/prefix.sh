@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs into a prefix, moves the prefix, and uses what is there: program, pages of the manual, Python module and the
-# package for CMake, from which the example is built. Usage: prefix.sh CMAKE BUILD PYTHON
+# package for CMake, from which the example is built. Usage: prefix.sh CMAKE BUILD PYTHON...
 set -euo pipefail
-cmake=$1 build=$2 python=$3
+cmake=$1 build=$2 python=("${@:3}")
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
 trap 'echo "prefix: line $LINENO: $BASH_COMMAND" >&2' ERR
@@ -25,7 +25,7 @@ expect "$(./linked list scenarios)" "scenarios in $prefix/share/wormdrive/scenar
 scenario=$prefix/share/wormdrive/scenarios/fig09_switching.toml
 "$program" run "$scenario" --set run.duration_s=0.3 -q -o run.h5
 "$program" fmu "$scenario" -o drive.fmu >/dev/null
-if "$python" -c "import h5py, matplotlib" 2>/dev/null; then
+if "${python[@]}" -c "import h5py, matplotlib" 2>/dev/null; then
   "$program" plot run.h5 >/dev/null
   [[ -s run.png ]]
 fi
@@ -48,7 +48,7 @@ done
 
 module=$(find "$prefix" -path '*-packages/wormdrive' -type d)
 if [[ -n $module ]]; then
-  expect "$(PYTHONPATH=${module%/*} "$python" -B -c "import wormdrive; print(wormdrive.__file__)")" "$module"
+  expect "$(PYTHONPATH=${module%/*} "${python[@]}" -B -c "import wormdrive; print(wormdrive.__file__)")" "$module"
 fi
 
 # a program of one's own, without the optimisation that the libraries have had

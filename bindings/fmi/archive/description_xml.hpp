@@ -1,6 +1,7 @@
 #pragma once
 #include <locale>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -40,7 +41,7 @@ inline std::string to_text(const Tree& root) {
 }
 
 struct BaseExponents {
-  int kg = 0, m = 0, s = 0, A = 0, rad = 0;
+  int kg = 0, m = 0, s = 0, K = 0, A = 0, rad = 0;
 };
 /// What the units of the program are in base units, all of them SI.
 inline const std::map<std::string, BaseExponents> base_units{
@@ -70,10 +71,24 @@ inline const std::map<std::string, BaseExponents> base_units{
     {"H", {.kg = 1, .m = 2, .s = -2, .A = -2}},
     {"N m/A", {.kg = 1, .m = 2, .s = -2, .A = -1}},
     {"V s/rad", {.kg = 1, .m = 2, .s = -2, .A = -1, .rad = -1}},
+    {"V/(N m)", {.s = -1, .A = -1}},
+    {"K", {.K = 1}},
+    {"J/K", {.kg = 1, .m = 2, .s = -2, .K = -1}},
+    {"K/W", {.kg = -1, .m = -2, .s = 3, .K = 1}},
+    {"1/K", {.K = -1}},
 };
+/// The base units of a unit, or of one per second; nothing of a pure number.
+inline std::optional<BaseExponents> base_exponents(const std::string& unit) {
+  if (const auto known = base_units.find(unit); known != base_units.end()) return known->second;
+  if (!unit.ends_with("/s")) return std::nullopt;
+  const auto known = base_units.find(unit.substr(0, unit.size() - 2));
+  BaseExponents rate = known == base_units.end() ? BaseExponents{} : known->second;
+  --rate.s;
+  return rate;
+}
 /// The attribute of a variable's unit, unless it is a pure number.
 inline void state_unit(Tree& at, const VariableInfo& variable) {
-  if (base_units.contains(variable.unit)) attribute(at, "unit", variable.unit);
+  if (base_exponents(variable.unit)) attribute(at, "unit", variable.unit);
 }
 
 /// What alone an unknown depends on while the model runs, where that is known; numbers: of the variables by name.
@@ -89,14 +104,15 @@ void state_dependencies(Tree& unknown, const VariableInfo& variable, const std::
 inline void write_units(Tree& model, const std::vector<VariableInfo>& variables) {
   std::set<std::string> used;
   for (const VariableInfo& variable : variables)
-    if (base_units.contains(variable.unit)) used.insert(variable.unit);
+    if (base_exponents(variable.unit)) used.insert(variable.unit);
   Tree& definitions = child(model, "UnitDefinitions");
   for (const std::string& name : used) {
-    const BaseExponents e = base_units.at(name);
+    const BaseExponents e = *base_exponents(name);
     Tree& unit = child(definitions, "Unit");
     attribute(unit, "name", name);
     Tree& base = child(unit, "BaseUnit");
-    for (const auto& [symbol, power] : {std::pair{"kg", e.kg}, {"m", e.m}, {"s", e.s}, {"A", e.A}, {"rad", e.rad}})
+    for (const auto& [symbol, power] :
+         {std::pair{"kg", e.kg}, {"m", e.m}, {"s", e.s}, {"K", e.K}, {"A", e.A}, {"rad", e.rad}})
       if (power != 0) attribute(base, symbol, power);
   }
 }

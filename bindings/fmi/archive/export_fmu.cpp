@@ -116,8 +116,6 @@ constexpr std::string_view archive_mark = "documentation/wormdrive.txt";
 
 std::optional<std::string> not_exportable(const FmuModel& model) {
   const Effects<double>& on = model.scenario.effects;
-  if (const auto id = on.first_with_states(); !id.empty())
-    return fmt::format("effect.{} has a state, which the FMU does not carry; {}", id, on.without_states());
   const bool elastic = has_elastic_teeth(on) && !elastic_teeth_inside, plant = model.kind == FmuKind::plant;
   if (elastic && !plant)
     return "effect.tooth_compliance needs CVODE, which an FMU does not carry; use --kind plant, whose importing tool "

@@ -52,7 +52,7 @@ std::string fmi2_description(const FmuModel& model) {
   attribute(top, "guid", model.token);
   write_origin(top, model.scenario);
   if (has.model_exchange) {
-    const InterfaceNames ports(has_elastic_teeth(model.scenario.effects));
+    const InterfaceNames ports(model.scenario.effects);
     attribute(top, "numberOfEventIndicators", ports.indicators.size());
   }
   const auto interface = [&](const char* name) -> Tree& {

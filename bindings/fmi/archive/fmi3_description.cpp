@@ -52,7 +52,7 @@ void write_fmi3_structure(Tree& structure, const std::vector<VariableInfo>& vari
   list("ContinuousStateDerivative", true, [](const VariableInfo& v) { return v.is_rate(); });
   list("InitialUnknown", false, [](const VariableInfo& v) { return v.is_output() || v.is_rate(); });
   list("EventIndicator", false,
-       [](const VariableInfo& v) { return v.reference >= first_indicator && v.reference < first_parameter; });
+       [](const VariableInfo& v) { return v.reference >= first_indicator && v.reference < first_effect_state; });
 }
 
 }  // namespace

@@ -15,13 +15,18 @@ constexpr unsigned ref(ScalarVariable v) { return static_cast<unsigned>(v); }
 class VariableLister {
  public:
   explicit VariableLister(const FmuModel& model)
-      : model_(model), scenario_(model.scenario), elastic_(has_elastic_teeth(scenario_.effects)), ports_(elastic_) {}
+      : model_(model),
+        scenario_(model.scenario),
+        elastic_(has_elastic_teeth(scenario_.effects)),
+        ports_(scenario_.effects) {}
 
   std::vector<VariableInfo> list() {
     using enum ScalarVariable;
     list_.push_back({"time", ref(time), "independent", "continuous", "time", false, "s"});
     if (elastic_) shaft("worm", worm_angle, worm_speed, worm_angle_rate, worm_speed_rate);
     shaft("gear", gear_angle, gear_speed, gear_angle_rate, gear_speed_rate);
+    scenario_.effects.for_each_state(
+        [&](std::string_view id, const EffectState& state, std::size_t place) { of_effect(id, state, place); });
     torque();
     if (scenario_.control) {
       VariableInfo& sampled = real("controller_torque", ref(controller_torque), "output", "N m",
@@ -71,6 +76,14 @@ class VariableLister {
     rate.depends_on = {{name + "_speed"}};
     real("der(" + name + "_speed)", ref(speed_rate), "local", "rad/s^2", "acceleration of the " + name).derivative_of =
         name + "_speed";
+  }
+  void of_effect(std::string_view id, const EffectState& state, std::size_t place) {
+    const std::string name = fmt::format("effect.{}.{}", id, state.name), unit(state.unit.symbol);
+    const auto reference = [place](unsigned first) { return first + static_cast<unsigned>(place); };
+    real(name, reference(first_effect_state), "output", unit, fmt::format("{} of effect.{}", state.name, id))
+        .depends_on = {{name}};
+    real("der(" + name + ")", reference(first_effect_rate), "local", unit + "/s", "rate of " + name).derivative_of =
+        name;
   }
   void torque() {
     const unsigned reference = ref(ScalarVariable::motor_torque);
