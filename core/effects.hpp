@@ -68,9 +68,11 @@ struct Effects {
   void for_each_state(Visit&& visit) const {
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>)
-        if (effect && effect->has_states())
-          for (std::size_t k = 0; k < E::states.size(); ++k)
-            visit(E::id, E::states[k], EffectStates::template first<E>() + k);
+        for (std::size_t k = 0; effect && effect->has_states() && k < E::states.size(); ++k) {
+          if constexpr (requires { effect->has_state(k); })
+            if (!effect->has_state(k)) continue;
+          visit(E::id, E::states[k], EffectStates::template first<E>() + k);
+        }
     });
   }
   /// The id of the first effect that has a state; empty if none has.

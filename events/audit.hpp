@@ -14,7 +14,7 @@
 #include "core/numbers/crossing.hpp"
 #include "core/numbers/rounded.hpp"
 #include "core/ripple.hpp"
-#include "events/growth.hpp"
+#include "events/fine_steps.hpp"
 #include "events/segment_start.hpp"
 
 namespace wormdrive {
@@ -87,14 +87,15 @@ struct Cubic {
 };
 
 /// Re-integrates every segment of a run from its stored start with the classical Runge-Kutta method of order 4 at a
-/// twentieth of the solver's mean step, and follows every guard and its rate from step to step.
+/// twentieth of the solver's mean step, or implicitly where that is stiff, and follows every guard and its rate from
+/// step to step.
 template <class System>
 class Audit {
  public:
   using Instant = typename System::Instant;
 
   /// The system's inputs are moved to each segment in turn.
-  explicit Audit(System& system) : system_(system) {}
+  explicit Audit(System& system) : system_(system), steps_(system) {}
 
   template <class Trail>
   AuditReport examine(const Trail& trail) {
@@ -113,7 +114,7 @@ class Audit {
 
  private:
   using Guards = decltype(std::declval<const System&>().guards_ahead(std::declval<const Instant&>()));
-  static constexpr int finer = 20;
+  static constexpr int finer = FineSteps<System>::finer;
   static constexpr long least_steps = 10;
 
   void segment(const Instant& start, const Instant& end, long solver_steps, bool mode_ended) {
@@ -150,7 +151,7 @@ class Audit {
     for (long k = 1; k <= steps; ++k) {
       const Instant before = now;
       const Guards there = here;
-      advance(now, k == steps ? end.t - now.t : h, work);
+      steps_.advance(now, k == steps ? end.t - now.t : h, work);
       now.t = k == steps ? end.t : start.t + static_cast<double>(k) * h;
       here = guards_at(now);
       for (int g = 0; g < System::guard_count; ++g) {
@@ -177,42 +178,6 @@ class Audit {
   /// Infinite where the audit's own integration came to no number: nothing is confirmed then.
   static double distance(double a, double b) {
     return std::isfinite(a) ? std::abs(a - b) : std::numeric_limits<double>::infinity();
-  }
-
-  /// One step in as many parts as what settles or swings fastest takes, for the method has no Jacobian of its own.
-  void advance(Instant& now, double h, Power& work) const {
-    // The method is stable up to 2.8; what effects remember it is to follow as well. More parts take seconds.
-    constexpr double rate_in_a_part = System::state_size > 2 * shaft_count<System>() ? 1.0 / finer : 0.5,
-                     most_parts = 1e5;
-    const auto J = system_.jacobian(now.t, now.x, now.mode);
-    double parts = 1.0;
-    // no eigenvalue is larger than the largest sum of a row, which costs next to nothing
-    if (J.allFinite() && h * J.cwiseAbs().rowwise().sum().maxCoeff() > rate_in_a_part)
-      parts = std::clamp(std::ceil(h * fastest_rate(J) / rate_in_a_part), 1.0, most_parts);
-    for (double k = 0.0; k < parts; ++k) {
-      step(now, h / parts, work);
-      now.t += h / parts;
-    }
-  }
-
-  /// One Runge-Kutta step, with the powers integrated alongside.
-  void step(Instant& now, double h, Power& work) const {
-    const auto at = [&](double dt, const typename System::State& x) { return Instant{now.t + dt, x, now.mode}; };
-    const auto f = [&](const Instant& i) { return system_.derivative(i.t, i.x, i.mode); };
-    const Instant a = now;
-    const typename System::State fa = f(a);
-    const Instant b = at(h / 2, now.x + h / 2 * fa);
-    const typename System::State fb = f(b);
-    const Instant c = at(h / 2, now.x + h / 2 * fb);
-    const typename System::State fc = f(c);
-    const Instant d = at(h, now.x + h * fc);
-    for (const auto& [instant, weight] : {std::pair{a, h / 6}, {b, h / 3}, {c, h / 3}, {d, h / 6}}) {
-      const Power p = power(system_, instant);
-      work.motor += weight * p.motor;
-      work.load += weight * p.load;
-      work.loss += weight * p.loss;
-    }
-    now.x += h / 6 * (fa + 2 * fb + 2 * fc + f(d));
   }
 
   /// Time at which a guard falls to zero in a step, infinity if it stays positive; notes how near it came.
@@ -270,6 +235,7 @@ class Audit {
   }
 
   System& system_;
+  FineSteps<System> steps_;
   AuditReport report_;
   typename System::Mode mode_{};
 };

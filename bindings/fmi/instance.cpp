@@ -37,6 +37,9 @@ void FmuInstance::begin() {
   state_.run.reset();
   const Scenario& set = model_.scenario;
   if (const auto why = why_it_cannot_run(set)) throw std::invalid_argument(*why);
+  if (InterfaceNames(set.effects).states != InterfaceNames(stated_.scenario.effects).states)
+    throw std::invalid_argument(
+        "with these parameters the effects have other states than the FMU describes; export the scenario with them");
   const auto move_from_outside = [&]<class Drive>(Drive drive) {
     state_.run.emplace(PlantRun<Drive>(std::move(drive), set.initial, state_.time, state_.torque));
   };
@@ -83,7 +86,7 @@ void FmuInstance::enter_initialization() {
 }
 
 void FmuInstance::exit_initialization() {
-  if (stale_) begin();
+  if (stale_ || !state_.run) begin();  // parameters may have been rejected meanwhile
   state_.phase = uses_event_mode() ? Phase::event : Phase::step;
 }
 

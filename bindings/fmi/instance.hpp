@@ -56,7 +56,7 @@ class FmuInstance {
   // ---- life ------------------------------------------------------------------------------------------------------
 
   /// The states and event indicators of the drive.
-  InterfaceNames ports() const { return InterfaceNames(model_.scenario.effects); }
+  InterfaceNames ports() const { return InterfaceNames(stated_.scenario.effects); }
 
   /// What an importer states before the initialization, in seconds.
   struct Experiment {
@@ -161,6 +161,7 @@ class FmuInstance {
   template <class Run, class Use>
   void go_on(Run& run, Use&& use);
   ReferencePoint reference_point(unsigned reference) const;
+  void reject_absent_state(unsigned reference) const;
   void reject_unsettable(unsigned reference, double value);
 
   FmuModel stated_, model_;  ///< as exported; with the parameters that the importer has set

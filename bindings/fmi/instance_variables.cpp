@@ -31,7 +31,14 @@ ReferencePoint FmuInstance::reference_point(unsigned reference) const {
   return control->reference.at(state_.time);
 }
 
+/// A drive with states of effects has places for those of all effects.
+void FmuInstance::reject_absent_state(unsigned reference) const {
+  if (reference < first_effect_state || reference >= first_parameter) return;
+  if (!ports().has_state(static_cast<ScalarVariable>(reference))) unknown(reference);
+}
+
 double FmuInstance::real(unsigned reference) {
+  reject_absent_state(reference);
   if (reference >= first_parameter) return *parameter(model_.scenario, reference).value;
   const auto variable = static_cast<ScalarVariable>(reference);
   if (variable == ScalarVariable::time) return state_.time;
@@ -40,8 +47,6 @@ double FmuInstance::real(unsigned reference) {
   if (variable == ScalarVariable::reference_speed) return reference_point(reference).speed;
   return with_run([&]<class Run>(Run& run) {
     using Ports = typename Run::Ports;
-    if (const InterfaceNames there = ports(); reference >= first_effect_state && !there.has_state(variable))
-      unknown(reference);
     const auto at = [&](const auto& list) {
       return static_cast<std::size_t>(std::find(list.begin(), list.end(), variable) - list.begin());
     };
@@ -103,6 +108,7 @@ void FmuInstance::set_integer(unsigned reference) {
 }
 
 double FmuInstance::output_rate(unsigned reference) {
+  reject_absent_state(reference);
   const auto variable = static_cast<ScalarVariable>(reference);
   if (variable == ScalarVariable::reference_angle) return real(static_cast<unsigned>(ScalarVariable::reference_speed));
   if (variable == ScalarVariable::reference_speed) return reference_point(reference).acceleration;
@@ -122,7 +128,9 @@ std::vector<double> FmuInstance::jacobian(std::span<const unsigned> unknowns, st
   std::vector<double> matrix;
   with_moved_run([&]<class Run>(Run& run) {
     const auto all = run.linearization();
+    for (const unsigned known : knowns) reject_absent_state(known);
     for (const unsigned unknown : unknowns) {
+      reject_absent_state(unknown);
       const auto* const value = unknown == motor_torque ? nullptr : all.find(unknown);
       if (!value)
         throw std::invalid_argument(fmt::format(

@@ -80,6 +80,7 @@ struct DcMotor {
   static constexpr std::string_view without_states = "state neither inductance_H nor heat_capacity_J_per_K";
   bool has_inductance() const { return inductance && *inductance > T(0); }
   bool has_states() const { return has_inductance() || heat_capacity; }
+  bool has_state(std::size_t k) const { return k == 0 ? has_inductance() : heat_capacity.has_value(); }
   /// I' [A/s] and h' [K/s]; the winding warms up from its surroundings on.
   template <class S>
   std::array<S, 2> state_rates(const S& command, const Moment<S>& at, Motion, const std::array<S, 2>& state) const {

@@ -17,7 +17,8 @@ struct EffectState {
   std::string_view meaning{};
 };
 
-/// Effects that may have states: they name them, say whether they have them with their parameters, and give rates.
+/// Effects that may have states: they name them, say whether they have some with their parameters, and give rates;
+/// has_state(k) of one that has them one by one says which.
 template <class Effect>
 concept MayHaveStates = requires(const Effect& effect) {
   Effect::states;

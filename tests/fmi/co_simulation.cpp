@@ -172,7 +172,28 @@ TEST_CASE("co-simulation takes the states of effects along, and shows them") {
   const Observation end = simulate_scenario(motor.scenario).rows.back().at;
   CHECK(std::abs(end.winding->current) > 1.0);
   CHECK(std::abs(stepper.model.real("effect.dc_motor.current") - end.winding->current) < 1e-8);
-  CHECK_FALSE(motor.fmu->references().contains("effect.worm_lugre.deflection"));  // off
+  CHECK_FALSE(motor.fmu->references().contains("effect.dc_motor.temperature_rise"));
+}
+
+TEST_CASE("a parameter that would give an effect a state, or take it one, is refused in one line") {
+  for (const auto& [stated, set] : {std::pair{"0", 1e-3}, {"1e-3", 0.0}}) {
+    const Exported motor(shipped("dc_motor.toml"), {std::string("effect.dc_motor.inductance_H=") + stated});
+    Instance model(*motor.fmu, "", fmi2CoSimulation);
+    model.set("effect.dc_motor.inductance_H", set);
+    CHECK_THROWS_WITH(
+        model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode"),
+        "with these parameters the effects have other states than the FMU describes; export the scenario with them");
+  }
+  // and is not forgotten where something was read in between
+  const Exported loop_of_current(shipped("current_loop.toml"));
+  Instance model(*loop_of_current.fmu, "", fmi2CoSimulation);
+  model.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
+  model.set("effect.dc_motor.inductance_H", 0.0);
+  const std::string why =
+      "effect.dc_motor states current_bandwidth_Hz without inductance_H, against which the loop changes the current; "
+      "add it";
+  CHECK_THROWS_WITH(model.real("gear_speed"), why);
+  CHECK_THROWS_WITH(model.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode"), why);
 }
 
 TEST_CASE("co-simulation carries delays, a lag and late samples") {

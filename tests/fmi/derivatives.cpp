@@ -314,6 +314,18 @@ TEST_CASE("what has no derivative is refused in one line") {
                         " is no state and no input to differentiate by");
   CHECK_THROWS_WITH(ask(plant.model, "motion", "gear_angle"),
                     "value reference 20 is no continuous output, rate or event indicator to differentiate");
+  const Exported motor(shipped("current_loop.toml"));
+  Plant wound(*motor.fmu);
+  wound.start();
+  const unsigned bristles = motor.fmu->reference("effect.dc_motor.current") + 2;  // of an effect that is off
+  for (const auto& [unknown, known] :
+       {std::pair{bristles, bristles}, {motor.fmu->reference("normal_force"), bristles}}) {
+    double seed = 1.0, found = 0.0;
+    CHECK_THROWS_WITH(wound.model.call<decltype(fmi2GetDirectionalDerivative)>(
+                          "fmi2GetDirectionalDerivative", &unknown, size_t{1}, &known, size_t{1},
+                          static_cast<const double*>(&seed), &found),
+                      "there is no variable with the value reference " + std::to_string(bristles));
+  }
   Instance inside(*exported.fmu, "", fmi2CoSimulation);
   inside.call<decltype(fmi2EnterInitializationMode)>("fmi2EnterInitializationMode");
   inside.call<decltype(fmi2ExitInitializationMode)>("fmi2ExitInitializationMode");

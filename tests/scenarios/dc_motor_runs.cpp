@@ -82,6 +82,21 @@ TEST_CASE("random drives with a motor on bristles have the same events by every 
   REQUIRE(events > 50);
 }
 
+TEST_CASE("an audit follows windings that settle within microseconds or picoseconds, and confirms the run") {
+  for (const std::string file : {"dc_motor.toml", "current_loop.toml"})
+    for (const char* inductance : {"1e-6", "1e-8", "1e-10", "1e-12"}) {
+      INFO(file << ", " << inductance << " H");
+      const Scenario scenario = load_scenario(
+          shipped(file), {std::string("effect.dc_motor.inductance_H=") + inductance, "run.duration_s=0.4"},
+          Purpose::run);
+      const AuditReport report = *run_scenario(scenario, {.audit = true}).audit;
+      CHECK(report.events > 0);
+      CHECK(report.findings.empty());
+      CHECK(report.largest_angle_error < 1e-7);
+      CHECK(report.largest_speed_error < 1e-6);
+    }
+}
+
 TEST_CASE("without inductance both solvers have the same events, also where the supply cuts the command") {
   const std::vector<std::string> words{"effect.dc_motor.inductance_H=0"};
   std::vector<std::string> by_taylor = words;
