@@ -29,8 +29,7 @@ struct DcMotor {
       "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
       "h/thermal_resistance; with a current loop U = R I + torque_constant theta_w' + 2 pi current_bandwidth "
-      "inductance "
-      "(u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit";
+      "inductance (u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit";
   static constexpr std::string_view source =
       "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};

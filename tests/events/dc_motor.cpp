@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "events/linear_motion.hpp"
+#include "events/torque_ratio.hpp"
 #include "support.hpp"
 
 // A motor with a winding against closed forms: the linear machine, its torque-speed line, the rise of the current at
@@ -20,12 +21,6 @@ DcMotor<double> motor(double inductance) {
   m.inductance = inductance;
   m.amplifier_gain = 1.0;
   return m;
-}
-
-/// C of a signed friction m [YehWu2009, eq. 9].
-double torque_ratio(const MeshParameters<double>& p, double m) {
-  return p.lw / p.lg * (std::cos(p.phi_n) * std::sin(p.lambda) - m * std::cos(p.lambda)) /
-         (std::cos(p.phi_n) * std::cos(p.lambda) + m * std::sin(p.lambda));
 }
 
 }  // namespace

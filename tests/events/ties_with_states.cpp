@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "catch.hpp"
+#include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "support.hpp"
 
@@ -14,12 +15,6 @@
 namespace wormdrive::test::events_ties_with_states {
 
 namespace {
-
-/// C of a signed friction m [YehWu2009, eq. 9].
-double torque_ratio(const MeshParameters<double>& p, double m) {
-  return p.lw / p.lg * (std::cos(p.phi_n) * std::sin(p.lambda) - m * std::cos(p.lambda)) /
-         (std::cos(p.phi_n) * std::cos(p.lambda) + m * std::sin(p.lambda));
-}
 
 /// y' = rate (u - y) from 0 at t = 0, u = level + amplitude cos(omega t + phase).
 struct Lag {
