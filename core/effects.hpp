@@ -58,7 +58,7 @@ struct Effects {
         list, command,
         []<class E>(const E& e, const S& torque, const auto& now) -> decltype(e.motor_torque(torque, now)) {
           if constexpr (MayHaveStates<E> && requires { now.states; })
-            if (e.has_states()) return e.motor_torque(torque, now, EffectStates::template of<E>(now.states));
+            if (has_states(e)) return e.motor_torque(torque, now, EffectStates::template of<E>(now.states));
           return e.motor_torque(torque, now);
         },
         at);
@@ -68,11 +68,8 @@ struct Effects {
   void for_each_state(Visit&& visit) const {
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>)
-        for (std::size_t k = 0; effect && effect->has_states() && k < E::states.size(); ++k) {
-          if constexpr (requires { effect->has_state(k); })
-            if (!effect->has_state(k)) continue;
-          visit(E::id, E::states[k], EffectStates::template first<E>() + k);
-        }
+        for (std::size_t k = 0; effect && k < E::states.size(); ++k)
+          if (effect->has_state(k)) visit(E::id, E::states[k], EffectStates::template first<E>() + k);
     });
   }
   /// The id of the first effect that has a state; empty if none has.
@@ -87,7 +84,7 @@ struct Effects {
     std::string_view way;
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>)
-        if (way.empty() && effect && effect->has_states()) way = E::without_states;
+        if (way.empty() && effect && has_states(*effect)) way = E::without_states;
     });
     return way;
   }
@@ -97,7 +94,7 @@ struct Effects {
     std::array<S, effect_state_count> rates{};
     for_each([&]<class E>(const std::optional<E>& effect) {
       if constexpr (MayHaveStates<E>) {
-        if (!effect || !effect->has_states()) return;
+        if (!effect || !has_states(*effect)) return;
         const auto own = effect->state_rates(command, at, motion, EffectStates::template of<E>(at.states));
         std::copy(own.begin(), own.end(), rates.begin() + EffectStates::template first<E>());
       }
@@ -146,7 +143,7 @@ struct Effects {
         list, S(0.0),
         []<class E>(const E& e, const S& sum, const auto& now, Motion way) -> decltype(sum + e.worm_torque(now, way)) {
           if constexpr (MayHaveStates<E> && requires { now.states; })
-            if (e.has_states()) return sum + e.worm_torque(now, way, EffectStates::template of<E>(now.states));
+            if (has_states(e)) return sum + e.worm_torque(now, way, EffectStates::template of<E>(now.states));
           return sum + e.worm_torque(now, way);
         },
         at, motion);

@@ -73,7 +73,8 @@ inline std::vector<Parameter> continuous_parameters(const RigidDrive& drive) {
   if (const auto id = drive.effects.first_with_states(); !id.empty())
     throw std::invalid_argument("effect." + std::string(id) + " has a state, which sensitivities do not follow");
   if (std::get<std::optional<FrictionUnderLoad<double>>>(drive.effects.list) ||
-      WormDrive<double, SummedLoad>(drive.mesh, make_load(drive.load), drive.effects, drive.motor).bend_count<Moment>() > 0)
+      WormDrive<double, SummedLoad>(drive.mesh, make_load(drive.load), drive.effects, drive.motor)
+              .bend_count<Moment>() > 0)
     throw std::invalid_argument(
         "the torques bend where a stop is met or a load changes its sign (end_stops, effect.friction_under_load), "
         "which sensitivities do not follow");

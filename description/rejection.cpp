@@ -116,7 +116,7 @@ std::string why_not(const Effect& effect, const Scenario& scenario) {
   if (Effect::place == Place::mesh && !stated_mesh(scenario).has_teeth) return "needs teeth, but mesh.kind is \"none\"";
   std::string refused = refusal(effect, scenario);
   if constexpr (MayHaveStates<Effect>)
-    if (refused.empty() && effect.has_states() && has_elastic_teeth(scenario.effects))
+    if (refused.empty() && has_states(effect) && has_elastic_teeth(scenario.effects))
       refused = fmt::format("has states, which elastic teeth do not carry; {}, or switch effect.tooth_compliance off",
                             Effect::without_states);
   return refused.empty() ? conflict<Effect>(scenario.effects) : refused;

@@ -24,4 +24,15 @@ inline bool close(double value, double expected, double share) {
   return std::abs(value - expected) <= share * std::abs(expected);
 }
 
+/// Where, between two numbers, something ends that holds at the low one and not at the high one: the first number at
+/// which it does not hold, by bisection.
+template <class Holds>
+double end_of(double low, double high, Holds&& holds) {
+  for (;;) {
+    const double middle = low + 0.5 * (high - low);
+    if (middle <= low || middle >= high) return high;
+    (holds(middle) ? low : high) = middle;
+  }
+}
+
 }  // namespace wormdrive::test

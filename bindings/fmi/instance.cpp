@@ -51,17 +51,16 @@ void FmuInstance::begin() {
       state_.run.emplace(std::move(run));
     }
   };
-  if (has_elastic_teeth(set.effects)) {
-    CompliantDrive drive(make_drive(set), tooth_contact(set.effects));
+  const auto run_as_instantiated = [&]<class Drive>(Drive drive) {
     if (type_ == InterfaceType::model_exchange)
       move_from_outside(std::move(drive));
     else
       solve_inside(std::move(drive));
+  };
+  if (has_elastic_teeth(set.effects)) {
+    run_as_instantiated(CompliantDrive(make_drive(set), tooth_contact(set.effects)));
   } else if (set.effects.have_states()) {
-    if (type_ == InterfaceType::model_exchange)
-      move_from_outside(make_drive<true>(set));
-    else
-      solve_inside(make_drive<true>(set));
+    run_as_instantiated(make_drive<true>(set));
   } else if (type_ == InterfaceType::model_exchange) {
     move_from_outside(make_drive(set));
   } else {

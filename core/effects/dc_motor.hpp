@@ -23,8 +23,7 @@ struct DcMotor {
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause =
       "an amplifier gives a voltage or controls the current, and back-EMF, resistance and inductance of the winding "
-      "say "
-      "what current flows";
+      "say what current flows";
   static constexpr std::string_view law =
       "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
@@ -78,7 +77,6 @@ struct DcMotor {
                                      EffectState{"temperature_rise", unit::kelvin}};
   static constexpr std::string_view without_states = "state neither inductance_H nor heat_capacity_J_per_K";
   bool has_inductance() const { return inductance && *inductance > T(0); }
-  bool has_states() const { return has_inductance() || heat_capacity; }
   bool has_state(std::size_t k) const { return k == 0 ? has_inductance() : heat_capacity.has_value(); }
   /// I' [A/s] and h' [K/s]; the winding warms up from its surroundings on.
   template <class S>

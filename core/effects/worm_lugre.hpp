@@ -55,7 +55,7 @@ struct WormLuGre {
   static constexpr std::array states{
       EffectState{"deflection", unit::none, "deflection of the bristles, 1 where they slide under coulomb_torque"}};
   static constexpr std::string_view without_states = "leave stiffness_Nm_per_rad out";
-  bool has_states() const { return stiffness.has_value(); }
+  bool has_state(std::size_t) const { return stiffness.has_value(); }
   /// h' [1/s].
   template <class S>
   std::array<S, 1> state_rates(const S&, const Moment<S>& at, Motion motion, const std::array<S, 1>& h) const {

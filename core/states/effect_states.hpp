@@ -17,13 +17,20 @@ struct EffectState {
   std::string_view meaning{};
 };
 
-/// Effects that may have states: they name them, say whether they have some with their parameters, and give rates;
-/// has_state(k) of one that has them one by one says which.
+/// Effects that may have states: they name them, say which they have with their parameters, and give rates.
 template <class Effect>
 concept MayHaveStates = requires(const Effect& effect) {
   Effect::states;
-  effect.has_states();
+  effect.has_state(std::size_t{});
 };
+
+/// Whether an effect has any state with its parameters.
+template <MayHaveStates Effect>
+bool has_states(const Effect& effect) {
+  for (std::size_t k = 0; k < Effect::states.size(); ++k)
+    if (effect.has_state(k)) return true;
+  return false;
+}
 
 /// The states of the effects of a list, one effect's behind the other's; an effect that is off has its own, too, and
 /// they do not change.

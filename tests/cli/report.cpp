@@ -189,23 +189,20 @@ TEST_CASE("files that are not results, or damaged ones, get no report") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
   write_attribute(create_hdf5(folder / "other.h5"), "kind", "something");
-  check_rejected(folder,
-                 {{"a result of another kind",
-                   "",
-                   "other.h5: error: its kind 'something' is none of run, statics, steady, efficiency, sweep and diagnosis",
-                   {"report", "other.h5"},
-                   true},
-                  {"a scenario",
-                   "",
-                   "s.toml: error: not an HDF5 file; wormdrive run writes one",
-                   {"report", "s.toml"},
-                   true},
-                  {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
-                  {"a folder of something else",
-                   "",
-                   ".: error: contains no diagnosis.h5; wormdrive diagnose -o writes one",
-                   {"report", "."},
-                   true}});
+  check_rejected(
+      folder,
+      {{"a result of another kind",
+        "",
+        "other.h5: error: its kind 'something' is none of run, statics, steady, efficiency, sweep and diagnosis",
+        {"report", "other.h5"},
+        true},
+       {"a scenario", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"report", "s.toml"}, true},
+       {"nothing", "", "no.h5: error: cannot be read: No such file or directory", {"report", "no.h5"}, true},
+       {"a folder of something else",
+        "",
+        ".: error: contains no diagnosis.h5; wormdrive diagnose -o writes one",
+        {"report", "."},
+        true}});
 }
 
 }  // namespace wormdrive::test::cli_report

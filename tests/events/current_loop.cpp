@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "events/linear_motion.hpp"
 #include "near_ties/dice.hpp"
+#include "numbers.hpp"
 #include "support.hpp"
 
 // A motor whose amplifier controls the current, against closed forms: a lag of first order while the supply gives the
@@ -46,10 +47,7 @@ class Judge {
         high = std::min(left, high + step);
       }
       if (side_of(moved(x, command, side, high), command) != side) {
-        for (int k = 0; k < 80; ++k) {
-          const double middle = 0.5 * (low + high);
-          (side_of(moved(x, command, side, middle), command) == side ? low : high) = middle;
-        }
+        high = end_of(low, high, [&](double t) { return side_of(moved(x, command, side, t), command) == side; });
         ++changes;
       }
       x = moved(x, command, side, high);
@@ -175,14 +173,10 @@ TEST_CASE("however short the supply is reached at the crest of a command, the cu
     int regime = 0, pieces = 0;
     for (double t = step; t < end; t += step) {
       if (side(t, moved(regime, t)) == regime) continue;
-      double low = t - step, high = t;
-      for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        (side(middle, moved(regime, middle)) == regime ? low : high) = middle;
-      }
-      start = moved(regime, high);
-      regime = side(high, start);
-      from = high;
+      const double change = end_of(t - step, t, [&](double x) { return side(x, moved(regime, x)) == regime; });
+      start = moved(regime, change);
+      regime = side(change, start);
+      from = change;
       ++pieces;
     }
     REQUIRE(pieces >= 2);

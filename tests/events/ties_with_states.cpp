@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
+#include "numbers.hpp"
 #include "support.hpp"
 
 // A locked gear whose motor torque, behind a winding or a current loop, rises just to break-in or just not. At rest
@@ -33,12 +34,8 @@ struct Lag {
     std::optional<double> best;
     for (double t = step; t + step < end; t += step) {
       if (!rises(t) || rises(t + step)) continue;
-      double low = t, high = t + step;
-      for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        (rises(middle) ? low : high) = middle;
-      }
-      if (!best || side * (*this)(low) > side * (*this)(*best)) best = low;
+      const double here = end_of(t, t + step, rises);
+      if (!best || side * (*this)(here) > side * (*this)(*best)) best = here;
     }
     return best;
   }

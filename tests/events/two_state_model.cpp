@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "catch.hpp"
+#include "numbers.hpp"
 #include "support.hpp"
 
 // The loop and its solvers on a system that is no drive: ARGESIM comparison C5, "Two State Model" [EUROSIM Simulation
@@ -90,13 +91,9 @@ struct Solution {
   }
   /// When y1 is at the threshold: once the fast part has died away there is only one such time.
   double passes(double longest) const {
-    double low = 50.0 / c1, high = longest;
+    const double low = 50.0 / c1;
     const bool rises = in.threshold > first(low);
-    for (int k = 0; k < 200; ++k) {
-      const double middle = 0.5 * (low + high);
-      ((first(middle) < in.threshold) == rises ? low : high) = middle;
-    }
-    return high;
+    return end_of(low, longest, [&](double s) { return (first(s) < in.threshold) == rises; });
   }
 };
 

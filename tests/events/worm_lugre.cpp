@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "core/statics.hpp"
 #include "near_ties/dice.hpp"
+#include "numbers.hpp"
 #include "support.hpp"
 
 // Bristles in the worm's bearings: Dahl's closed form along any way, the speed under a torque, a program of fixed steps
@@ -87,12 +88,9 @@ TEST_CASE("a worm on bristles turns as fast as sliding friction lets it, faster 
           low = w - 1e-3;
           break;
         }
-      for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        (excess(middle) > 0.0 ? low : high) = middle;
-      }
+      const double steady = end_of(low, high, [&](double w) { return excess(w) > 0.0; });
       INFO("push " << push << ", " << seen.end.x[1] << " rad/s");
-      REQUIRE(std::abs(seen.end.x[1] - low) <= 1e-7 * low);
+      REQUIRE(std::abs(seen.end.x[1] - steady) <= 1e-7 * steady);
     }
 }
 
