@@ -106,6 +106,7 @@ Hdf5Handle open_hdf5_while_written(const std::string& path) {
   const std::string action = "it cannot be opened as HDF5";
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
   check_hdf5(H5Pset_file_locking(access, false, true), action);
+  check_hdf5(H5Pset_sieve_buf_size(access, 0), action);  // it would keep rows as they were before they were written
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, action};
 }
 

@@ -114,8 +114,4 @@ std::vector<std::string> StoredColumn::read_padded_texts() const {
 
 std::vector<double> read_column(hid_t file, const std::string& path) { return StoredColumn(file, path).values(); }
 
-std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count) {
-  return StoredColumn(file, path).values(first, count);
-}
-
 }  // namespace wormdrive

@@ -44,7 +44,5 @@ class StoredColumn {
 
 /// All values of a column of numbers or flags. Throws ReadFault.
 std::vector<double> read_column(hid_t file, const std::string& path);
-/// So many of them from a row on.
-std::vector<double> read_column(hid_t file, const std::string& path, std::uint64_t first, std::uint64_t count);
 
 }  // namespace wormdrive

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "output/hdf5/stored_table.hpp"
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/summary/summary_tables.hpp"
 
@@ -83,12 +83,12 @@ void check_referee(const StoredTable& referee, TrialRange range) {
 
 }  // namespace
 
-TrialRange check_sweep(hid_t file, const Study& study) {
+StoredTrials check_sweep(hid_t file, const Study& study) {
   const TrialRange range = stored_range(file, study);
   check_blocks(file, study);
   for (const char* const name : {"title", "command_line"}) read_text_attribute(file, name);
   if (H5Aexists(file, "sources") > 0) read_text_attribute(file, "sources");  // older files have none
-  const StoredTable trials(file, "trials"), referee(file, "referee");
+  StoredTable trials(file, "trials"), referee(file, "referee");
   for (ColumnDescription column : trial_columns(study)) {
     if (column.is_flag()) column.flag_values.push_back(0);  // of a trial that was not made yet
     trials.check(column, Range::any);
@@ -112,7 +112,7 @@ TrialRange check_sweep(hid_t file, const Study& study) {
     referee.column("judged").reject(fmt::format("has {} rows instead of {}", referee.rows(), most_verdicts));
   check_referee(referee, range);
   check_summary_tables(file, study);
-  return range;
+  return {range, std::move(trials), std::move(referee)};
 }
 
 }  // namespace wormdrive

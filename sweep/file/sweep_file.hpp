@@ -9,6 +9,7 @@
 
 #include "output/hdf5/fixed_table.hpp"
 #include "output/hdf5/part_file.hpp"
+#include "sweep/file/check_sweep.hpp"
 #include "sweep/file/reason_table.hpp"
 #include "sweep/study/study.hpp"
 #include "sweep/trial.hpp"
@@ -86,12 +87,12 @@ class SweepReader {
   /// As it was typed to begin the sweep.
   std::string command_line() const { return read_text_attribute(file_, "command_line"); }
   /// The trials for which it has room.
-  TrialRange range() const { return range_; }
+  TrialRange range() const { return stored_->range; }
   /// The trials that it has, in rising order.
   const std::vector<TrialRange>& present() const { return present_; }
   std::uint64_t trials() const { return trials_in(present_); }
   bool has(std::uint64_t trial) const;
-  bool complete() const { return trials() == range_.size(); }
+  bool complete() const { return trials() == range().size(); }
 
   /// Why rows of the two cannot stand in one sweep: the study, its scenario or the program differ. Empty if they can.
   std::string why_not_of(const Study& study) const;
@@ -119,7 +120,7 @@ class SweepReader {
   Hdf5Handle file_;
   Study study_;
   std::string scenario_, build_;
-  TrialRange range_;
+  std::optional<StoredTrials> stored_;  ///< there once the file is found good
   std::vector<TrialRange> present_;
   std::vector<std::string> reasons_;
 };

@@ -6,9 +6,7 @@
 #include "description/diagnostics.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "output/hdf5/read_ahead.hpp"
-#include "output/hdf5/stored_column.hpp"
 #include "output/program.hpp"
-#include "sweep/file/check_sweep.hpp"
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/study/load_study.hpp"
 
@@ -22,7 +20,7 @@ SweepReader::SweepReader(const std::string& path, bool while_written) : path_(pa
     scenario_ = read_text_attribute(file_, "scenario");
     build_ = read_text_attribute(file_, "build");
     study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
-    range_ = check_sweep(file_, study_);
+    stored_ = check_sweep(file_, study_);
     for_each_block({}, [&](const Block& block) {
       std::uint64_t trial = block.first;
       for (const double status : block.status) {
@@ -57,9 +55,10 @@ std::string SweepReader::why_not_of(const SweepReader& other) const {
 void SweepReader::for_each_block(const std::vector<std::string>& columns,
                                  const std::function<void(const Block&)>& visit) const {
   constexpr std::uint64_t at_once = 1 << 16;
-  for (std::uint64_t first = range_.first; first < range_.end; first += at_once) {
+  const TrialRange range = stored_->range;
+  for (std::uint64_t first = range.first; first < range.end; first += at_once) {
     const auto read = [&](const std::string& name) {
-      return read_column(file_, "trials/" + name, first - range_.first, std::min(at_once, range_.end - first));
+      return stored_->trials.column(name).values(first - range.first, std::min(at_once, range.end - first));
     };
     Block block{first, read("status"), {}};
     for (const std::string& name : columns) block.columns.push_back(read(name));
@@ -70,7 +69,8 @@ void SweepReader::for_each_block(const std::vector<std::string>& columns,
 std::vector<Trial> SweepReader::read(TrialRange range) const {
   std::vector<Trial> trials(range.size());
   const auto each = [&](const std::string& name, auto&& put) {
-    const std::vector<double> values = read_column(file_, "trials/" + name, range.first - range_.first, range.size());
+    const std::uint64_t row = range.first - stored_->range.first;
+    const std::vector<double> values = stored_->trials.column(name).values(row, range.size());
     for (std::size_t k = 0; k < trials.size(); ++k) put(trials[k], values[k]);
   };
   each("index", [](Trial& t, double value) { t.index = static_cast<std::uint64_t>(value); });
@@ -86,7 +86,7 @@ std::vector<Trial> SweepReader::read(TrialRange range) const {
 }
 
 std::vector<RefereeVerdict> SweepReader::verdicts() const {
-  const auto read = [&](const std::string& name) { return read_column(file_, "referee/" + name); };
+  const auto read = [&](const std::string& name) { return stored_->referee.column(name).values(); };
   const std::vector<double> judged = read("judged"), trial = read("trial"), angle = read("angle_difference"),
                             speed = read("speed_difference"), t = read("time"),
                             closed_angle = read("closed_angle_difference"),
