@@ -20,6 +20,8 @@
 #include "core/effects/gear_viscous.hpp"
 #include "core/effects/holding_brake.hpp"
 #include "core/effects/load_angle.hpp"
+#include "core/effects/load_coupling.hpp"
+#include "core/effects/load_crank.hpp"
 #include "core/effects/load_magnitude.hpp"
 #include "core/effects/load_spring.hpp"
 #include "core/effects/mesh_friction.hpp"
@@ -59,7 +61,7 @@ using EffectList =
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
              FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,                  // mesh
              GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia,                                     // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring,                                                         // load
+             LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadCoupling,                                // load
              EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor
 
 /// How many states all effects may have together.

@@ -72,34 +72,10 @@ struct Effects {
           if (effect->has_state(k)) visit(E::id, E::states[k], EffectStates::template first<E>() + k);
     });
   }
-  /// The id of the first effect that has a state; empty if none has.
-  std::string_view first_with_states() const {
-    std::string_view first;
-    for_each_state([&](std::string_view id, const EffectState&, std::size_t) { first = first.empty() ? id : first; });
-    return first;
-  }
-  bool have_states() const { return !first_with_states().empty(); }
-  /// How a scenario states that effect so that it has none.
-  std::string_view without_states() const {
-    std::string_view way;
-    for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (MayHaveStates<E>)
-        if (way.empty() && effect && has_states(*effect)) way = E::without_states;
-    });
-    return way;
-  }
-  /// Rates of the states of the effects, for a command [N m].
-  template <class S>
-  std::array<S, effect_state_count> state_rates(const S& command, const MomentOfEffects<S>& at, Motion motion) const {
-    std::array<S, effect_state_count> rates{};
-    for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (MayHaveStates<E>) {
-        if (!effect || !has_states(*effect)) return;
-        const auto own = effect->state_rates(command, at, motion, EffectStates::template of<E>(at.states));
-        std::copy(own.begin(), own.end(), rates.begin() + EffectStates::template first<E>());
-      }
-    });
-    return rates;
+  bool have_states() const {
+    bool any = false;
+    for_each_state([&](std::string_view, const EffectState&, std::size_t) { any = true; });
+    return any;
   }
   /// Calls visit with every quantity at whose zero what an effect with states does bends, for a command [N m].
   template <class S, class Visit>
@@ -244,9 +220,50 @@ struct Effects {
       return sum + e.gear_inertia();
     });
   }
-  /// Torque of a load with what the effects make of it [N m], while the gear moves, or starts to move, in a direction.
+  /// Whether the inertia of the gear side depends on its angle.
+  bool inertia_varies() const {
+    bool any = false;
+    for_each([&](const auto& effect) {
+      if constexpr (requires { effect->inertia_at(T(0)); }) any = any || effect;
+    });
+    return any;
+  }
+  /// What the gear side, or the load behind a coupling, feels of inertias that depend on its angle.
+  template <class S>
+  VaryingInertia<S> inertia_at(const S& theta_g) const {
+    return through(
+        list, VaryingInertia<S>{S(0.0), S(0.0)},
+        [](const auto& e, const auto& sum, const S& angle) -> decltype(e.inertia_at(angle)) {
+          const auto own = e.inertia_at(angle);
+          return {sum.inertia + own.inertia, sum.slope + own.slope};
+        },
+        theta_g);
+  }
+  /// The coupling behind which the load turns on its own, if there is one.
+  const LoadCoupling<T>* twisting_coupling() const {
+    const auto& coupling = std::get<std::optional<LoadCoupling<T>>>(list);
+    return coupling && has_states(*coupling) ? &*coupling : nullptr;
+  }
+  /// Where the load is at a moment, and how fast it turns. M as above.
+  template <class S, template <class> class M>
+  Moment<S> at_load(const M<S>& at) const {
+    if constexpr (requires { at.states; })
+      if (const auto* const coupling = twisting_coupling())
+        return coupling->at_load(at, EffectStates::template of<LoadCoupling<T>>(at.states));
+    return at;
+  }
+  /// Torque on the gear of a load with what the effects make of it [N m], while the gear moves, or starts to move, in a
+  /// direction. M as above; without states the load turns with the gear.
+  template <class Load, class S, template <class> class M>
+  S load_torque(const Load& load, const M<S>& at, Motion motion) const {
+    if constexpr (requires { at.states; })
+      if (const auto* const coupling = twisting_coupling())
+        return coupling->torque_on_gear(at, EffectStates::template of<LoadCoupling<T>>(at.states));
+    return torque_of(load, at, motion);
+  }
+  /// The same where the load is.
   template <class Load, class S>
-  S load_torque(const Load& load, const Moment<S>& at, Motion motion) const {
+  S torque_of(const Load& load, const Moment<S>& at, Motion motion) const {
     Moment<S> seen = at;
     seen.theta_g = through(list, at.theta_g, [](const auto& e, const S& theta_g) -> decltype(e.loading_angle(theta_g)) {
       return e.loading_angle(theta_g);

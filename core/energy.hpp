@@ -43,7 +43,7 @@ template <class Load, bool with_states>
 double stored_energy(const WormDrive<double, Load, with_states>& drive,
                      const typename WormDrive<double, Load, with_states>::Instant& now) {
   const auto at = drive.moment(now);
-  const double kinetic = 0.5 * (drive.mesh().Jw * at.omega_w * at.omega_w + drive.Jg() * at.omega_g * at.omega_g);
+  const double kinetic = 0.5 * (drive.mesh().Jw * at.omega_w * at.omega_w + drive.Jg(at) * at.omega_g * at.omega_g);
   if constexpr (with_states)
     return kinetic + stored_energy(drive.effects(), winding(drive.effects(), drive.motor_command(at.t), at));
   else

@@ -17,6 +17,7 @@
 #include "core/load.hpp"
 #include "core/mesh.hpp"
 #include "core/signal.hpp"
+#include "core/states/first_with_states.hpp"
 #include "core/unit.hpp"
 #include "core/worm_drive.hpp"
 
@@ -70,8 +71,9 @@ constexpr bool continuous(const Field<Owner, Value>& field) {
 /// state, or torques bend.
 inline std::vector<Parameter> continuous_parameters(const RigidDrive& drive) {
   if (has_elastic_teeth(drive.effects)) throw std::invalid_argument("a drive with elastic teeth is not rigid");
-  if (const auto id = drive.effects.first_with_states(); !id.empty())
-    throw std::invalid_argument("effect." + std::string(id) + " has a state, which sensitivities do not follow");
+  if (const auto effect = first_with_states(drive.effects))
+    throw std::invalid_argument("effect." + std::string(effect->id) +
+                                " has a state, which sensitivities do not follow");
   if (std::get<std::optional<FrictionUnderLoad<double>>>(drive.effects.list) ||
       WormDrive<double, SummedLoad>(drive.mesh, make_load(drive.load), drive.effects, drive.motor)
               .bend_count<Moment>() > 0)

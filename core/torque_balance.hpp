@@ -26,9 +26,10 @@ class TorqueBalance {
     mesh_.Jw = mesh_.Jw + effects_.worm_inertia();
     mesh_.Jg = mesh_.Jg + effects_.gear_inertia();
     Jw_i_ = mesh_.Jw * mesh_.i;
-    Jg_ = mesh_.Jg + load_.inertia();
+    Jg_ = mesh_.Jg + (effects_.twisting_coupling() ? 0.0 : load_.inertia());
     friction_changes_ = effects_.change_friction();
     pitch_varies_ = effects_.pitch_varies();
+    inertia_varies_ = effects_.inertia_varies() && !effects_.twisting_coupling();
     ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
     bends_with_load_ = effects_.bend_with_load();
     bend_count_ = counted_bends<Moment>();
@@ -41,8 +42,13 @@ class TorqueBalance {
   const Effects<T>& effects() const { return effects_; }
   /// Largest magnitude of the motor's command [N m], infinity without a limit.
   double torque_limit() const { return motor_.limit(); }
-  /// Inertia of the gear side with the load's own [kg m^2].
+  /// Inertia of the gear side with the load's own [kg m^2], unless that turns behind a coupling.
   T Jg() const { return Jg_; }
+  /// The same with what depends on the angle.
+  template <class S>
+  S Jg(const Moment<S>& at) const {
+    return inertia_varies_ ? S(Jg_ + effects_.inertia_at(at.theta_g).inertia) : S(Jg_);
+  }
   /// Slope of the switching surface, Jw i / Jg [YehWu2009, eq. 17].
   T surface() const { return Jw_i_ / Jg_; }
 
@@ -101,10 +107,13 @@ class TorqueBalance {
   /// Calls visit with each of them, always in the same order.
   template <class S, template <class> class M, class Visit>
   void for_each_bend(const M<S>& at, Motion motion, Visit&& visit) const {
-    const Moment<S>& moment = at;
-    if constexpr (requires { load_.for_each_bend(moment, visit); }) load_.for_each_bend(moment, visit);
-    if (bends_with_load_) visit(effects_.load_torque(load_, moment, motion));
+    const Moment<S> at_load = effects_.at_load(at);
+    if constexpr (requires { load_.for_each_bend(at_load, visit); }) load_.for_each_bend(at_load, visit);
+    if (bends_with_load_) visit(effects_.load_torque(load_, at, motion));
     if constexpr (std::is_same_v<M<S>, MomentOfEffects<S>>) {
+      // the direction of a load behind a coupling is no mode of the drive
+      if constexpr (requires { load_.depends_on_direction(); })
+        if (effects_.twisting_coupling() && load_.depends_on_direction()) visit(at_load.omega_g);
       effects_.for_each_bend(command_at(at), at, visit);
       // With states rest is integrated. Its margins bend where another flank would carry what starts.
       if (mesh_.has_teeth)
@@ -175,7 +184,11 @@ class TorqueBalance {
   template <class S, template <class> class M>
   SideTorques<S> with_bearings(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
-    return {input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
+    SideTorques<S> tau{input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
+    // Jg theta_g'' + Jg' theta_g'^2/2 is what balances them; the second term counts as a torque
+    if (inertia_varies_)
+      tau.gear = tau.gear - T(0.5) * effects_.inertia_at(at.theta_g).slope * (at.omega_g * at.omega_g);
+    return tau;
   }
   /// What the worm's bearings do at rest: nothing, unless one that pushes cannot do as little.
   template <class S, template <class> class M>
@@ -200,31 +213,33 @@ class TorqueBalance {
   }
   template <class S>
   S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
-    if (!friction_changes_ && !pitch_varies_) {
+    if (!friction_changes_ && !pitch_varies_ && !inertia_varies_) {
       using Scalar = ConstantOf<S>;
       const Scalar C = mesh_.C(Scalar(T(mode.product()) * mesh_.mu));
       return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
     }
     const S C = mesh_.C(signed_friction(at, mode));
-    if (!pitch_varies_) return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg_);
+    if (!pitch_varies_) return (tau.worm + C * tau.gear) / (Jw_i_ + C * Jg(at));
     // the worm's balance, as work at the gear: its lever arms are 1/k of those of an even pitch
     const Transmission<S> worm = effects_.transmission(at.theta_g);
     const S inertial = Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
-    return (worm.slope * (tau.worm - inertial) + C * tau.gear) / (Jw_i_ * worm.slope * worm.slope + C * Jg_);
+    return (worm.slope * (tau.worm - inertial) + C * tau.gear) / (Jw_i_ * worm.slope * worm.slope + C * Jg(at));
   }
   /// tau_w - Jw theta_w'' where the flanks do not push: theta_g'' = tau_g/Jg.
   template <class S>
   S beyond_surface(const SideTorques<S>& tau, const Moment<S>& at) const {
-    if (!pitch_varies_) return tau.worm - surface() * tau.gear;
+    if (!pitch_varies_ && !inertia_varies_) return tau.worm - surface() * tau.gear;
+    const S surface = Jw_i_ / Jg(at);
+    if (!pitch_varies_) return tau.worm - surface * tau.gear;
     const Transmission<S> worm = effects_.transmission(at.theta_g);
-    return tau.worm - surface() * (worm.slope * tau.gear) - Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
+    return tau.worm - surface * (worm.slope * tau.gear) - Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
   }
   /// Wn [N] where the gear accelerates so [rad/s^2], 0 at rest.
   template <class S>
   S normal_force(const SideTorques<S>& tau, const Moment<S>& at, const S& alpha, Mode mode) const {
     const S worm =
         pitch_varies_ ? effects_.transmission(at.theta_g).slope * tau.worm : tau.worm;  // on one of even pitch
-    return mesh_.normal_force(worm, tau.gear, S(Jg_ * alpha), mode, signed_friction(at, mode));
+    return mesh_.normal_force(worm, tau.gear, S(Jg(at) * alpha), mode, signed_friction(at, mode));
   }
 
  private:
@@ -256,6 +271,7 @@ class TorqueBalance {
   T Jw_i_{}, Jg_{};
   bool friction_changes_ = false;  ///< else C is that of the mesh alone
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
+  bool inertia_varies_ = false;    ///< else Jg is that of every angle
   double ripple_ = 0.0;
   bool bends_with_load_ = false;
   int bend_count_ = 0, bend_count_with_states_ = 0;

@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 #include <ceres/jet.h>
 
-#include "core/elastic/observation.hpp"
 #include "core/numbers/rounded.hpp"
 #include "core/numbers/series.hpp"
+#include "core/states/state_rates.hpp"
 #include "core/states/winding.hpp"
 #include "core/torque_balance.hpp"
 
@@ -242,7 +242,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
   template <class S>
   auto state_rates(const MomentOfEffects<S>& at, Mode mode) const {
-    return effects().state_rates(motor_command(at.t), at, mode.motion);
+    return wormdrive::state_rates(effects(), motor_command(at.t), this->load(), at, mode.motion);
   }
   template <class S, template <class> class M>
   static M<S> resting(M<S> at, const Instant& now) {

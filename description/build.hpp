@@ -62,5 +62,13 @@ inline GearMesh<double> make_mesh(const Scenario& scenario, Motion motion = Moti
 
 /// Inertia of the gear side with the load's own and what effects add [kg m^2]; without teeth all that moves.
 inline double total_gear_inertia(const Scenario& scenario) { return make_drive(scenario).Jg(); }
+/// The same at the angle at which it is greatest.
+inline double greatest_gear_inertia(const Scenario& scenario) {
+  const double total = total_gear_inertia(scenario);
+  if (scenario.effects.twisting_coupling()) return total;  // what depends on the angle is behind it
+  return through(scenario.effects.list, total, [](const auto& e, double sum) -> decltype(e.greatest_inertia()) {
+    return sum + e.greatest_inertia();
+  });
+}
 
 }  // namespace wormdrive

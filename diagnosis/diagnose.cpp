@@ -178,10 +178,7 @@ void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vecto
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given, const DiagnosisSettings& settings) {
-  if (const auto id = scenario.effects.first_with_states(); !id.empty())
-    throw std::invalid_argument(
-        fmt::format("a diagnosis predicts drives whose effects have no states, but effect.{} has one; {}", id,
-                    scenario.effects.without_states()));
+  if (const std::string why = why_not_diagnosed(scenario.effects); !why.empty()) throw std::invalid_argument(why);
   const std::vector<Recording> recordings = in_their_own_order(given);
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);

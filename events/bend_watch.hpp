@@ -37,9 +37,13 @@ class BendWatch {
       const double resolution = time_resolution(now.t);
       std::size_t k = 0;
       visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
-        const double sign = sign_just_after(b, resolution) < 0 ? -1.0 : 1.0;
+        const int decides = undecided(b, resolution);
+        const bool decided = decides <= b.last;
+        // of one that nothing decides, the side to which the series goes that a step would take
+        const double sign = (decided ? b[decides].value > 0.0 : goes_up(b)) ? 1.0 : -1.0;
         // one that stays at zero, as the load of a stop that is not met, bends nothing until it leaves it
-        const double unknown = std::max(2.0 * blur(b, 0, resolution), std::numeric_limits<double>::min());
+        const double unknown =
+            std::max(2.0 * doubt(b, decided ? decides : 0, resolution), std::numeric_limits<double>::min());
         sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
       });
       here_ = values(now);
@@ -102,6 +106,13 @@ class BendWatch {
     double sign = 1.0, floor = 0.0;
   };
 
+  /// Where the values of a series go, whatever their rounding; up where all are zero.
+  template <int N>
+  static bool goes_up(const Series<Rounded, N>& b) {
+    for (int k = 0; k <= N; ++k)
+      if (b[k].value != 0.0) return b[k].value > 0.0;
+    return true;
+  }
   static std::size_t count(const System& system) {
     if constexpr (requires { system.rigid(); })
       return static_cast<std::size_t>(system.rigid().template bend_count<Moment>());

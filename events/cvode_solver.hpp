@@ -140,8 +140,7 @@ class CvodeSolver {
     if (solver.rounding_counts_) CVodeGetCurrentStep(solver.memory(), &step);
     Instant now = solver.ahead_;
     now.x = Eigen::Map<const State>(N_VGetArrayPointer(y));
-    Eigen::Map<State>(N_VGetArrayPointer(weights)) =
-        allowed_error(solver.system_, now, solver.settings_, step).cwiseInverse();
+    Eigen::Map<State>(N_VGetArrayPointer(weights)) = weights_of_errors(solver.system_, now, solver.settings_, step);
     return 0;
   }
   /// Whether the error test is busy with rounding: its failures tell, or steps that are many and short.

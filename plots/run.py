@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import controller
+import coupling
 import style
 import teeth
 from result import NotAResult, attribute, column, columns, flags, group, number, text, units
@@ -163,8 +164,10 @@ def draw(result):
     speed_factor, speed_unit = style.scale(units(trajectory, "gear_speed"), speed)
     linear = units(trajectory, "gear_angle") == "m"
     angle_name, speed_name, word = ("position", "speed", "force") if linear else ("gear angle", "gear speed", "torque")
-    elastic = teeth.elastic(trajectory)
-    if "surface" in result.attrs and not elastic:
+    elastic, twists = teeth.elastic(trajectory), coupling.twists(trajectory)
+    if twists:
+        other, label = coupling.on_worm(result, load, word)
+    elif "surface" in result.attrs and not elastic:
         other, label = number(result, "surface") * load, r"switching surface $(J_w i/J_g)\,\tau_l$"
     else:
         other, label = load, f"load {word}"
@@ -187,6 +190,9 @@ def draw(result):
         line, worm = teeth.draw_worm(panels[1], result, trajectory, time, speed_factor)
         speeds, speed_lines = np.append(speeds, worm), [*speed_lines, line]
         teeth.draw_force(panels[3], trajectory, time)
+    if twists:
+        line, of_load = coupling.draw_load(panels[1], trajectory, time, speed_factor)
+        speeds, speed_lines = np.append(speeds, of_load), [*speed_lines, line]
     panels[1].set(ylabel=f"{speed_name} [{speed_unit}]", ylim=style.limits(speeds))
     panels[1].axhline(0.0, color=style.GREY, linewidth=0.8, zorder=2)
     torque_factor = draw_torques(panels[2], time, motor, other, units(trajectory, "motor_torque"), word, label)
@@ -196,7 +202,8 @@ def draw(result):
     span = time[-1] - time[0]
     modes = ELASTIC_MODES if elastic else MODES
     bands, skipped = draw_bands(panels[1], mode_bands(trajectory, time, modes), modes, 0.0 if few else NARROWEST * span)
-    style.header(panels[1], speed_lines + bands if elastic else bands, **({"ncol": 4} if elastic else {}))
+    several = len(speed_lines) > 1
+    style.header(panels[1], speed_lines + bands if several else bands, **({"ncol": 4} if several else {}))
     if few and event_time.size:
         curves = [(panels[1], speed_factor * column(events, "gear_speed"))]
         if not elastic:

@@ -2,13 +2,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/elastic/compliant_start.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
 #include "simulation/replay.hpp"
 #include "simulation/run_scenario.hpp"
+#include "simulation/starting_state.hpp"
 
 namespace wormdrive {
 
@@ -45,15 +45,9 @@ class DriveRun {
             {control.sampling.period, control.sampling.offset, drive_.effects().measuring_delay()}};
   }
   Instant start() const {
-    const double theta_g = scenario_.initial.theta_g, omega_g = scenario_.initial.omega_g;
+    if constexpr (Drive::state_size > 2) drive_.enter(0.0);
     Instant start;
-    if constexpr (requires { carrying(drive_, 0.0, theta_g, omega_g); }) {
-      drive_.enter(0.0);
-      start.x = carrying(drive_, 0.0, theta_g, omega_g);
-    } else {
-      start.x[0] = theta_g;
-      start.x[1] = omega_g;
-    }
+    start.x = starting_state(drive_, scenario_.initial, 0.0);
     return start;
   }
   void record(const Drive& drive, const Instant& now) {

@@ -9,6 +9,7 @@
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
 #include "simulation/run_scenario.hpp"
+#include "simulation/starting_state.hpp"
 
 namespace wormdrive {
 namespace {
@@ -72,9 +73,9 @@ Disagreement replayed(Drive drive, const Scenario& scenario, const SolverCrossCh
     const SamplingSettings& stated = scenario.control->sampling;
     sampling = {stated.period, stated.offset, drive.effects().measuring_delay()};
   }
+  drive.enter(0.0);
   typename Drive::Instant start;
-  start.x[0] = scenario.initial.theta_g;
-  start.x[1] = scenario.initial.omega_g;
+  start.x = starting_state(drive, scenario.initial, 0.0);
   Comparison comparison(told.rows);
   RecordedController recorded{told.samples};
   simulate(drive, solver, recorded, Timetable(0.0, scenario.run.duration, scenario.run.rows_every(), sampling), start,

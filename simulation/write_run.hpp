@@ -26,11 +26,13 @@ inline RunContents contents_of(const Scenario& scenario) {
   return contents;
 }
 
-/// Writes the constants of a drive that readers of a run need beside its columns: surface and ratio, if it has a gear.
+/// Writes the constants of a drive that readers of a run need beside its columns, if it has a gear: its ratio, and the
+/// slope of the surface where that is one.
 inline void write_drive(hid_t file, const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) return;
-  write_attribute(file, "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
+  if (!scenario.effects.inertia_varies())
+    write_attribute(file, "surface", mesh.Jw * mesh.i / total_gear_inertia(scenario));
   write_attribute(file, "ratio", mesh.i);
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bindings/fmi/shown.hpp"
-#include "bindings/fmi/start_state.hpp"
+#include "simulation/starting_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {
@@ -125,7 +125,7 @@ class PlantRun {
     drive.command(t, torque);
     typename Drive::Instant now{};
     now.t = t;
-    now.x = start_state(drive, initial, t);
+    now.x = starting_state(drive, initial, t);
     now.mode = drive.settle(now);
     return now;
   }

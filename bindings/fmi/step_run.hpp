@@ -11,7 +11,6 @@
 
 #include "bindings/fmi/fmu_model.hpp"
 #include "bindings/fmi/shown.hpp"
-#include "bindings/fmi/start_state.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
 #include "events/taylor/solver.hpp"
@@ -245,7 +244,7 @@ class StepRun {
     if (held_from_outside_) drive_.command(t, torque_);
     Instant now;
     now.t = t;
-    now.x = start_state(drive_, initial, t);
+    now.x = starting_state(drive_, initial, t);
     now.mode = drive_.settle(now);
     drive_.next_knot(t);
     return now;

@@ -35,7 +35,7 @@ std::string describe_mesh(const Scenario& scenario) {
   const GearMesh<double> mesh = make_mesh(scenario);
   if (!mesh.has_teeth) return "";
   const double slope = scenario.effects.least_slope();
-  const double surface = mesh.Jw * mesh.i * slope * slope / total_gear_inertia(scenario);
+  const double surface = mesh.Jw * mesh.i * slope * slope / greatest_gear_inertia(scenario);
   std::string motion = fmt::format("eq. 17 holds by a factor of {:.3g}", surface / -mesh.C1());
   if (mesh.C1() >= 0.0) motion = "eq. 17 holds (C1 >= 0)";
   if (mesh.C1() <= -surface)

@@ -98,7 +98,7 @@ class CompliantDrive {
     if (mode.worm != Motion::stuck)
       a.worm = (rigid_.side_torques(at, mode.worm).worm + push * worm_normal_ - Wf * worm_lateral_) / mesh().Jw;
     if (mode.gear != Motion::stuck)
-      a.gear = (rigid_.side_torques(at, mode.gear).gear - push * gear_normal_ - Wf * gear_lateral_) / rigid_.Jg();
+      a.gear = (rigid_.side_torques(at, mode.gear).gear - push * gear_normal_ - Wf * gear_lateral_) / rigid_.Jg(at);
     return a;
   }
 

@@ -12,7 +12,7 @@ template <class Load>
 double stored_energy(const CompliantDrive<double, Load>& drive,
                      const typename CompliantDrive<double, Load>::Instant& now) {
   const Moment<double> at = drive.moment(now);
-  double energy = 0.5 * (drive.mesh().Jw * at.omega_w * at.omega_w + drive.rigid().Jg() * at.omega_g * at.omega_g);
+  double energy = 0.5 * (drive.mesh().Jw * at.omega_w * at.omega_w + drive.rigid().Jg(at) * at.omega_g * at.omega_g);
   for (const Flank flank : {Flank::left, Flank::right})
     if (const double d = drive.penetration(at, flank).first; d > 0.0)
       energy += 0.5 * drive.contact().stiffness() * d * d;

@@ -113,6 +113,12 @@ class SummedLoad {
     std::apply([&](const auto&... list) { (for_each(list, of_one), ...); }, lists_);
   }
 
+  /// Whether the law of a load is another one in the other direction.
+  bool depends_on_direction() const {
+    return folded(false, [](bool any, const auto& load) {
+      return any || requires { load.torque(Moment<double>{}, Motion::forward); };
+    });
+  }
   /// All functions of time, or nullptr.
   const TimedLoad* over_time() const { return timed_.signal.terms.empty() ? nullptr : &timed_; }
   /// The arm, if there is nothing else.

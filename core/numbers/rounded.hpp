@@ -57,6 +57,10 @@ struct Rounded {
   }
   friend Rounded sin(const Rounded& x) { return sine_and_cosine(x).sine; }
   friend Rounded cos(const Rounded& x) { return sine_and_cosine(x).cosine; }
+  friend Rounded sqrt(const Rounded& x) {
+    const double y = std::sqrt(x.value);
+    return rounded(y, x.rounding / y);
+  }
   friend Rounded exp(const Rounded& x) {
     const double y = portable::exp(x.value);
     return of_function(y, y, x);
@@ -151,6 +155,17 @@ inline std::optional<int> undecided_at_once(const Series<Rounded, 1>& x, double 
   const double hidden = 4.0 * blur(x, 0, resolution) / size;
   const bool outweighed = far * hidden * std::max(std::abs(second), std::abs(third) * hidden) > size;
   return outweighed ? std::nullopt : std::optional(1);
+}
+
+/// How far a series may seem to go to the wrong side before the coefficient that decides outweighs what is not known of
+/// those before it; resolution as above.
+template <int N>
+double doubt(const Series<Rounded, N>& x, int decides, double resolution) {
+  double hidden = 0.0, sum = blur(x, 0, resolution), power = 1.0;
+  for (int j = 0; j < decides; ++j)
+    hidden = std::max(hidden, std::pow(4.0 * blur(x, j, resolution) / std::abs(x[decides].value), 1.0 / (decides - j)));
+  for (int j = 1; j < decides; ++j) sum += blur(x, j, resolution) * (power *= hidden);
+  return sum;
 }
 
 /// Sign of a series just after the present moment, 0 where it vanishes within its rounding. resolution as above.

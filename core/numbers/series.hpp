@@ -226,6 +226,20 @@ Series<T, N, open> cos(const Series<T, N, open>& x) {
   return SineCosine<T, N, open>(x).cosine;
 }
 
+/// From r r = x.
+template <class T, int N, bool open>
+Series<T, N, open> sqrt(const Series<T, N, open>& x) {
+  using std::sqrt;  // Jets have their own
+  Series<T, N, open> r(sqrt(x[0]));
+  r.know(x.last);
+  for (int k = 1; k <= x.last; ++k) {
+    T rest = x[k];
+    for (int j = 1; j < k; ++j) rest -= r[j] * r[k - j];
+    r[k] = rest / (T(2) * r[0]);
+  }
+  return r;
+}
+
 /// From r' = x' r.
 template <class T, int N, bool open>
 Series<T, N, open> exp(const Series<T, N, open>& x) {

@@ -10,7 +10,8 @@
 
 namespace wormdrive {
 
-/// What an effect calls a state of its own; it is 0 at the start. With a meaning it is a column of the results.
+/// What an effect calls a state of its own; starting_states() says where it starts. With a meaning it is a column of
+/// the results.
 struct EffectState {
   std::string_view name;
   Unit unit;

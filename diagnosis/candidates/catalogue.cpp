@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
+#include "core/states/first_with_states.hpp"
 #include "diagnosis/candidates/kinds.hpp"
 
 namespace wormdrive {
@@ -186,10 +189,23 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
   return all;
 }
 
+std::string why_not_diagnosed(const Effects<double>& stated) {
+  if (const auto effect = first_with_states(stated))
+    return fmt::format("a diagnosis predicts drives whose effects have no states, but effect.{} has one; {}",
+                       effect->id, effect->without);
+  if (stated.inertia_varies())
+    return "a diagnosis predicts drives whose inertia is the same at every angle, but that of effect.load_crank is "
+           "not; "
+           "leave it out";
+  return "";
+}
+
 std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
                                 {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
                                 {"holding_brake", "a brake to state, not a deviation"},
+                                {"load_crank", "a crank is to be stated, not a deviation"},
+                                {"load_coupling", "a coupling in front of the load is to be stated, not a deviation"},
                                 {"worm_lugre", "bristles in the bearings are to be stated, not a deviation"},
                                 {"torque_map", "a table that fits anything claims no cause"}};
   if (m.has_teeth && has_standard_friction(stated))

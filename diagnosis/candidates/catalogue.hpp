@@ -51,6 +51,9 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
 /// Every fault that a recording may have itself.
 std::vector<Candidate> fault_candidates(const Magnitudes& sizes, bool has_torque_spikes);
 
+/// Why no diagnosis predicts a drive with these effects; empty if one does.
+std::string why_not_diagnosed(const Effects<double>& stated);
+
 /// Effects of the catalogue that are no candidates in a drive of this kind that has these effects, with the reason.
 struct NotExamined {
   std::string_view effect;

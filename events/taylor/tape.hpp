@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,7 @@ class Tape {
     invert,       ///< constant / a
     sine_cosine,  ///< sine, and cosine in the place behind it
     exponential,
+    square_root,
     table,  ///< in the place behind it the slope between the point where a cubic begins and a
   };
   struct Step {
@@ -109,6 +111,9 @@ class Taped {
   }
   friend Taped exp(const Taped& x) {
     return x.tape_ ? x.tape_->record(Operation::exponential, x.place_) : Taped(portable::exp(x.constant_));
+  }
+  friend Taped sqrt(const Taped& x) {
+    return x.tape_ ? x.tape_->record(Operation::square_root, x.place_) : Taped(std::sqrt(x.constant_));
   }
   /// x, which stays above a limit.
   friend Taped at_least(const Taped& x, double least) {

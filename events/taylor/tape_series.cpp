@@ -79,6 +79,12 @@ void TapeSeries::work_out(int k, std::size_t operations) {
       case Operation::exponential:
         r[k] = k == 0 ? portable::exp(a[0]) : chain(a, r, k) * reciprocal[static_cast<std::size_t>(k)];
         break;
+      case Operation::square_root: {
+        double rest = a[k];
+        for (int j = 1; j < k; ++j) rest -= r[j] * r[k - j];
+        r[k] = k == 0 ? std::sqrt(a[0]) : rest / (2.0 * r[0]);
+        break;
+      }
       case Operation::table: {
         if (k == 0) section->find(a[0]);
         if (k == 1) section->turn_to(a[0], a[1]);
@@ -136,6 +142,7 @@ void TapeSeries::work_out_discs() {
         r = value(s.result) * (grows.sinh + grows.cosh_less_1);
         break;
       }
+      case Operation::square_root: r = ra / value(s.result); break;  // |sqrt(x + z) - sqrt(x)| <= |z|/sqrt(x)
       case Operation::table: r = (section++)->disc(value(s.a), ra); break;
     }
   }
@@ -150,6 +157,9 @@ double TapeSeries::shrinking() const {
   for (const Tape::Step& s : tape_.steps()) switch (s.operation) {
       case Operation::sine_cosine: within(radius(s.a), widest); break;
       case Operation::exponential: within(radius(s.a), 0.5 * widest); break;
+      case Operation::square_root:
+        within(radius(s.a), 0.5 * std::abs(series_[static_cast<std::size_t>(s.a)][0]));
+        break;
       case Operation::table: {
         const double width = section->high - section->low;
         within(radius(s.a), width);

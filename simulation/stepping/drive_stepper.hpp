@@ -3,10 +3,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/elastic/compliant_start.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
+#include "simulation/starting_state.hpp"
 #include "simulation/stepping/commanded.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 #include "simulation/stepping/stepped_drive.hpp"
@@ -92,12 +92,7 @@ class DriveStepper final : public SteppedDrive {
     drive_.rewind();
     drive_.enter(0.0);
     Instant start;
-    if constexpr (requires { carrying(drive_, 0.0, 0.0, 0.0); }) {
-      start.x = carrying(drive_, 0.0, start_.theta_g, start_.omega_g);
-    } else {
-      start.x[0] = start_.theta_g;
-      start.x[1] = start_.omega_g;
-    }
+    start.x = starting_state(drive_, start_, 0.0);
     start.mode = drive_.settle(start);
     drive_.next_knot(0.0);
     progress_ = {Timetable(0.0, never, never), start, EventLog()};

@@ -102,4 +102,25 @@ TEST_CASE("bristles that are half stated are rejected with what is missing") {
        "s.toml:20:21: error: effect.worm_lugre.coulomb_torque_Nm = 0 N m must be greater than 0 N m"}});
 }
 
+TEST_CASE("a crank that cannot turn, or makes a drive jam between its dead centres, is rejected") {
+  check_rejected(Folder(), {
+      {"short rod", with("[effect.load_crank]\nmass_kg = 1\ncrank_m = 0.05\nrod_m = 0.05\n"),
+       "s.toml:19:1: error: effect.load_crank has a rod of 0.05 m, which must be longer than the crank, 0.05 m"},
+      {"no crank", with("[effect.load_crank]\nmass_kg = 1\ncrank_m = 0\n"),
+       "s.toml:21:11: error: effect.load_crank.crank_m = 0 m must be greater than 0 m"},
+      {"jams", with("[effect.load_crank]\nmass_kg = 50\ncrank_m = 0.05\n"),
+       "s.toml:8:12: error: mesh.friction = 0.25 violates eq. 17, C1 > -Jw i/Jg: C1 = -0.0470643, -Jw i/Jg = -0.0120726 with Jg = 0.125739 kg m^2*"}});
+}
+
+TEST_CASE("a coupling that cannot twist, or on elastic teeth, is rejected with what is missing") {
+  const std::string coupling = "[effect.load_coupling]\ninertia_kgm2 = 0.01\n";
+  check_rejected(Folder(), {
+      {"no stiffness", with(coupling + "damping_Nms_per_rad = 0.1\n"),
+       "s.toml:19:1: error: effect.load_coupling states a damping without a stiffness, and a coupling twists only with one; add it, or leave out both"},
+      {"no inertia", with("[effect.load_coupling]\ninertia_kgm2 = 0\nstiffness_Nm_per_rad = 10\n"),
+       "s.toml:20:16: error: effect.load_coupling.inertia_kgm2 = 0 kg m^2 must be greater than 0 kg m^2"},
+      {"elastic teeth", with(coupling + "stiffness_Nm_per_rad = 20\n[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.load_coupling has states, which elastic teeth do not carry; leave its stiffness out, or switch effect.tooth_compliance off"}});
+}
+
 }  // namespace wormdrive::test::cli_bad_effects

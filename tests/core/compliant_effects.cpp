@@ -34,7 +34,9 @@ std::vector<Effects<double>> each_effect() {
           effects(GearInertia<double>{2e-4}),
           effects(LoadMagnitude<double>{0.3}),
           effects(LoadAngle<double>{0.5}),
-          effects(LoadSpring<double>{0.1, -0.4})};
+          effects(LoadSpring<double>{0.1, -0.4}),
+          effects(LoadCoupling<double>{2e-4}),
+          effects(LoadCrank<double>{0.2, 0.03, 0.07, 0.4})};
 }
 
 }  // namespace
@@ -56,7 +58,7 @@ TEST_CASE("where worm and gear accelerate together, every effect does to them wh
       for (int round = 0; round < 5; ++round) {
         alpha = rigid.acceleration(at, mode);
         const double m = mode.product() * rigid.friction(at, mode.motion);
-        const double force = sign(mode.flank) * (rigid.side_torques(at, mode.motion).gear - rigid.Jg() * alpha) /
+        const double force = sign(mode.flank) * (rigid.side_torques(at, mode.motion).gear - rigid.Jg(at) * alpha) /
                              rigid.mesh().gear_arm(m);
         const double deflection = sign(mode.flank) * (0.5e-3 + force / k / rigid.mesh().gear_arm(0.0));
         at.theta_w = 60.0 * (theta_g - deflection);

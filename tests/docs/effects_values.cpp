@@ -100,7 +100,7 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
   if (quantity == "tau_g") return on.gear_torque(drive.inputs(moment, motion).gear, moment, motion);
   if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
   if (quantity == "Jw") return mesh.Jw;
-  if (quantity == "Jg") return drive.Jg();
+  if (quantity == "Jg") return drive.Jg(moment);
   if (quantity == "theta_w") return moment.theta_w;
   if (quantity == "omega_w") return moment.omega_w;
   if (quantity == "theta_seen") return on.measured_angle(at["theta_g"]);

@@ -70,7 +70,8 @@ Effects<double> one_of_each() {
                  TorqueMap<double>{MapAxis::worm_speed, 1.2, map_over({-120, -40, 0, 30, 120}), MapShaft::gear},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
                  GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},
-                 LoadSpring<double>{0.01, 0.2}, EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
+                 LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4}, LoadCrank<double>{0.2, 0.03, 0.07, 0.4},
+                 EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
 }
 
 /// What makes the teeth elastic belongs to another drive; a late angle and what bends have tests of their own.

@@ -82,8 +82,8 @@ class VariableLister {
     const auto reference = [place](unsigned first) { return first + static_cast<unsigned>(place); };
     real(name, reference(first_effect_state), "output", unit, fmt::format("{} of effect.{}", state.name, id))
         .depends_on = {{name}};
-    real("der(" + name + ")", reference(first_effect_rate), "local", unit + "/s", "rate of " + name).derivative_of =
-        name;
+    const std::string rate_unit = unit + (unit.ends_with("/s") ? "^2" : "/s");
+    real("der(" + name + ")", reference(first_effect_rate), "local", rate_unit, "rate of " + name).derivative_of = name;
   }
   void torque() {
     const unsigned reference = ref(ScalarVariable::motor_torque);

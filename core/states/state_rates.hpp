@@ -1,0 +1,69 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <type_traits>
+
+#include "core/effects.hpp"
+
+namespace wormdrive {
+
+/// Torque of a load behind a coupling, in the direction of its own speed [N m].
+template <class T, class S, class Load>
+S torque_behind(const Effects<T>& effects, const Load& load, const Moment<S>& there) {
+  const S speed = there.omega_g;
+  const Motion motion = is_positive(speed)       ? Motion::forward
+                        : is_positive(S(-speed)) ? Motion::backward
+                                                 : Motion::stuck;
+  return effects.torque_of(load, there, motion);
+}
+
+/// Rates of the states of a coupling that twists.
+template <class T, class S, class Load>
+std::array<S, 2> behind_coupling(const Effects<T>& effects, const LoadCoupling<T>& coupling, const Load& load,
+                                 const Moment<S>& at, const std::array<S, 2>& states) {
+  const Moment<S> there = coupling.at_load(at, states);
+  const S tau_l = torque_behind(effects, load, there);
+  if (!effects.inertia_varies()) return coupling.state_rates(tau_l, S(T(load.inertia())), at, states);
+  const VaryingInertia<S> J = effects.inertia_at(there.theta_g);
+  return coupling.state_rates(S(tau_l - T(0.5) * J.slope * (there.omega_g * there.omega_g)),
+                              S(T(load.inertia()) + J.inertia), at, states);
+}
+
+/// Rates of the states of effects, for a command [N m] and a load.
+template <class T, class S, class Load>
+std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S& command, const Load& load,
+                                              const MomentOfEffects<S>& at, Motion motion) {
+  using EffectStates = StateLayout<EffectList<T>>;
+  std::array<S, effect_state_count> rates{};
+  effects.for_each([&]<class E>(const std::optional<E>& effect) {
+    if constexpr (MayHaveStates<E>) {
+      if (!effect || !has_states(*effect)) return;
+      const auto states = EffectStates::template of<E>(at.states);
+      const auto own = [&] {
+        if constexpr (std::is_same_v<E, LoadCoupling<T>>)
+          return behind_coupling<T, S>(effects, *effect, load, at, states);
+        else
+          return effect->state_rates(command, at, motion, states);
+      }();
+      std::copy(own.begin(), own.end(), rates.begin() + EffectStates::template first<E>());
+    }
+  });
+  return rates;
+}
+
+/// The states of effects with which a run starts at a moment, under a load: 0, but for a coupling that carries it.
+template <class Load>
+std::array<double, effect_state_count> starting_states(const Effects<double>& effects, const Load& load,
+                                                       const Moment<double>& at) {
+  std::array<double, effect_state_count> all{};
+  if (const auto* const coupling = effects.twisting_coupling()) {
+    const auto own = coupling->start(at, [&](double twist) {
+      return torque_behind(effects, load, coupling->at_load(at, {twist, at.omega_g}));
+    });
+    std::copy(own.begin(), own.end(), all.begin() + StateLayout<EffectList<double>>::first<LoadCoupling<double>>());
+  }
+  return all;
+}
+
+}  // namespace wormdrive

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+#include "core/energy.hpp"
+#include "core/steady.hpp"
+#include "events/torque_ratio.hpp"
+#include "near_ties/dice.hpp"
+#include "numbers.hpp"
+#include "simulation/starting_state.hpp"
+#include "support.hpp"
+
+// A crank that pushes a mass to and fro, against energy, and against a judge of its own: fixed steps of the momentum,
+// and the way of the mass from its geometry alone.
+
+namespace wormdrive::test::events_load_crank {
+
+namespace {
+
+using Crank = LoadCrank<double>;
+
+/// Where the mass is [m].
+template <class X>
+X way(const Crank& c, const X& theta_g) {
+  const X p = theta_g + c.shift, across = c.crank * std::sin(p);
+  return c.crank * std::cos(p) + (c.rod ? std::sqrt(*c.rod * *c.rod - across * across) : X(0.0));
+}
+/// The inertia that the gear feels, from the rate of the way by a complex step.
+double inertia(const Crank& c, double theta_g) {
+  constexpr double h = 1e-30;
+  const double rate = way(c, std::complex<double>(theta_g, h)).imag() / h;
+  return c.mass * rate * rate;
+}
+
+Crank drawn_crank(near_ties::Dice& dice, double beside) {
+  Crank c;
+  c.crank = dice.decades(1e-3, 1.0);
+  if (dice.chance(0.7)) c.rod = c.crank * dice.decades(1.1, 10.0);
+  c.mass = beside * dice.decades(0.1, 10.0) / (c.crank * c.crank);
+  c.shift = dice.between(-3.0, 3.0);
+  return c;
+}
+
+/// A worm drive with a crank under a torque level + amplitude cos(omega t + phase) and a constant load.
+struct Case {
+  MeshParameters<double> p;
+  Crank crank;
+  double level, amplitude, omega, phase, tau_l;
+};
+
+/// Its motion by Runge-Kutta steps of angle and momentum of the gear side, from mode to mode.
+class Judge {
+ public:
+  struct Event {
+    double t;
+    Mode after;
+  };
+
+  Judge(const Case& c, double duration, double step) : c_(c) {
+    mode_ = from_rest();
+    for (double left = duration; left > 0.0;) {
+      const double h = std::min(step, left);
+      const Place then = moved(h);
+      if (holds(then)) {
+        now = then;
+        left -= h;
+        continue;
+      }
+      now = moved(end_of(0.0, h, [&](double s) { return holds(moved(s)); }));
+      left = duration - now.t;
+      change();
+      events.push_back({now.t, mode_});
+      if (events.size() > 100) return;
+    }
+  }
+
+  struct Place {
+    double t = 0.0, theta = 0.0, omega = 0.0;
+  };
+  Place now;
+  std::vector<Event> events;
+
+ private:
+  double tau_m(double t) const { return c_.level + c_.amplitude * std::cos(c_.omega * t + c_.phase); }
+  /// Inertia of the gear side, and half its slope, by a difference of fourth order.
+  double J(double theta) const { return c_.p.Jg + inertia(c_.crank, theta); }
+  double half_slope(double theta) const {
+    constexpr double h = 1e-3;
+    const auto at = [&](double x) { return inertia(c_.crank, theta + x); };
+    return 0.5 * (45.0 * (at(h) - at(-h)) - 9.0 * (at(2.0 * h) - at(-2.0 * h)) + (at(3.0 * h) - at(-3.0 * h))) /
+           (60.0 * h);
+  }
+  double tau_g(const Place& x) const { return c_.tau_l - half_slope(x.theta) * x.omega * x.omega; }
+  double beyond(const Place& x) const { return tau_m(x.t) - c_.p.Jw * c_.p.i / J(x.theta) * tau_g(x); }
+  double acceleration(const Place& x, Mode in) const {
+    const double C = torque_ratio(c_.p, in.product() * c_.p.mu);
+    return (tau_m(x.t) + C * tau_g(x)) / (c_.p.Jw * c_.p.i + C * J(x.theta));
+  }
+  Mode moving(Motion motion) const { return {motion, beyond(now) > 0.0 ? Flank::right : Flank::left}; }
+  Mode from_rest() const {
+    for (const Motion motion : {Motion::forward, Motion::backward})
+      if (sign(motion) * acceleration(now, moving(motion)) > 0.0) return moving(motion);
+    return {};
+  }
+  bool holds(const Place& x) const {
+    if (mode_.motion != Motion::stuck)
+      return sign(mode_.motion) * x.omega >= 0.0 && -sign(mode_.flank) * beyond(x) >= 0.0;
+    const Flank flank = beyond(x) > 0.0 ? Flank::right : Flank::left;
+    return acceleration(x, {Motion::forward, flank}) <= 0.0 && acceleration(x, {Motion::backward, flank}) >= 0.0;
+  }
+  void change() {
+    if (mode_.motion == Motion::stuck) {
+      mode_ = from_rest();
+    } else if (sign(mode_.motion) * now.omega <= 0.0) {
+      now.omega = 0.0;
+      mode_ = from_rest();
+    } else {
+      mode_.flank = mode_.flank == Flank::left ? Flank::right : Flank::left;
+    }
+  }
+  Place moved(double h) const {
+    if (mode_.motion == Motion::stuck) return {now.t + h, now.theta, 0.0};
+    const auto at = [&](double s, double theta, double omega) { return Place{now.t + s, theta, omega}; };
+    const double k1 = acceleration(now, mode_), v1 = now.omega;
+    const Place b = at(0.5 * h, now.theta + 0.5 * h * v1, now.omega + 0.5 * h * k1);
+    const double k2 = acceleration(b, mode_), v2 = b.omega;
+    const Place c = at(0.5 * h, now.theta + 0.5 * h * v2, now.omega + 0.5 * h * k2);
+    const double k3 = acceleration(c, mode_), v3 = c.omega;
+    const Place d = at(h, now.theta + h * v3, now.omega + h * k3);
+    const double k4 = acceleration(d, mode_), v4 = d.omega;
+    return {now.t + h, now.theta + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4),
+            now.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)};
+  }
+
+  Case c_;
+  Mode mode_;
+};
+
+}  // namespace
+
+TEST_CASE("a flywheel that drives a mass by a crank turns as its energy says, with a rod or a slot") {
+  for (int trial = 0; trial < 20; ++trial) {
+    near_ties::Dice dice(20261203, static_cast<std::uint64_t>(trial));
+    const double J = dice.decades(1e-5, 1e2), speed = dice.sign() * dice.decades(1e-2, 1e3),
+                 turns = dice.decades(0.3, 3.0), end = 2.0 * std::numbers::pi * turns / std::abs(speed);
+    const Crank crank = drawn_crank(dice, J);
+    const double energy = (J + inertia(crank, 0.1)) * speed * speed;
+    for (const By by : every_solver) {
+      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
+      const WormDrive<double, TimedLoad> d(GearMesh<double>::without_teeth(J), make_load(Signal{}), effects(crank),
+                                           Signal{});
+      const auto seen = run(d, Timetable(0, end, end / 20.0), {0.0, {0.1, speed}, {}}, tight(by));
+      Deviation off;
+      for (const auto& row : seen.rows) {
+        const double omega = row.now.x[1];
+        off.add((J + inertia(crank, row.now.x[0])) * omega * omega / energy - 1.0);
+        REQUIRE(close(2.0 * stored_energy(d, row.now), energy, 1e-9));
+      }
+      CHECK(off <= (by.solver == SolverKind::cvode && by.method == Method::bdf ? 1e-9 : 1e-10));
+    }
+  }
+}
+
+TEST_CASE("worm drives with a crank have the events and the end of a judge with fixed steps, by every solver") {
+  int events = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    near_ties::Dice dice(20261204, static_cast<std::uint64_t>(trial));
+    Case c{};
+    c.p = table1(dice.between(0.05, 0.2));
+    c.crank = drawn_crank(dice, c.p.Jg);
+    if (c.crank.rod) c.crank.rod = std::max(*c.crank.rod, 1.5 * c.crank.crank);
+    c.tau_l = dice.sign() * dice.decades(0.003, 0.3);
+    const double break_in = torque_ratio(c.p, -c.p.mu) * std::abs(c.tau_l);
+    c.level = break_in * dice.between(-0.5, 0.5);
+    c.amplitude = break_in * dice.decades(1.5, 10.0);
+    c.omega = dice.decades(3.0, 30.0);
+    c.phase = dice.between(-3.0, 3.0);
+    const double end = 2.0 * std::numbers::pi * dice.between(1.0, 2.0) / c.omega;
+    const GearMesh<double> mesh(c.p);
+    // eq. 17 at every angle
+    double most = 0.0;
+    for (double angle = 0.0; angle < 3.2; angle += 0.01) most = std::max(most, inertia(c.crank, angle));
+    if (mesh.C1() <= -0.9 * c.p.Jw * c.p.i / (c.p.Jg + most)) continue;
+    const Judge rough(c, end, end / 4000.0), judge(c, end, end / 8000.0);
+    if (rough.events.size() != judge.events.size()) continue;
+    const double off = std::abs(rough.now.omega - judge.now.omega);  // of the rough one
+    const double fast = std::max(std::abs(judge.now.omega), 1e-3);
+    for (const By by : every_solver) {
+      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
+      const Signal motor{{Constant{c.level}, Sinusoid{c.amplitude, c.omega / (2.0 * std::numbers::pi), c.phase}}};
+      const auto seen =
+          run(drive(c.p, constant(c.tau_l), motor, effects(c.crank)), Timetable(0, end, end / 10.0), {}, tight(by));
+      REQUIRE(seen.events.size() == judge.events.size());
+      for (std::size_t k = 0; k < judge.events.size(); ++k) {
+        CHECK(seen.events[k].after.mode == judge.events[k].after);
+        CHECK(std::abs(seen.events[k].after.t - judge.events[k].t) <= 1e-7 * end);
+      }
+      CHECK(std::abs(seen.end.x[1] - judge.now.omega) <= std::max(0.2 * off, 1e-8 * fast));
+    }
+    events += static_cast<int>(judge.events.size());
+  }
+  REQUIRE(events > 60);
+}
+
+TEST_CASE("the motor of a crank at constant speed pays for the mass, to and fro") {
+  const Crank crank{0.4, 0.05, 0.12, 0.3};
+  const double omega = 7.0, theta = 0.9;
+  const auto d = entered(table1(0.1), constant(0.0), constant(0.0), effects(crank));
+  const double h = 1e-4, slope = (inertia(crank, theta + h) - inertia(crank, theta - h)) / (2.0 * h);
+  const double tau_g = -0.5 * slope * omega * omega;
+  const double C = torque_ratio(table1(0.1), tau_g >= 0.0 ? 0.1 : -0.1);
+  REQUIRE(close(steady_torque(d, 60.0 * omega, theta, 0.0), -C * tau_g, 1e-6));
+}
+
+TEST_CASE("a crank behind a coupling that twists keeps the energy of both") {
+  const Crank crank{0.4, 0.05, 0.12, 0.3};
+  const double J1 = 2e-3, J2 = 1e-3, k = 0.5;
+  constexpr int twist = 2 + int{StateLayout<EffectList<double>>::first<LoadCoupling<double>>()};
+  const auto d = drive_with_states(GearMesh<double>::without_teeth(J1), Signal{}, Signal{},
+                                   effects(crank, LoadCoupling<double>{J2, k}));
+  REQUIRE(d.Jg() == J1);
+  for (const By by : every_solver) {
+    typename decltype(d)::Instant start;
+    start.x = starting_state(d, {.omega_g = 20.0}, 0.0);
+    const auto energy = [&](const auto& x) {
+      return J1 * x[1] * x[1] + (J2 + inertia(crank, x[0] + x[twist])) * x[twist + 1] * x[twist + 1] +
+             k * x[twist] * x[twist];
+    };
+    const auto seen = run(d, Timetable(0, 1, 0.05), start, tight(by));
+    for (const auto& row : seen.rows) REQUIRE(close(energy(row.now.x), energy(start.x), 2e-9));
+  }
+}
+
+}  // namespace wormdrive::test::events_load_crank
