@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/states/state_rates.hpp"
+
 namespace wormdrive {
 
 /// How fast the phase of what depends on an angle passes in a state of motion [rad/s]: the swing of an arm, cogging,
@@ -11,6 +13,8 @@ double ripple_rate(const System& system, const typename System::State& x) {
   using std::abs;
   if constexpr (requires { system.rigid(); })
     return system.rigid().ripple() * std::max(abs(x[1] / system.mesh().i), abs(x[3]));
+  else if constexpr (requires { system.ripple(), system.effects(); } && System::state_size > 2)
+    return system.ripple() * std::max<double>(abs(x[1]), abs(load_speed(system.effects(), x)));
   else if constexpr (requires { system.ripple(); })
     return system.ripple() * abs(x[1]);
   else

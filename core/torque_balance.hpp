@@ -29,7 +29,8 @@ class TorqueBalance {
     Jg_ = mesh_.Jg + (effects_.twisting_coupling() ? 0.0 : load_.inertia());
     friction_changes_ = effects_.change_friction();
     pitch_varies_ = effects_.pitch_varies();
-    inertia_varies_ = effects_.inertia_varies() && !effects_.twisting_coupling();
+    load_inertia_varies_ = effects_.inertia_varies();
+    inertia_varies_ = load_inertia_varies_ && !effects_.twisting_coupling();
     ripple_ = std::max(effects_.ripple(value_of(mesh_.i)), load_.ripple());
     bends_with_load_ = effects_.bend_with_load();
     bend_count_ = counted_bends<Moment>();
@@ -185,8 +186,9 @@ class TorqueBalance {
   SideTorques<S> with_bearings(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
     const S worm = motion == Motion::stuck ? worm_torque_at_rest(at) : effects_.worm_torque(at, motion);
     SideTorques<S> tau{input.worm + worm, input.gear + effects_.gear_torque(input.gear, at, motion)};
-    // Jg theta_g'' + Jg' theta_g'^2/2 is what balances them; the second term counts as a torque
-    if (inertia_varies_)
+    // Jg theta_g'' + Jg' theta_g'^2/2 is what balances them; the second term counts as a torque. Without states the
+    // load turns with the gear, whatever the coupling.
+    if (requires { at.states; } ? inertia_varies_ : load_inertia_varies_)
       tau.gear = tau.gear - T(0.5) * effects_.inertia_at(at.theta_g).slope * (at.omega_g * at.omega_g);
     return tau;
   }
@@ -272,6 +274,7 @@ class TorqueBalance {
   bool friction_changes_ = false;  ///< else C is that of the mesh alone
   bool pitch_varies_ = false;      ///< else theta_w = i theta_g
   bool inertia_varies_ = false;    ///< else Jg is that of every angle
+  bool load_inertia_varies_ = false;
   double ripple_ = 0.0;
   bool bends_with_load_ = false;
   int bend_count_ = 0, bend_count_with_states_ = 0;

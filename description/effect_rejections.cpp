@@ -97,8 +97,10 @@ std::string refusal(const WormLuGre<double>& friction, const Scenario&) {
 
 std::string refusal(const LoadCrank<double>& crank, const Scenario& scenario) {
   if (scenario.axis == Axis::linear) return "needs a gear that turns, but the axis is linear";
-  if (!crank.rod || *crank.rod > crank.crank) return "";
-  return fmt::format("has a rod of {:.6g} m, which must be longer than the crank, {:.6g} m", *crank.rod, crank.crank);
+  const double shortest = LoadCrank<double>::shortest_rod * crank.crank;
+  if (!crank.rod || *crank.rod >= shortest) return "";
+  return fmt::format("has a rod of {:.6g} m, which must be at least {} times as long as the crank, {:.6g} m",
+                     *crank.rod, LoadCrank<double>::shortest_rod, shortest);
 }
 
 std::string refusal(const LoadCoupling<double>& coupling, const Scenario&) {

@@ -65,16 +65,17 @@ std::vector<Quantity> derived(const Scenario& scenario) {
   const double Jg = greatest_gear_inertia(scenario);
   if (!mesh.has_teeth) return {};
   const double slope = scenario.effects.least_slope(), surface = mesh.Jw * mesh.i * slope * slope / Jg;
+  const char* const meaning_of_Jg =
+      scenario.effects.twisting_coupling() ? "inertia of the gear side in front of the coupling"
+      : Jg > total_gear_inertia(scenario)  ? "inertia of the gear side with the load, where it is greatest"
+                                           : "inertia of the gear side with the load";
   std::vector<Quantity> list{
       {"C1", "1", "C(+mu), gear torque ratio where friction helps the worm", mesh.C1()},
       {"C2", "1", "C(-mu), gear torque ratio where friction hinders the worm", mesh.C2()},
       {"H", "1", "slope of the static surface tau_m = H tau_l", mesh.H()},
       {"mu_w", "1", "friction from which the gear cannot drive the worm", mesh.mu_w()},
       {"mu_g", "1", "friction from which the worm cannot drive the gear", mesh.mu_g()},
-      {"Jg", "kg m^2",
-       Jg > total_gear_inertia(scenario) ? "inertia of the gear side with the load, where it is greatest"
-                                         : "inertia of the gear side with the load",
-       Jg},
+      {"Jg", "kg m^2", meaning_of_Jg, Jg},
       {"Jw i/Jg", "1", "slope of the switching surface tau_m = (Jw i/Jg) tau_l", mesh.Jw * mesh.i / Jg},
       {slope < 1.0 ? "C1 + Jw i k^2/Jg" : "C1 + Jw i/Jg", "1",
        slope < 1.0 ? "eq. 17 holds while it is positive; k: slope of the worm angle where the worm is slowest"

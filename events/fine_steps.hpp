@@ -53,7 +53,7 @@ class FineSteps {
     const auto look = [&](const typename System::Jacobian& J) {
       // no eigenvalue is larger than the largest sum of a row, which costs next to nothing
       if (!J.allFinite() || h * J.cwiseAbs().rowwise().sum().maxCoeff() <= rate_in_a_part) return;
-      const double parts = std::ceil(h * fastest_rate(J) / rate_in_a_part);
+      const double parts = std::ceil(h * (has_states ? rate_of(J) : fastest_rate(J)) / rate_in_a_part);
       if (parts > most.second) most = {J, parts};
     };
     look(most.first);
@@ -65,6 +65,14 @@ class FineSteps {
       }
     }
     return most;
+  }
+  /// The fastest rate of a Jacobian [1/s]; that of the one before where they hardly differ, for eigenvalues cost more
+  /// than a step.
+  double rate_of(const typename System::Jacobian& J) const {
+    constexpr double alike = 0.01;
+    if (((J - rated_).array().abs() <= alike * rated_.array().abs()).all()) return rate_;
+    rated_ = J;
+    return rate_ = fastest_rate(J);
   }
   void integrate(const Instant& at, double weight, Power& work) const {
     const Power p = power(system_, at);
@@ -91,6 +99,8 @@ class FineSteps {
   }
 
   const System& system_;
+  mutable typename System::Jacobian rated_ = System::Jacobian::Zero();  ///< the latest one whose eigenvalues were asked
+  mutable double rate_ = 0.0;
 };
 
 }  // namespace wormdrive

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -60,19 +61,27 @@ struct LoadCoupling {
                                const std::array<S, 2>& state) const {
     return {S(state[1] - at.omega_g), S((tau_l - torque_on_gear(at, state)) / (inertia + own_inertia))};
   }
-  /// The states in which the coupling carries the load and both turn as one. tau_l(x): of the load where it is x ahead
-  /// of the gear [N m]. Relaxed where no twist carries it, as under a spring that pushes further than the coupling
-  /// pulls.
+  /// The states in which the coupling carries the load and both turn as one, with the least twist that does. tau_l(x):
+  /// of the load where it is x ahead of the gear [N m], with so many periods per radian, 0 for none. Relaxed where no
+  /// twist carries it, as under a spring that pushes further than the coupling pulls.
   template <class Torque>
-  std::array<double, 2> start(const Moment<double>& at, const Torque& tau_l) const {
+  std::array<double, 2> start(const Moment<double>& at, const Torque& tau_l, double ripple) const {
     const auto missing = [&](double x) { return *stiffness * x - tau_l(x); };
     const double relaxed = missing(0.0);
-    double x = -relaxed / *stiffness;
+    double before = 0.0, x = -relaxed / *stiffness;
+    if (ripple > 0.0 && std::abs(x) > 0.1 / ripple) {  // in looks between which a torque does not come and go
+      const double look = std::copysign(0.1 / ripple, x);
+      constexpr int looks = 1'000'000;
+      int k = 1;
+      while (k < looks && relaxed * missing(k * look) > 0.0) ++k;
+      before = (k - 1) * look;
+      x = k * look;
+    }
     constexpr int doublings = 60;  // a torque that grows more slowly than its angle is met before
     for (int k = 0; k < doublings && relaxed * missing(x) > 0.0; ++k) x = 2.0 * x;
     const bool carries = relaxed * missing(x) < 0.0 || missing(x) == 0.0;
-    if (!carries) x = 0.0;
-    const auto [low, high] = std::minmax({0.0, x});
+    if (!carries) before = x = 0.0;
+    const auto [low, high] = std::minmax({before, x});
     return {root_between(FunctionView<double>(missing), low, missing(low), high, missing(high)), at.omega_g};
   }
 

@@ -39,14 +39,19 @@ struct LoadCrank {
 
   static constexpr auto fields() {
     using P = LoadCrank;
-    return std::tuple{Field{&P::mass, "mass", unit::kilogram, bounds::not_negative, "what goes to and fro"},
-                      Field{&P::crank, "crank", unit::metre, bounds::positive, "radius of the crank"},
-                      Field{&P::rod, "rod", unit::metre, bounds::positive,
-                            "length of the connecting rod, more than the crank; without one the mass is in a slot",
-                            Presence::optional},
-                      Field{&P::shift, "angle", unit::degrees, bounds::any,
-                            "angle of the crank from its outer dead centre on, at theta_g = 0", Presence::optional}};
+    return std::tuple{
+        Field{&P::mass, "mass", unit::kilogram, bounds::not_negative, "what goes to and fro"},
+        Field{&P::crank, "crank", unit::metre, bounds::positive, "radius of the crank"},
+        Field{&P::rod, "rod", unit::metre, bounds::positive,
+              "length of the connecting rod, at least 1.01 times the crank; without one the mass is in a slot",
+              Presence::optional},
+        Field{&P::shift, "angle", unit::degrees, bounds::any,
+              "angle of the crank from its outer dead centre on, at theta_g = 0", Presence::optional}};
   }
+
+  /// How many times as long as the crank a rod has to be: a shorter one stands within 8 degrees of across its way,
+  /// where no guide lets it through, and hurls the mass through its turn within as little of the gear's.
+  static constexpr double shortest_rod = 1.01;
 
   /// What the gear feels of the mass.
   template <class S>

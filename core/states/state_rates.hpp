@@ -58,12 +58,21 @@ std::array<double, effect_state_count> starting_states(const Effects<double>& ef
                                                        const Moment<double>& at) {
   std::array<double, effect_state_count> all{};
   if (const auto* const coupling = effects.twisting_coupling()) {
-    const auto own = coupling->start(at, [&](double twist) {
-      return torque_behind(effects, load, coupling->at_load(at, {twist, at.omega_g}));
-    });
+    const auto own = coupling->start(
+        at,
+        [&](double twist) {
+          return torque_behind(effects, load, coupling->at_load(at, {twist, at.omega_g}));
+        },
+        load.ripple());
     std::copy(own.begin(), own.end(), all.begin() + StateLayout<EffectList<double>>::first<LoadCoupling<double>>());
   }
   return all;
+}
+
+/// Speed of what turns with the load [rad/s], in a state that begins with angle and speed of the gear.
+template <class T, class State>
+T load_speed(const Effects<T>& effects, const State& x) {
+  return effects.twisting_coupling() ? x[2 + StateLayout<EffectList<T>>::template first<LoadCoupling<T>>() + 1] : x[1];
 }
 
 }  // namespace wormdrive

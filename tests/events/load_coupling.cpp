@@ -231,6 +231,24 @@ TEST_CASE("a run starts with the load in balance on its coupling") {
     }
 }
 
+TEST_CASE("of many twists that carry an arm on a soft coupling a run starts with the least") {
+  for (int trial = 0; trial < 60; ++trial) {
+    near_ties::Dice dice(20261208, static_cast<std::uint64_t>(trial));
+    GravityArm arm;
+    arm.amplitude = 1.0;
+    arm.offset = dice.between(-3.0, 3.0);
+    const double k = dice.decades(1e-4, 10.0), torque = std::cos(arm.offset);
+    const auto start =
+        started(drive_with_states(GearMesh<double>(table1()), arm, constant(0.0), effects(coupling(0.01, k))), {});
+    // walked out from where it is relaxed, in steps of a thousandth of a radian
+    const double way = torque > 0.0 ? 1e-3 : -1e-3;
+    double x = 0.0;
+    while ((std::cos(arm.offset + x) - k * x > 0.0) == (torque > 0.0)) x += way;
+    INFO(trial << ", k = " << k);
+    CHECK(std::abs(start.x[twist_at] - x) <= 1.01e-3);
+  }
+}
+
 TEST_CASE("the inertia of the load turns behind the coupling with what is there") {
   GravityArm arm;
   arm.mass = 2.0;
@@ -277,6 +295,74 @@ TEST_CASE("drives whose load swings behind a coupling have the events and the en
   }
   REQUIRE(compared == 120);
   REQUIRE(events > 300);
+}
+
+// Its torque is another law in either direction, and that of a load is no mode of the drive. At the start the load is
+// at rest, in balance with an arm, and what is left of that balance is rounding.
+TEST_CASE("a fan behind a coupling brakes the load whichever way it turns, from rest on") {
+  int reversals = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    near_ties::Dice dice(20261205, static_cast<std::uint64_t>(trial));
+    const double J1 = dice.decades(1e-4, 1.0), J2 = J1 * dice.decades(0.1, 10.0), natural = dice.decades(1.0, 1e3),
+                 k = natural * natural * J1 * J2 / (J1 + J2), omega = natural * dice.decades(0.2, 2.0),
+                 amplitude = (J1 + J2) * omega * omega * dice.decades(0.1, 10.0),
+                 drag = J2 * dice.decades(0.03, 3.0),  // [kg m^2]: over the square of the speed
+        weight = J2 * omega * omega * dice.decades(0.1, 10.0);
+    Fan fan;
+    fan.rated_torque = drag;
+    fan.rated_speed = 1.0;
+    GravityArm arm;
+    arm.amplitude = weight;
+    const Signal motor{{Sinusoid{amplitude, omega / (2.0 * std::numbers::pi), -0.5 * std::numbers::pi}}};
+    const auto d =
+        drive_with_states(GearMesh<double>::without_teeth(J1), LoadSum{{fan, arm}}, motor, effects(coupling(J2, k)));
+    const auto start = started(d, {});
+    // fixed steps of Runge and Kutta
+    using State = Eigen::Vector4d;
+    const auto rates = [&](double t, const State& x) -> State {
+      const double twisting = k * x[2], load = weight * std::cos(x[0] + x[2]) - drag * x[3] * std::abs(x[3]);
+      return {x[1], (amplitude * std::sin(omega * t) + twisting) / J1, x[3] - x[1], (load - twisting) / J2};
+    };
+    const double end = 20.0 / omega, h = end / 40000.0;
+    State x(0.0, 0.0, start.x[twist_at], 0.0);
+    for (int n = 0; n < 40000; ++n) {
+      const double t = n * h;
+      const State a = rates(t, x), b = rates(t + 0.5 * h, x + 0.5 * h * a), c = rates(t + 0.5 * h, x + 0.5 * h * b),
+                  e = rates(t + h, x + h * c), then = x + h / 6.0 * (a + 2.0 * b + 2.0 * c + e);
+      reversals += x[3] * then[3] < 0.0;
+      x = then;
+    }
+    for (const By by : every_solver) {
+      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
+      const auto seen = run(d, Timetable(0, end, end), start, tight(by));
+      const double fast = std::abs(x[1]) + std::abs(x[3]) + natural * std::abs(x[2]);
+      CHECK(std::abs(seen.end.x[1] - x[1]) <= 1e-8 * fast);
+      CHECK(std::abs(seen.end.x[speed_at] - x[3]) <= 1e-8 * fast);
+      CHECK(std::abs(seen.end.x[twist_at] - x[2]) * natural <= 1e-8 * fast);
+    }
+  }
+  REQUIRE(reversals > 30);
+}
+
+TEST_CASE("a load that a fan brakes starts in balance behind a worm as well") {
+  for (int trial = 0; trial < 20; ++trial) {
+    near_ties::Dice dice(20261206, static_cast<std::uint64_t>(trial));
+    const double J2 = 7e-4 * dice.decades(0.1, 100.0), natural = dice.decades(3.0, 300.0);
+    Fan fan;
+    fan.rated_torque = J2 * dice.decades(1e-3, 1.0);
+    fan.rated_speed = 1.0;
+    GravityArm arm;
+    arm.amplitude = dice.decades(0.01, 1.0);
+    const auto d = drive_with_states(GearMesh<double>(table1()), LoadSum{{fan, arm}}, constant(dice.sign() * 0.3),
+                                     effects(coupling(J2, J2 * natural * natural, 0.05 * J2 * natural)));
+    std::vector<Mode> expected;
+    for (const By by : every_solver) {
+      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
+      const auto seen = run(d, Timetable(0, 10.0 / natural, 1.0 / natural), started(d, {}), tight(by));
+      if (expected.empty()) expected = seen.modes();
+      CHECK(seen.modes() == expected);
+    }
+  }
 }
 
 TEST_CASE("a coupling that hardly twists is the rigid one, to the first order of its softness") {

@@ -98,6 +98,7 @@ TEST_CASE("an FMU takes its effects along") {
          {"effect.torque_map.speeds_rad_per_s=[-100, -30, 0, 40, 100]",
           "effect.torque_map.torques_Nm=[0.003, 0.002, 0, -0.002, -0.004]"},
          10);
+  agrees(shipped("crank_press.toml"), {"run.relative_tolerance=1e-13", "run.duration_s=1.4"}, 6);
 }
 
 TEST_CASE("an FMU takes the states of its effects along: the importer integrates currents, heat and bristles") {
@@ -108,6 +109,7 @@ TEST_CASE("an FMU takes the states of its effects along: the importer integrates
   agrees(shipped("dc_motor.toml"), warm, 5);
   agrees(shipped("current_loop.toml"), {"run.relative_tolerance=1e-13"}, 2, {}, 1e-5);
   agrees(shipped("presliding.toml"), {"run.relative_tolerance=1e-13", "motor.torque[0].phase_deg=-80"}, 4);
+  agrees(shipped("swinging_load.toml"), {"run.relative_tolerance=1e-13", "run.duration_s=0.45"}, 4);
 }
 
 TEST_CASE("an FMU of one mass counts what its effects take off it, and refuses what they leave nothing of") {
@@ -262,7 +264,8 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[referenc
     WARN("skipped: reference data not found");
     return;
   }
-  for (const std::string name : {"fig09_switching", "fig09_backlash", "fig09_stribeck", "dc_motor", "presliding"}) {
+  for (const std::string name :
+       {"fig09_switching", "fig09_backlash", "fig09_stribeck", "dc_motor", "presliding", "swinging_load"}) {
     const Exported exported(shipped(name + ".toml"));
     const Outcome outcome =
         Process({xmllint, "--noout", "--schema", schema, "modelDescription.xml"}, exported.folder.path()).wait();
