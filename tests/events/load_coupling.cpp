@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "core/loads/gravity_arm.hpp"
+#include "events/four_modes.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
@@ -61,9 +62,15 @@ class Judge {
     Mode before, after;
   };
 
+ private:
+  auto accelerations(const State& x) const {
+    return [this, &x](Mode in) { return acceleration(x, in); };
+  }
+
+ public:
   Judge(const Case& c, double duration) : c_(c) {
     y << 0.0, 0.0, c.tau_l / c.stiffness, 0.0, c.amplitude * std::cos(c.phase), c.amplitude * std::sin(c.phase), 1.0;
-    mode = from_rest();
+    mode = mode_from_rest(beyond(y), accelerations(y));
     const double fastest = std::max(c.omega, std::sqrt(c.stiffness * (1.0 / c.inertia + 1.0 / c.p.Jg)));
     const double step = std::min(0.01 / fastest, duration);
     std::map<int, Matrix> of_a_step;
@@ -81,7 +88,7 @@ class Judge {
       y = moved(until);
       t += until;
       const Mode before = mode;
-      change();
+      mode = mode_behind(mode, y[1], beyond(y), accelerations(y));
       events.push_back({t, before, mode});
       if (events.size() > 200) return;
     }
@@ -99,27 +106,7 @@ class Judge {
     const double C = torque_ratio(c_.p, in.product() * c_.p.mu);
     return (tau_m(x) + C * tau_g(x)) / (c_.p.Jw * c_.p.i + C * c_.p.Jg);
   }
-  Mode moving(Motion motion) const { return {motion, beyond(y) > 0.0 ? Flank::right : Flank::left}; }
-  Mode from_rest() const {
-    for (const Motion motion : {Motion::forward, Motion::backward})
-      if (sign(motion) * acceleration(y, moving(motion)) > 0.0) return moving(motion);
-    return {};
-  }
-  bool holds(const State& x) const {
-    if (mode.motion != Motion::stuck) return sign(mode.motion) * x[1] >= 0.0 && -sign(mode.flank) * beyond(x) >= 0.0;
-    const Flank flank = beyond(x) > 0.0 ? Flank::right : Flank::left;
-    return acceleration(x, {Motion::forward, flank}) <= 0.0 && acceleration(x, {Motion::backward, flank}) >= 0.0;
-  }
-  void change() {
-    if (mode.motion == Motion::stuck) {
-      mode = from_rest();
-    } else if (std::abs(y[1]) * 1e6 < std::abs(acceleration(y, mode)) / c_.omega && sign(mode.motion) * y[1] <= 0.0) {
-      y[1] = 0.0;
-      mode = from_rest();
-    } else {
-      mode.flank = mode.flank == Flank::left ? Flank::right : Flank::left;
-    }
-  }
+  bool holds(const State& x) const { return mode_holds(mode, x[1], beyond(x), accelerations(x)); }
   Matrix rates(Mode in) const {
     const double k = c_.stiffness, d = c_.damping, w = c_.omega;
     Matrix A = Matrix::Zero();

@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "core/energy.hpp"
 #include "core/steady.hpp"
+#include "events/four_modes.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
@@ -51,16 +52,25 @@ struct Case {
   double level, amplitude, omega, phase, tau_l;
 };
 
-/// Its motion by Runge-Kutta steps of angle and momentum of the gear side, from mode to mode.
+/// Its motion by Runge-Kutta steps of angle and speed, from mode to mode.
 class Judge {
  public:
   struct Event {
     double t;
     Mode after;
   };
+  struct Place {
+    double t = 0.0, theta = 0.0, omega = 0.0;
+  };
 
+ private:
+  auto accelerations(const Place& x) const {
+    return [this, &x](Mode in) { return acceleration(x, in); };
+  }
+
+ public:
   Judge(const Case& c, double duration, double step) : c_(c) {
-    mode_ = from_rest();
+    mode_ = mode_from_rest(beyond(now), accelerations(now));
     for (double left = duration; left > 0.0;) {
       const double h = std::min(step, left);
       const Place then = moved(h);
@@ -71,21 +81,18 @@ class Judge {
       }
       now = moved(end_of(0.0, h, [&](double s) { return holds(moved(s)); }));
       left = duration - now.t;
-      change();
+      mode_ = mode_behind(mode_, now.omega, beyond(now), accelerations(now));
       events.push_back({now.t, mode_});
       if (events.size() > 100) return;
     }
   }
 
-  struct Place {
-    double t = 0.0, theta = 0.0, omega = 0.0;
-  };
   Place now;
   std::vector<Event> events;
 
  private:
   double tau_m(double t) const { return c_.level + c_.amplitude * std::cos(c_.omega * t + c_.phase); }
-  /// Inertia of the gear side, and half its slope, by a difference of fourth order.
+  /// Inertia of the gear side, and half its slope, by a difference of sixth order.
   double J(double theta) const { return c_.p.Jg + inertia(c_.crank, theta); }
   double half_slope(double theta) const {
     constexpr double h = 1e-3;
@@ -99,28 +106,7 @@ class Judge {
     const double C = torque_ratio(c_.p, in.product() * c_.p.mu);
     return (tau_m(x.t) + C * tau_g(x)) / (c_.p.Jw * c_.p.i + C * J(x.theta));
   }
-  Mode moving(Motion motion) const { return {motion, beyond(now) > 0.0 ? Flank::right : Flank::left}; }
-  Mode from_rest() const {
-    for (const Motion motion : {Motion::forward, Motion::backward})
-      if (sign(motion) * acceleration(now, moving(motion)) > 0.0) return moving(motion);
-    return {};
-  }
-  bool holds(const Place& x) const {
-    if (mode_.motion != Motion::stuck)
-      return sign(mode_.motion) * x.omega >= 0.0 && -sign(mode_.flank) * beyond(x) >= 0.0;
-    const Flank flank = beyond(x) > 0.0 ? Flank::right : Flank::left;
-    return acceleration(x, {Motion::forward, flank}) <= 0.0 && acceleration(x, {Motion::backward, flank}) >= 0.0;
-  }
-  void change() {
-    if (mode_.motion == Motion::stuck) {
-      mode_ = from_rest();
-    } else if (sign(mode_.motion) * now.omega <= 0.0) {
-      now.omega = 0.0;
-      mode_ = from_rest();
-    } else {
-      mode_.flank = mode_.flank == Flank::left ? Flank::right : Flank::left;
-    }
-  }
+  bool holds(const Place& x) const { return mode_holds(mode_, x.omega, beyond(x), accelerations(x)); }
   Place moved(double h) const {
     if (mode_.motion == Motion::stuck) return {now.t + h, now.theta, 0.0};
     const auto at = [&](double s, double theta, double omega) { return Place{now.t + s, theta, omega}; };
