@@ -56,13 +56,16 @@ std::vector<std::string> drawn(near_ties::Dice& dice) {
       if (dice.chance(0.3))
         words.push_back(fmt::format("effect.dc_motor.current_bandwidth_Hz={}", dice.decades(0.1, 10.0) / electrical));
     }
+    // bristles that slide within a share of the worm's way in a swing of the input
+    const double coulomb = break_in * dice.decades(0.03, 0.5), bends = p.i * speed * T * dice.decades(1e-3, 1e-1);
     state(0.4, fmt::format("effect.worm_lugre={{coulomb_torque_Nm={},stiffness_Nm_per_rad={},damping_Nms_per_rad={}}}",
-                           break_in * dice.decades(0.03, 0.5), break_in * dice.decades(0.1, 10.0),
-                           break_in * T * dice.decades(1e-5, 1e-3)));
+                           coulomb, coulomb / bends, coulomb / bends * T * dice.decades(1e-5, 1e-3)));
     state(0.3, fmt::format("effect.holding_brake={{torque_Nm={},opens_s={},closes_s={}}}",
                            break_in * dice.decades(0.1, 3.0), T * dice.between(0.1, 1.0), T * dice.between(1.5, 2.5)));
     state(0.3, fmt::format("effect.friction_under_load.share={}", dice.between(0.0, 0.4)));
-    const double J2 = p.Jg * dice.decades(0.1, 30.0), natural = dice.decades(2.0, 100.0) / T;
+    // so much that the arm, as a pendulum, swings some twenty times at most while the input does it once
+    const double J2 = std::max(p.Jg * dice.decades(0.1, 30.0), tau_l * std::pow(T / 125.0, 2.0)),
+                 natural = dice.decades(2.0, 100.0) / T;
     state(0.5, fmt::format("effect.load_coupling={{inertia_kgm2={},stiffness_Nm_per_rad={},damping_Nms_per_rad={}}}",
                            J2, J2 * natural * natural, J2 * natural * dice.decades(0.01, 1.0)));
     const double crank = dice.decades(0.01, 0.3);
@@ -132,9 +135,9 @@ Compared compare(std::uint64_t trials) {
 }  // namespace
 
 TEST_CASE("drives with one to six effects of motors, bearings and loads have the same events by every solver") {
-  const Compared all = compare(12);
-  REQUIRE(all.drives > 8);
-  REQUIRE(all.events > 60);
+  const Compared all = compare(6);
+  REQUIRE(all.drives >= 5);
+  REQUIRE(all.events > 40);
 }
 
 TEST_CASE("so have several hundred, in a quarter of an hour", "[.][long]") {
