@@ -55,7 +55,7 @@ TEST_CASE("so they are behind a gear with friction while it moves in one directi
       drive_with_states(GearMesh<double>(p), constant(tau_l), constant(U), effects(m, WormViscous<double>{b}));
   const double R = m.resistance, K = m.torque_constant;
   typename decltype(machine)::Instant start;
-  start.x << 0.0, 1.0, 5.0;
+  start.x.head<3>() << 0.0, 1.0, 5.0;
   for (const By by : every_solver) {
     const auto seen = run(machine, Timetable(0, 0.5, 0.005), start, tight(by));
     const Mode mode = seen.rows.back().now.mode;
