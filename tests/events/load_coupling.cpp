@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "core/loads/gravity_arm.hpp"
 #include "events/four_modes.hpp"
+#include "events/runge_kutta.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
@@ -313,9 +314,7 @@ TEST_CASE("a fan behind a coupling brakes the load whichever way it turns, from 
     const double end = 20.0 / omega, h = end / 40000.0;
     State x(0.0, 0.0, start.x[twist_at], 0.0);
     for (int n = 0; n < 40000; ++n) {
-      const double t = n * h;
-      const State a = rates(t, x), b = rates(t + 0.5 * h, x + 0.5 * h * a), c = rates(t + 0.5 * h, x + 0.5 * h * b),
-                  e = rates(t + h, x + h * c), then = x + h / 6.0 * (a + 2.0 * b + 2.0 * c + e);
+      const State then = runge_kutta(rates, n * h, x, h);
       reversals += x[3] * then[3] < 0.0;
       x = then;
     }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -8,13 +7,15 @@
 #include "core/energy.hpp"
 #include "core/steady.hpp"
 #include "events/four_modes.hpp"
+#include "events/runge_kutta.hpp"
+#include "events/slider_crank.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
 #include "simulation/starting_state.hpp"
 #include "support.hpp"
 
-// A crank that pushes a mass to and fro, against energy, and against a judge of its own: fixed steps of the momentum,
+// A crank that pushes a mass to and fro, against energy, and against a judge of its own: fixed steps,
 // and the way of the mass from its geometry alone.
 
 namespace wormdrive::test::events_load_crank {
@@ -22,19 +23,6 @@ namespace wormdrive::test::events_load_crank {
 namespace {
 
 using Crank = LoadCrank<double>;
-
-/// Where the mass is [m].
-template <class X>
-X way(const Crank& c, const X& theta_g) {
-  const X p = theta_g + c.shift, across = c.crank * std::sin(p);
-  return c.crank * std::cos(p) + (c.rod ? std::sqrt(*c.rod * *c.rod - across * across) : X(0.0));
-}
-/// The inertia that the gear feels, from the rate of the way by a complex step.
-double inertia(const Crank& c, double theta_g) {
-  constexpr double h = 1e-30;
-  const double rate = way(c, std::complex<double>(theta_g, h)).imag() / h;
-  return c.mass * rate * rate;
-}
 
 Crank drawn_crank(near_ties::Dice& dice, double beside) {
   Crank c;
@@ -92,15 +80,9 @@ class Judge {
 
  private:
   double tau_m(double t) const { return c_.level + c_.amplitude * std::cos(c_.omega * t + c_.phase); }
-  /// Inertia of the gear side, and half its slope, by a difference of sixth order.
+  /// Inertia of the gear side.
   double J(double theta) const { return c_.p.Jg + inertia(c_.crank, theta); }
-  double half_slope(double theta) const {
-    constexpr double h = 1e-3;
-    const auto at = [&](double x) { return inertia(c_.crank, theta + x); };
-    return 0.5 * (45.0 * (at(h) - at(-h)) - 9.0 * (at(2.0 * h) - at(-2.0 * h)) + (at(3.0 * h) - at(-3.0 * h))) /
-           (60.0 * h);
-  }
-  double tau_g(const Place& x) const { return c_.tau_l - half_slope(x.theta) * x.omega * x.omega; }
+  double tau_g(const Place& x) const { return c_.tau_l - half_slope(c_.crank, x.theta) * x.omega * x.omega; }
   double beyond(const Place& x) const { return tau_m(x.t) - c_.p.Jw * c_.p.i / J(x.theta) * tau_g(x); }
   double acceleration(const Place& x, Mode in) const {
     const double C = torque_ratio(c_.p, in.product() * c_.p.mu);
@@ -109,16 +91,11 @@ class Judge {
   bool holds(const Place& x) const { return mode_holds(mode_, x.omega, beyond(x), accelerations(x)); }
   Place moved(double h) const {
     if (mode_.motion == Motion::stuck) return {now.t + h, now.theta, 0.0};
-    const auto at = [&](double s, double theta, double omega) { return Place{now.t + s, theta, omega}; };
-    const double k1 = acceleration(now, mode_), v1 = now.omega;
-    const Place b = at(0.5 * h, now.theta + 0.5 * h * v1, now.omega + 0.5 * h * k1);
-    const double k2 = acceleration(b, mode_), v2 = b.omega;
-    const Place c = at(0.5 * h, now.theta + 0.5 * h * v2, now.omega + 0.5 * h * k2);
-    const double k3 = acceleration(c, mode_), v3 = c.omega;
-    const Place d = at(h, now.theta + h * v3, now.omega + h * k3);
-    const double k4 = acceleration(d, mode_), v4 = d.omega;
-    return {now.t + h, now.theta + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4),
-            now.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)};
+    const auto rates = [this](double t, const Eigen::Vector2d& x) -> Eigen::Vector2d {
+      return {x[1], acceleration({t, x[0], x[1]}, mode_)};
+    };
+    const Eigen::Vector2d x = runge_kutta(rates, now.t, Eigen::Vector2d(now.theta, now.omega), h);
+    return {now.t + h, x[0], x[1]};
   }
 
   Case c_;
@@ -195,8 +172,7 @@ TEST_CASE("the motor of a crank at constant speed pays for the mass, to and fro"
   const Crank crank{0.4, 0.05, 0.12, 0.3};
   const double omega = 7.0, theta = 0.9;
   const auto d = entered(table1(0.1), constant(0.0), constant(0.0), effects(crank));
-  const double h = 1e-4, slope = (inertia(crank, theta + h) - inertia(crank, theta - h)) / (2.0 * h);
-  const double tau_g = -0.5 * slope * omega * omega;
+  const double tau_g = -half_slope(crank, theta) * omega * omega;
   const double C = torque_ratio(table1(0.1), tau_g >= 0.0 ? 0.1 : -0.1);
   REQUIRE(close(steady_torque(d, 60.0 * omega, theta, 0.0), -C * tau_g, 1e-6));
   // behind a coupling, whose twist it does not look at, as well

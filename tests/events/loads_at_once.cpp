@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
 #include "catch.hpp"
 #include "core/load.hpp"
+#include "events/runge_kutta.hpp"
+#include "events/slider_crank.hpp"
 #include "numbers.hpp"
 #include "simulation/starting_state.hpp"
 #include "support.hpp"
@@ -24,22 +25,10 @@ constexpr double arm_torque = 0.4, arm_angle = 0.3;                    // gravit
 constexpr double gust = 0.1, gust_omega = 23.0;                        // wind
 constexpr double drag = 0.01;                                          // fan, over the square of the speed
 constexpr double stop_angle = 1.1, stop_stiffness = 60.0, stop_damping = 0.2;
-constexpr double mass = 1.5, crank = 0.04, rod = 0.1, crank_angle = 0.5;
+const LoadCrank<double> crank{1.5, 0.04, 0.1, 0.5};
 
 /// Angle and speed of the shaft, twist, speed of the load.
 using State = Eigen::Vector4d;
-
-/// Inertia of the crank and half its slope over the angle, from the way of the mass by complex steps.
-std::pair<double, double> of_crank(double angle) {
-  const auto rate = [](double p) {
-    const std::complex<double> z(p, 1e-30), across = crank * std::sin(z);
-    return (crank * std::cos(z) + std::sqrt(rod * rod - across * across)).imag() / 1e-30;
-  };
-  constexpr double h = 1e-3;
-  const double p = angle + crank_angle, x = rate(p);
-  const double bend = (8.0 * (rate(p + h) - rate(p - h)) - (rate(p + 2.0 * h) - rate(p - 2.0 * h))) / (12.0 * h);
-  return {mass * x * x, mass * x * bend};
-}
 
 class FixedSteps {
  public:
@@ -61,17 +50,14 @@ class FixedSteps {
   State rates(double t, const State& x) const {
     const double angle = x[0] + x[2], depth = std::max(0.0, angle - stop_angle);
     const double push = std::max(0.0, stop_stiffness * depth * (1.0 + stop_damping * x[3]));
-    const auto [inertia, half_slope] = of_crank(angle);
     const double load = arm_torque * std::cos(angle + arm_angle) + gust * std::sin(gust_omega * t) -
-                        drag * x[3] * std::abs(x[3]) - push - half_slope * x[3] * x[3];
+                        drag * x[3] * std::abs(x[3]) - push - half_slope(crank, angle) * x[3] * x[3];
     const double on_shaft = motor(t) + coupling(x) - motion_ * braking_;
     return {motion_ == 0 ? 0.0 : x[1], motion_ == 0 ? 0.0 : on_shaft / J1, x[3] - (motion_ == 0 ? 0.0 : x[1]),
-            (load - coupling(x)) / (J2 + inertia)};
+            (load - coupling(x)) / (J2 + inertia(crank, angle))};
   }
   State moved(double h) const {
-    const State a = rates(t_, now), b = rates(t_ + 0.5 * h, now + 0.5 * h * a),
-                c = rates(t_ + 0.5 * h, now + 0.5 * h * b), d = rates(t_ + h, now + h * c);
-    return now + h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+    return runge_kutta([this](double t, const State& x) { return rates(t, x); }, t_, now, h);
   }
   /// Where the shaft goes from rest.
   int free() const {
@@ -123,11 +109,10 @@ TEST_CASE(
     return Sinusoid{amplitude, omega / (2.0 * std::numbers::pi), -0.5 * std::numbers::pi};
   };
   const auto d = [&] {
-    auto made =
-        drive_with_states(GearMesh<double>::without_teeth(J1), LoadSum{{arm, fan, stop, sine(gust, gust_omega)}},
-                          Signal{{sine(drive_torque, drive_omega)}},
-                          effects(HoldingBrake<double>{brake, opens, closes}, LoadCoupling<double>{J2, k, damping},
-                                  LoadCrank<double>{mass, crank, rod, crank_angle}));
+    auto made = drive_with_states(
+        GearMesh<double>::without_teeth(J1), LoadSum{{arm, fan, stop, sine(gust, gust_omega)}},
+        Signal{{sine(drive_torque, drive_omega)}},
+        effects(HoldingBrake<double>{brake, opens, closes}, LoadCoupling<double>{J2, k, damping}, crank));
     made.enter(0.0);
     return made;
   }();
