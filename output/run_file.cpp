@@ -14,9 +14,12 @@ RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axi
                  Replace replace)
     : file_(path, provenance.kind, replace), contents_(std::move(contents)) {
   write_provenance(file_.file(), provenance);
-  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(contents_), axis));
-  events_.emplace(file_.file(), "events", descriptions(event_columns(contents_.elastic), axis));
-  if (contents_.controlled) controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis));
+  trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(contents_), axis),
+                      contents_.expected_rows);
+  events_.emplace(file_.file(), "events", descriptions(event_columns(contents_.elastic), axis),
+                  contents_.expected_rows);
+  if (contents_.controlled)
+    controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis), contents_.expected_rows);
   file_.flush();
   flushed_ = Clock::now();
 }

@@ -26,6 +26,7 @@ struct RunContents {
   bool elastic = false;     ///< worm and gear move on their own
   bool winding = false;     ///< the motor has one
   std::vector<StateColumn> states{};
+  std::uint64_t expected_rows = 0;  ///< about how many
 };
 
 /// The HDF5 file of a run, written while it goes on; see output/schema.md.

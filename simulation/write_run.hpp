@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,8 +20,9 @@ inline std::string describe_solver(const RunSettings& run) {
 
 /// What the run of a scenario will show.
 inline RunContents contents_of(const Scenario& scenario) {
-  RunContents contents{
-      scenario.control.has_value(), has_elastic_teeth(scenario.effects), dc_motor(scenario.effects).has_value(), {}};
+  RunContents contents{scenario.control.has_value(), has_elastic_teeth(scenario.effects),
+                       dc_motor(scenario.effects).has_value()};
+  contents.expected_rows = static_cast<std::uint64_t>(std::min(scenario.run.duration / scenario.run.rows_every(), 1e6));
   scenario.effects.for_each_state([&](std::string_view id, const EffectState& state, std::size_t place) {
     if (!state.meaning.empty()) contents.states.push_back(state_column(id, state, place));
   });

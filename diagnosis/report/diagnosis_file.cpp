@@ -34,7 +34,8 @@ void write_residual(hid_t file, const ResidualTorque& r, Axis axis) {
                               {"worm_phase", "rad", "angle of the worm within its turn"},
                               {"before", "N m", "torque that the scenario lacks"},
                               {"after", "N m", "torque that the extended scenario lacks"},
-                              flag("held_out", "not used for the fit")}))
+                              flag("held_out", "not used for the fit")}),
+               rows)
       .append({filled(r.time, rows), filled(r.gear_angle, rows), filled(r.gear_speed, rows),
                filled(r.load_torque, rows), filled(r.worm_phase, rows), filled(r.before, rows), r.after,
                filled(as_doubles(r.held_out), rows)});

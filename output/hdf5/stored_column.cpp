@@ -63,9 +63,17 @@ std::vector<double> StoredColumn::values(std::uint64_t first, std::uint64_t coun
   const hsize_t begin = first, size = count;
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, cannot),
       memory(H5Screate_simple(1, &size, nullptr), H5Sclose, cannot);
-  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0 ||
-      H5Dread(dataset_, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
-    reject(cannot);
+  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0) reject(cannot);
+  const auto read = [&](hid_t as, void* into) {
+    if (H5Dread(dataset_, as, memory, space, H5P_DEFAULT, into) < 0) reject(cannot);
+  };
+  if (type_ == Type::number) {
+    read(H5T_NATIVE_DOUBLE, values.data());
+  } else {  // converted here: to convert a single flag, HDF5 clears a megabyte
+    std::vector<std::int8_t> flags(count);
+    read(H5T_NATIVE_INT8, flags.data());
+    std::copy(flags.begin(), flags.end(), values.begin());
+  }
   return values;
 }
 

@@ -1,21 +1,28 @@
 #include "output/hdf5/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <hdf5_hl.h>
 
 namespace wormdrive {
 namespace {
-constexpr hsize_t rows_per_chunk = 4096;
-}
 
-GrowingTable::GrowingTable(hid_t parent, const std::string& group, std::vector<ColumnDescription> columns)
+/// A column takes whole chunks. Beyond the most, chunks make nothing faster; below the least, the index of the chunks
+/// takes more room than they do.
+hsize_t rows_per_chunk(hsize_t expected_rows) { return std::clamp<hsize_t>(expected_rows, 256, 4096); }
+
+}  // namespace
+
+GrowingTable::GrowingTable(hid_t parent, const std::string& group, std::vector<ColumnDescription> columns,
+                           hsize_t expected_rows)
     : descriptions_(std::move(columns)), group_(create_group(parent, group)) {
   const std::string action = "cannot create table " + group + " in " + file_of(parent);
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
   const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, action);
   const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
-  check_hdf5(H5Pset_chunk(properties, 1, &rows_per_chunk), action);
+  const hsize_t chunk = rows_per_chunk(expected_rows);
+  check_hdf5(H5Pset_chunk(properties, 1, &chunk), action);
   for (const ColumnDescription& column : descriptions_) {
     const hid_t scale = datasets_.empty() ? H5I_INVALID_HID : hid_t(datasets_.front());
     datasets_.push_back(create_column(group_, column, space, properties, scale, action));

@@ -23,7 +23,9 @@ struct ColumnDescription {
 /// A growing group of equally long columns in an HDF5 file; the first column is the dimension scale of the others.
 class GrowingTable {
  public:
-  GrowingTable(hid_t parent, const std::string& group, std::vector<ColumnDescription> columns);
+  /// expected_rows: about how many there will be, where that is known; a short table then takes little room.
+  GrowingTable(hid_t parent, const std::string& group, std::vector<ColumnDescription> columns,
+               hsize_t expected_rows = 0);
 
   /// Appends rows, given column by column in the order of the descriptions; flags are rounded to int8.
   void append(const std::vector<std::vector<double>>& columns);

@@ -137,6 +137,12 @@ TEST_CASE("rows are right-continuous at events, and the events hold the left lim
   CHECK(jumps == 5);  // the reversals; the break-away and the flank changes are continuous
 }
 
+TEST_CASE("a run of a hundred rows makes a file of a hundred, and not of thousands") {
+  const Folder folder;
+  REQUIRE(folder.run({"run", shipped("fig09_switching.toml"), "-q", "--set", "run.report_interval_s=0.02"}).exit == 0);
+  CHECK(std::filesystem::file_size(folder / "fig09_switching.h5") < 150'000);
+}
+
 TEST_CASE("h5py finds every column with its units and its time axis") {
   const Fig9 run;
   const Outcome outcome = Process({WORMDRIVE_PYTHON, h5py_script, run.path()}, ".").wait();
