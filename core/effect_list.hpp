@@ -18,6 +18,7 @@
 #include "core/effects/gear_coulomb.hpp"
 #include "core/effects/gear_inertia.hpp"
 #include "core/effects/gear_viscous.hpp"
+#include "core/effects/gearbox_heat.hpp"
 #include "core/effects/holding_brake.hpp"
 #include "core/effects/load_angle.hpp"
 #include "core/effects/load_coupling.hpp"
@@ -59,7 +60,7 @@ using EffectList =
     Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,     // actuator
              WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,  // worm shaft
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
-             FrictionDrift, StaticFriction, TransmissionError, ToothCompliance, Backlash,                  // mesh
+             FrictionDrift, StaticFriction, GearboxHeat, TransmissionError, ToothCompliance, Backlash,     // mesh
              GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia,                                     // gear shaft
              LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadCoupling,                                // load
              EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor

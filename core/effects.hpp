@@ -130,15 +130,17 @@ struct Effects {
       return sum + e.worm_inertia();
     });
   }
-  /// Coefficient of friction between the teeth out of the mesh's own.
-  template <class S>
-  S friction(const S& mesh, const SlidingContact<S>& at) const {
+  /// Coefficient of friction between the teeth out of the mesh's own. M as above.
+  template <class S, template <class> class M>
+  S friction(const S& mesh, const SlidingContact<S>& contact, const M<S>& at) const {
     return through(
         list, mesh,
-        [](const auto& e, const S& mu, const auto& now) -> decltype(e.friction(mu, now)) {
-          return e.friction(mu, now);
+        []<class E>(const E& e, const S& mu, const auto& teeth, const auto& now) -> decltype(e.friction(mu, teeth)) {
+          if constexpr (MayHaveStates<E> && requires { now.states; })
+            if (has_states(e)) return e.friction(mu, teeth, EffectStates::template of<E>(now.states));
+          return e.friction(mu, teeth);
         },
-        at);
+        contact, at);
   }
   /// What friction may come to until a time [s], out of what it is without effects.
   FrictionRange friction_range(const FrictionRange& mesh, double end) const {
@@ -252,8 +254,7 @@ struct Effects {
         return coupling->at_load(at, EffectStates::template of<LoadCoupling<T>>(at.states));
     return at;
   }
-  /// Torque on the gear of a load with what the effects make of it [N m], while the gear moves, or starts to move, in a
-  /// direction. M as above; without states the load turns with the gear.
+  /// Torque of a load on the gear, with effects [N m], while that moves, or starts to move; without states both turn.
   template <class Load, class S, template <class> class M>
   S load_torque(const Load& load, const M<S>& at, Motion motion) const {
     if constexpr (requires { at.states; })

@@ -1,6 +1,4 @@
 #pragma once
-#include <cmath>
-
 #include "core/worm_drive.hpp"
 
 namespace wormdrive {
@@ -9,8 +7,7 @@ namespace wormdrive {
 struct Power {
   double motor;  ///< tau_m w_w, with what disturbs the worm's shaft; with a winding from its supply on
   double load;   ///< tau_l w_g
-  double loss;   ///< friction of the mesh, mu Wn |sliding speed|, and of the bearings; rigid teeth never give it back;
-                 ///< with a winding its heat
+  double loss;   ///< of friction in mesh and bearings; rigid teeth never give it back; with a winding its heat
 };
 
 /// The power of the motor and its losses from the supply on, out of those from the shaft on.
@@ -27,14 +24,8 @@ Power power(const WormDrive<double, Load, with_states>& drive,
             const typename WormDrive<double, Load, with_states>::Instant& now) {
   const auto at = drive.moment(now);
   const Observation o = drive.observe(now);
-  const Motion motion = now.mode.motion;
-  const double bearings = -drive.effects().worm_torque(at, motion) * at.omega_w -
-                          drive.effects().gear_torque(o.tau_l, at, motion) * at.omega_g;
-  // where the pitch is uneven, the worm's lever arms are shorter as its speed is greater: an even pitch's speed counts
-  const double mesh = drive.mesh().has_teeth ? drive.friction(at, motion) * o.normal_force *
-                                                   std::abs(drive.mesh().sliding_speed(drive.mesh().i * at.omega_g))
-                                             : 0.0;
-  const Power at_shaft{(o.tau_m + drive.disturbance()) * at.omega_w, o.tau_l * at.omega_g, bearings + mesh};
+  const Power at_shaft{(o.tau_m + drive.disturbance()) * at.omega_w, o.tau_l * at.omega_g,
+                       drive.friction_loss(at, now.mode)};
   return from_supply_on(at_shaft, drive.effects(), o.winding, at.omega_w);
 }
 

@@ -114,7 +114,12 @@ class GearMesh {
     using std::abs, portable::cos;
     if (!has_teeth) return S(T(0));
     if (mode.motion == Motion::stuck) return abs(tau_g / lg * cos_lambda_ - tau_w / lw * sin_lambda_) / cos(phi_n);
-    return T(sign(mode.flank)) * (tau_g - inertial) / gear_arm(m);
+    return normal_force(tau_g, inertial, mode.flank, m);
+  }
+  /// The same on a flank of a gear that moves.
+  template <class S>
+  S normal_force(const S& tau_g, const S& inertial, Flank flank, const S& m) const {
+    return T(sign(flank)) * (tau_g - inertial) / gear_arm(m);
   }
 
   /// Slope of the static surface tau_m = H tau_l, (lw/lg) cot lambda [YehWu2009, eq. 9].

@@ -84,6 +84,14 @@ class TorqueBalance {
   S motor_command(const S& t) const {
     return motor_(t);
   }
+  /// What the motor is told at a moment [N m].
+  template <class S, template <class> class M>
+  S command_at(const M<S>& at) const {
+    if constexpr (requires { at.command; })
+      return at.command;
+    else
+      return motor_(at.t);
+  }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
   const MotorInput<T>& motor_input() const { return motor_; }
@@ -159,9 +167,9 @@ class TorqueBalance {
   }
 
   /// Coefficient of friction between the teeth while the drive moves, or starts to move, in a direction.
-  template <class S>
-  S friction(const Moment<S>& at, Motion motion) const {
-    return effects_.friction(S(mesh_.mu), SlidingContact<S>{at, motion, mesh_.sliding_speed(at.omega_w)});
+  template <class S, template <class> class M>
+  S friction(const M<S>& at, Motion motion) const {
+    return effects_.friction(S(mesh_.mu), SlidingContact<S>{at, motion, mesh_.sliding_speed(at.omega_w)}, at);
   }
 
   /// Distance from the switching surface, tau_w - (Jw i/Jg) tau_g [N m]: the left flank carries while it is <= 0.
@@ -208,13 +216,13 @@ class TorqueBalance {
            depends_on_motion([this](Motion motion) { return effects_.load_torque(load_, turning(), motion); });
   }
   /// m = motion * flank * mu.
-  template <class S>
-  S signed_friction(const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  S signed_friction(const M<S>& at, Mode mode) const {
     if (!friction_changes_) return S(T(mode.product()) * mesh_.mu);
     return S(T(mode.product())) * friction(at, mode.motion);
   }
-  template <class S>
-  S acceleration(const SideTorques<S>& tau, const Moment<S>& at, Mode mode) const {
+  template <class S, template <class> class M>
+  S acceleration(const SideTorques<S>& tau, const M<S>& at, Mode mode) const {
     if (!friction_changes_ && !pitch_varies_ && !inertia_varies_) {
       using Scalar = ConstantOf<S>;
       const Scalar C = mesh_.C(Scalar(T(mode.product()) * mesh_.mu));
@@ -237,22 +245,28 @@ class TorqueBalance {
     return tau.worm - surface * (worm.slope * tau.gear) - Jw_i_ * worm.curvature * (at.omega_g * at.omega_g);
   }
   /// Wn [N] where the gear accelerates so [rad/s^2], 0 at rest.
-  template <class S>
-  S normal_force(const SideTorques<S>& tau, const Moment<S>& at, const S& alpha, Mode mode) const {
+  template <class S, template <class> class M>
+  S normal_force(const SideTorques<S>& tau, const M<S>& at, const S& alpha, Mode mode) const {
     const S worm =
         pitch_varies_ ? effects_.transmission(at.theta_g).slope * tau.worm : tau.worm;  // on one of even pitch
     return mesh_.normal_force(worm, tau.gear, S(Jg(at) * alpha), mode, signed_friction(at, mode));
   }
+  /// Power that friction takes [W]: mu Wn |sliding speed| in the mesh, and that of the bearings.
+  template <class S, template <class> class M>
+  S friction_loss(const M<S>& at, Mode mode) const {
+    if (mode.motion == Motion::stuck) return S(T(0));
+    const SideTorques<S> input = inputs(at, mode.motion), tau = side_torques(input, at, mode.motion);
+    const S bearings = -effects_.worm_torque(at, mode.motion) * at.omega_w -
+                       effects_.gear_torque(input.gear, at, mode.motion) * at.omega_g;
+    if (!mesh_.has_teeth) return bearings;
+    // where the pitch is uneven, the worm's lever arms are shorter as its speed is greater: that of an even one counts
+    const S inertial = Jg(at) * acceleration(tau, at, mode), m = signed_friction(at, mode);
+    const S Wn = mesh_.normal_force(tau.gear, inertial, mode.flank, m);
+    const S sliding = T(sign(mode.motion)) * mesh_.sliding_speed(S(mesh_.i * at.omega_g));
+    return bearings + friction(at, mode.motion) * Wn * sliding;
+  }
 
  private:
-  /// What the motor is told at a moment [N m].
-  template <class S, template <class> class M>
-  S command_at(const M<S>& at) const {
-    if constexpr (requires { at.command; })
-      return at.command;
-    else
-      return motor_(at.t);
-  }
   template <template <class> class M>
   int counted_bends() const {
     int count = 0;

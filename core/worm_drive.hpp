@@ -68,7 +68,12 @@ class WormDrive : public TorqueBalance<T, Load> {
     }
     return rate;
   }
-
+  /// Rates of the states of effects. M is a moment with these.
+  template <class S, template <class> class M>
+  auto state_rates(const M<S>& at, Mode mode) const {
+    return wormdrive::state_rates(effects(), this->command_at(at), this->load(), at, mode.motion,
+                                  [&] { return this->friction_loss(at, mode); });
+  }
   /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
   Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
     using Jet = ceres::Jet<double, state_size>;
@@ -229,7 +234,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     return resting(at, now);
   }
 
-  /// A moment from a state, whatever its scalar.
   template <class S, class X>
   [[gnu::always_inline]] MomentHere<S> moment_at(const S& t, const X& x) const {
     if constexpr (with_states) {
@@ -239,10 +243,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     } else {
       return Balance::moment(t, S(x[0]), S(x[1]));
     }
-  }
-  template <class S>
-  auto state_rates(const MomentOfEffects<S>& at, Mode mode) const {
-    return wormdrive::state_rates(effects(), motor_command(at.t), this->load(), at, mode.motion);
   }
   template <class S, template <class> class M>
   static M<S> resting(M<S> at, const Instant& now) {

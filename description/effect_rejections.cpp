@@ -84,6 +84,15 @@ std::string refusal(const DcMotor<double>& motor, const Scenario&) {
   return "";
 }
 
+std::string refusal(const GearboxHeat<double>& heat, const Scenario&) {
+  if (heat.thermal_resistance && !heat.heat_capacity)
+    return "states thermal_resistance_K_per_W without heat_capacity_J_per_K, which says how fast the gearbox warms up; "
+           "add it";
+  if (heat.churning_decay > 0.0 && heat.churning == 0.0)
+    return "states churning_decay_per_K without churning_Nms_per_rad, which falls by it; add it, or leave out both";
+  return "";
+}
+
 std::string refusal(const WormLuGre<double>& friction, const Scenario&) {
   if (friction.static_torque.has_value() != friction.stribeck_speed.has_value())
     return fmt::format("states {} without {}; add it, or leave out both",

@@ -1,6 +1,7 @@
 #include "description/warnings.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,13 @@ bool bearings_drive(const Effects<double>& effects) {
   return asymmetry && std::abs(asymmetry->coefficient) > (viscous ? viscous->coefficient : 0.0);
 }
 
+/// How warm a gearbox may become until its gear no longer locks itself [K]; nothing where it always does, or never.
+std::optional<double> locks_up_to(const Scenario& scenario, const GearMesh<double>& mesh) {
+  const auto& heat = std::get<std::optional<GearboxHeat<double>>>(scenario.effects.list);
+  if (!heat || heat->friction_decay == 0.0 || mesh.mu < mesh.mu_w()) return std::nullopt;
+  return heat->starting_rise + std::log(mesh.mu / mesh.mu_w()) / heat->friction_decay;
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const Scenario& scenario, MotorTorque torque) {
@@ -56,6 +64,11 @@ std::vector<std::string> warnings(const Scenario& scenario, MotorTorque torque) 
     list.push_back(
         "effect.bearing_asymmetry has a coefficient greater than that of worm_viscous: in one direction the "
         "bearings drive the worm");
+  if (const auto rise = locks_up_to(scenario, mesh))
+    list.push_back(
+        fmt::format("the gear locks itself only while the gearbox is less than {:.3g} K warmer than its surroundings: "
+                    "then friction falls below mu_w = {:.4g}",
+                    *rise, mesh.mu_w()));
   for (const std::string& warning : control_warnings(scenario)) list.push_back(warning);
   return list;
 }

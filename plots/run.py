@@ -1,4 +1,5 @@
-"""The picture of a run: gear angle, gear speed with its modes, torques with the switching surface, tracking error."""
+"""The picture of a run: gear angle, gear speed with its modes, torques with the switching surface, tracking error,
+temperatures."""
 
 import textwrap
 from typing import NamedTuple
@@ -9,6 +10,7 @@ from matplotlib.patches import Patch
 
 import controller
 import coupling
+import heat
 import style
 import teeth
 from result import NotAResult, attribute, column, columns, flags, group, number, text, units
@@ -174,7 +176,8 @@ def draw(result):
 
     figure = style.new_figure(text(attribute(result, "title")))
     samples = controller.samples(result) if controller.follows(result) else None
-    heights = [1.0, 1.25, 1.25] + ([1.0] if elastic else []) + ([0.9] if samples else [])
+    warm = heat.warm(trajectory)
+    heights = [1.0, 1.25, 1.25] + [1.0] * elastic + [0.9] * bool(warm) + [0.9] * bool(samples)
     if len(heights) > 3:
         figure.set_figheight(2.55 * len(heights))  # so that more panels stay readable
     panels = figure.subplots(len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights})
@@ -190,6 +193,8 @@ def draw(result):
         line, worm = teeth.draw_worm(panels[1], result, trajectory, time, speed_factor)
         speeds, speed_lines = np.append(speeds, worm), [*speed_lines, line]
         teeth.draw_force(panels[3], trajectory, time)
+    if warm:
+        heat.draw_temperatures(panels[3 + elastic], trajectory, time, warm)
     if twists:
         line, of_load = coupling.draw_load(panels[1], trajectory, time, speed_factor)
         speeds, speed_lines = np.append(speeds, of_load), [*speed_lines, line]

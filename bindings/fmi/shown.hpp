@@ -74,7 +74,7 @@ auto show(const WormDrive<double, Load, with_states>& drive,
   const S acceleration = drive.acceleration(at, mode);
   std::array<S, count> rates{stuck ? S(0.0) : x[1], acceleration};
   if constexpr (with_states) {
-    const auto of_effects = state_rates(drive.effects(), told, drive.load(), at, mode.motion);
+    const auto of_effects = drive.state_rates(at, mode);
     std::copy(of_effects.begin(), of_effects.end(), rates.begin() + 2);
   }
   return Shown<Drive, S>{x,

@@ -30,10 +30,11 @@ std::array<S, 2> behind_coupling(const Effects<T>& effects, const LoadCoupling<T
                               S(T(load.inertia()) + J.inertia), at, states);
 }
 
-/// Rates of the states of effects, for a command [N m] and a load.
-template <class T, class S, class Load>
+/// Rates of the states of effects, for a command [N m] and a load; friction_loss() is the power that friction takes
+/// [W].
+template <class T, class S, class Load, class Loss>
 std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S& command, const Load& load,
-                                              const MomentOfEffects<S>& at, Motion motion) {
+                                              const MomentOfEffects<S>& at, Motion motion, Loss&& friction_loss) {
   using EffectStates = StateLayout<EffectList<T>>;
   std::array<S, effect_state_count> rates{};
   effects.for_each([&]<class E>(const std::optional<E>& effect) {
@@ -43,6 +44,8 @@ std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S
       const auto own = [&] {
         if constexpr (std::is_same_v<E, LoadCoupling<T>>)
           return behind_coupling<T, S>(effects, *effect, load, at, states);
+        else if constexpr (requires { effect->state_rates(command, states); })
+          return effect->state_rates(friction_loss(), states);
         else
           return effect->state_rates(command, at, motion, states);
       }();
@@ -52,11 +55,17 @@ std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S
   return rates;
 }
 
-/// The states of effects with which a run starts at a moment, under a load: 0, but for a coupling that carries it.
+/// The states of effects with which a run starts at a moment, under a load: 0, unless an effect states another one, or
+/// is a coupling that carries it.
 template <class Load>
 std::array<double, effect_state_count> starting_states(const Effects<double>& effects, const Load& load,
                                                        const Moment<double>& at) {
+  using EffectStates = StateLayout<EffectList<double>>;
   std::array<double, effect_state_count> all{};
+  effects.for_each([&]<class E>(const std::optional<E>& effect) {
+    if constexpr (requires { effect->starting_states(); })
+      if (effect) std::ranges::copy(effect->starting_states(), all.begin() + EffectStates::template first<E>());
+  });
   if (const auto* const coupling = effects.twisting_coupling()) {
     const auto own = coupling->start(
         at,
@@ -64,7 +73,7 @@ std::array<double, effect_state_count> starting_states(const Effects<double>& ef
           return torque_behind(effects, load, coupling->at_load(at, {twist, at.omega_g}));
         },
         load.ripple());
-    std::copy(own.begin(), own.end(), all.begin() + StateLayout<EffectList<double>>::first<LoadCoupling<double>>());
+    std::copy(own.begin(), own.end(), all.begin() + EffectStates::first<LoadCoupling<double>>());
   }
   return all;
 }

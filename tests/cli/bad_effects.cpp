@@ -87,6 +87,21 @@ TEST_CASE("a motor whose current is a state is rejected with what cannot carry i
        "*"}});
 }
 
+TEST_CASE("a gearbox that is half stated is rejected with what is missing") {
+  const std::string heat = "[effect.gearbox_heat]\nfriction_decay_per_K = 0.01\n";
+  check_rejected(Folder(), {
+      {"no capacity", with(heat + "thermal_resistance_K_per_W = 2\n"),
+       "s.toml:19:1: error: effect.gearbox_heat states thermal_resistance_K_per_W without heat_capacity_J_per_K, which says how fast the gearbox warms up; add it"},
+      {"no churning", with(heat + "churning_decay_per_K = 0.02\n"),
+       "s.toml:19:1: error: effect.gearbox_heat states churning_decay_per_K without churning_Nms_per_rad, which falls by it; add it, or leave out both"},
+      {"no heat to speak of", with(heat + "heat_capacity_J_per_K = 0\n"),
+       "s.toml:21:25: error: effect.gearbox_heat.heat_capacity_J_per_K = 0 J/K must be greater than 0 J/K"},
+      {"friction that rises", with("[effect.gearbox_heat]\nfriction_decay_per_K = -0.01\n"),
+       "s.toml:20:24: error: effect.gearbox_heat.friction_decay_per_K = -0.01 1/K must be at least 0 1/K"},
+      {"elastic teeth", with(heat + "heat_capacity_J_per_K = 100\n[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.gearbox_heat has states, which elastic teeth do not carry; leave heat_capacity_J_per_K out, or switch effect.tooth_compliance off"}});
+}
+
 TEST_CASE("bristles that are half stated are rejected with what is missing") {
   const std::string bristles = "[effect.worm_lugre]\ncoulomb_torque_Nm = 0.01\n";
   check_rejected(Folder(), {

@@ -28,6 +28,7 @@ std::vector<Effects<double>> each_effect() {
           effects(FrictionAsymmetry<double>{0.04}),
           effects(PositionFriction<double>{0.3, 0.2}),
           effects(FrictionDrift<double>{0.5, 2.0}),
+          effects(GearboxHeat<double>{0.01, 1e-4, 0.02, {}, {}, 30.0}),
           effects(GearCoulomb<double>{0.01}),
           effects(GearViscous<double>{0.01}),
           effects(FrictionUnderLoad<double>{0.2}),

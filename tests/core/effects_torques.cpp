@@ -241,9 +241,10 @@ TEST_CASE("with every effect on, motor and load still pay for friction and kinet
               WormLuGre<double>{1e-3, 2e-3, 30.0}, BearingAsymmetry<double>{1e-3, 1e-5}, HoldingBrake<double>{1e-3},
               WormInertia<double>{1e-6}, MeshFriction<double>{0.01}, Stribeck<double>{0.1, 0.2, 2.0},
               FrictionAsymmetry<double>{0.02}, PositionFriction<double>{0.2, 0.4}, ThreadFriction<double>{0.1, 0.9},
-              FrictionDrift<double>{0.1, 2.0}, GearCoulomb<double>{3e-3}, GearViscous<double>{1e-3},
-              FrictionUnderLoad<double>{0.2}, GearInertia<double>{1e-4}, LoadMagnitude<double>{0.2},
-              LoadAngle<double>{0.1}, LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4}),
+              FrictionDrift<double>{0.1, 2.0}, GearboxHeat<double>{0.01, 1e-5, 0.02, {}, {}, 30.0},
+              GearCoulomb<double>{3e-3}, GearViscous<double>{1e-3}, FrictionUnderLoad<double>{0.2},
+              GearInertia<double>{1e-4}, LoadMagnitude<double>{0.2}, LoadAngle<double>{0.1},
+              LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4}),
       0.1);
   for (const double theta : {-1.0, 0.3, 2.0})
     for (const double speed : {0.2, 1.5})

@@ -67,6 +67,7 @@ Effects<double> one_of_each() {
                  WormInertia<double>{2e-6}, Agma<double>{0.9}, MeshFriction<double>{0.01},
                  Stribeck<double>{0.03, 0.1, 1.0}, FrictionAsymmetry<double>{0.01}, PositionFriction<double>{0.1, 0.4},
                  ThreadFriction<double>{0.05, 0.9}, FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
+                 GearboxHeat<double>{0.01, 1e-5, 0.02, {}, {}, 5.0},
                  TorqueMap<double>{MapAxis::worm_speed, 1.2, map_over({-120, -40, 0, 30, 120}), MapShaft::gear},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
                  GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05}, LoadAngle<double>{0.05},

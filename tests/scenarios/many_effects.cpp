@@ -62,6 +62,11 @@ std::vector<std::string> drawn(near_ties::Dice& dice) {
                            coulomb, coulomb / bends, coulomb / bends * T * dice.decades(1e-5, 1e-3)));
     state(0.3, fmt::format("effect.holding_brake={{torque_Nm={},opens_s={},closes_s={}}}",
                            break_in * dice.decades(0.1, 3.0), T * dice.between(0.1, 1.0), T * dice.between(1.5, 2.5)));
+    // a gearbox that its losses warm by some 1 to 100 K within the run
+    state(0.4, fmt::format("effect.gearbox_heat={{friction_decay_per_K={},heat_capacity_J_per_K={},"
+                           "thermal_resistance_K_per_W={},starting_rise_K={}}}",
+                           dice.decades(1e-3, 1e-2), break_in * p.i * speed * T / dice.decades(1.0, 100.0),
+                           dice.decades(1.0, 100.0) / (break_in * p.i * speed), dice.between(0.0, 30.0)));
     state(0.3, fmt::format("effect.friction_under_load.share={}", dice.between(0.0, 0.4)));
     // so much that the arm, as a pendulum, swings some twenty times at most while the input does it once
     const double J2 = std::max(p.Jg * dice.decades(0.1, 30.0), tau_l * std::pow(T / 125.0, 2.0)),
