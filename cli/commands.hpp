@@ -150,8 +150,12 @@ struct RareOptions {
   std::string metric;              ///< of the limit; empty: of the first one
   std::uint64_t per_level = 2000;  ///< points of a level of the subset simulation
   std::uint64_t samples = 2000;    ///< around the design point
+  std::string output;              ///< empty: none
+  std::string command_line;        ///< as typed
   unsigned threads = 0;
   bool json = false;
+  bool resume = false;
+  Replace replace = Replace::same_kind;
 };
 int rare_command(const RareOptions& options);
 

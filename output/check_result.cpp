@@ -55,6 +55,22 @@ void check_sweep(hid_t file) {
   for (const char* const name : {"study", "build"}) read_text_attribute(file, name);
 }
 
+/// Its runs are those of a study, as the trials of a sweep; what came of them is there once it is complete.
+void check_rare(hid_t file) {
+  const StoredTable runs(file, "runs");
+  for (const char* const name : {"study", "build", "settings"}) read_text_attribute(file, name);
+  if (!has_member(file, "estimates")) return;
+  const StoredTable estimates(file, "estimates"), levels(file, "levels");
+  check_table(estimates, numbers({"index", "probability", "low", "high", "variation", "runs"}), Range::finite,
+              Range::any);
+  estimates.check_texts("method");
+  check_table(levels, numbers({"index", "distance", "share", "variation", "acceptance"}), Range::finite, Range::any);
+  if (!has_member(file, "design_point")) return;
+  const StoredTable design(file, "design_point");
+  check_table(design, numbers({"index", "value", "importance"}), Range::finite, Range::any);
+  for (const char* const name : {"parameter", "unit"}) design.check_texts(name);
+}
+
 void check_diagnosis(hid_t file) {
   const StoredTable residual(file, "residual"), torques(file, "torques"), prediction(file, "prediction"),
       ranking(file, "ranking"), certificate(file, "certificate");
@@ -103,16 +119,20 @@ void check_result(hid_t file) {
     const char* name;
     void (*check)(hid_t);
   };
-  constexpr Kind kinds[] = {{"run", check_run},       {"statics", check_statics},
-                            {"steady", check_steady}, {"efficiency", check_efficiency},
-                            {"sweep", check_sweep},   {"diagnosis", check_diagnosis}};
+  constexpr Kind kinds[] = {{"run", check_run},
+                            {"statics", check_statics},
+                            {"steady", check_steady},
+                            {"efficiency", check_efficiency},
+                            {"sweep", check_sweep},
+                            {"rare", check_rare},
+                            {"diagnosis", check_diagnosis}};
   const std::string kind = read_text_attribute(file, "kind");
   const auto* const known =
       std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return kind == k.name; });
   if (known == std::end(kinds))
     throw ReadFault(
         file_of(file),
-        fmt::format("its kind '{}' is none of run, statics, steady, efficiency, sweep and diagnosis", kind));
+        fmt::format("its kind '{}' is none of run, statics, steady, efficiency, sweep, rare and diagnosis", kind));
   for (const char* const name : {"title", "scenario"}) read_text_attribute(file, name);
   known->check(file);
 }

@@ -10,6 +10,7 @@ import h5py
 import diagnosis
 import efficiency
 import over
+import rare
 import run
 import statics
 import steady
@@ -17,7 +18,7 @@ import sweep
 from result import NotAResult, attribute, text
 
 PICTURES = {"run": run.draw, "statics": statics.draw, "steady": steady.draw, "efficiency": efficiency.draw,
-            "sweep": sweep.draw, "diagnosis": diagnosis.draw}
+            "sweep": sweep.draw, "rare": rare.draw, "diagnosis": diagnosis.draw}
 NOT_A_RESULT, NOT_WRITTEN = 2, 4  # exit codes
 SOFTWARE = "wormdrive plot"  # as the pictures say
 MARK = b"Software\0" + SOFTWARE.encode()  # where a PNG file says so

@@ -63,6 +63,9 @@ void add_rare(CommandSet& commands) {
   command.add_option("--samples", options.samples, "runs around the design point")
       ->check(CLI::Range(100, 10000000))
       ->capture_default_str();
+  command.add_option("-o,--output", options.output, "result file; without it nothing is kept");
+  command.add_flag("--resume", options.resume, "continue an interrupted estimate: only the missing runs are made");
+  add_force(command, options.replace);
   add_threads(command, options.threads);
   add_json(command, options.json);
 }

@@ -62,7 +62,7 @@ void synchronise(const std::string& path);
 
 /// Title, kind and provenance that every result file carries as root attributes.
 struct Provenance {
-  std::string kind;  ///< "run", "statics", "steady", "efficiency", "sweep" or "diagnosis"
+  std::string kind;  ///< "run", "statics", "steady", "efficiency", "sweep", "rare" or "diagnosis"
   std::string title;
   std::string scenario;      ///< the resolved scenario as TOML text
   std::string command_line;  ///< as typed

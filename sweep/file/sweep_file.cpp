@@ -16,7 +16,6 @@ namespace wormdrive {
 namespace {
 
 constexpr std::size_t rows_at_once = 1 << 16;  ///< handed to the file, as far as some time does not pass before
-constexpr std::chrono::milliseconds longest_wait(500);
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "output/hdf5/fixed_table.hpp"
 #include "output/hdf5/part_file.hpp"
 #include "sweep/file/check_sweep.hpp"
+#include "sweep/file/origin.hpp"
 #include "sweep/file/reason_table.hpp"
 #include "sweep/study/study.hpp"
 #include "sweep/trial.hpp"
@@ -17,6 +18,9 @@
 #include "sweep/verdict.hpp"
 
 namespace wormdrive {
+
+/// How long a row that is done waits at most until it is written.
+inline constexpr std::chrono::milliseconds longest_wait(500);
 
 /// The columns of the table /trials.
 std::vector<ColumnDescription> trial_columns(const Study& study);
@@ -114,12 +118,10 @@ class SweepReader {
   ReasonTable counted_reasons() const;
 
  private:
-  std::string why_not(const std::string& study, const std::string& scenario, const std::string& build) const;
-
   std::string path_;
   Hdf5Handle file_;
   Study study_;
-  std::string scenario_, build_;
+  Origin origin_;
   std::optional<StoredTrials> stored_;  ///< there once the file is found good
   std::vector<TrialRange> present_;
   std::vector<std::string> reasons_;

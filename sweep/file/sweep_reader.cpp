@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include "description/diagnostics.hpp"
-#include "description/toml/write_scenario.hpp"
 #include "output/hdf5/read_ahead.hpp"
-#include "output/program.hpp"
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/study/load_study.hpp"
 
@@ -17,9 +15,9 @@ SweepReader::SweepReader(const std::string& path, bool while_written) : path_(pa
     read_ahead(path, while_written);
     file_ = while_written ? open_hdf5_while_written(path) : open_hdf5(path);
     if (read_text_attribute(file_, "kind") != "sweep") throw OutputFault("it is not the result of a sweep");
-    scenario_ = read_text_attribute(file_, "scenario");
-    build_ = read_text_attribute(file_, "build");
-    study_ = parse_study(read_text_attribute(file_, "study"), scenario_, path);
+    const std::string scenario = read_text_attribute(file_, "scenario");
+    study_ = parse_study(read_text_attribute(file_, "study"), scenario, path);
+    origin_ = {study_.text, scenario, read_text_attribute(file_, "build")};
     stored_ = check_sweep(file_, study_);
     for_each_block({}, [&](const Block& block) {
       std::uint64_t trial = block.first;
@@ -39,18 +37,8 @@ bool SweepReader::has(std::uint64_t trial) const {
                      [&](const TrialRange& range) { return range.first <= trial && trial < range.end; });
 }
 
-std::string SweepReader::why_not(const std::string& study, const std::string& scenario,
-                                 const std::string& build) const {
-  if (const auto other = difference(study_.text, study)) return "the study differs in " + *other;
-  if (const auto other = difference(scenario_, scenario)) return "the scenario differs in " + *other;
-  return build_ == build ? "" : fmt::format("it was made by {}, but this program is {}", build_, build);
-}
-std::string SweepReader::why_not_of(const Study& study) const {
-  return why_not(study.text, to_toml(study.scenario), program_identity());
-}
-std::string SweepReader::why_not_of(const SweepReader& other) const {
-  return why_not(other.study_.text, other.scenario_, other.build_);
-}
+std::string SweepReader::why_not_of(const Study& study) const { return why_not_beside(origin_, origin_of(study)); }
+std::string SweepReader::why_not_of(const SweepReader& other) const { return why_not_beside(origin_, other.origin_); }
 
 void SweepReader::for_each_block(const std::vector<std::string>& columns,
                                  const std::function<void(const Block&)>& visit) const {

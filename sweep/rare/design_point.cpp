@@ -52,6 +52,11 @@ class Surface {
 
 }  // namespace
 
+std::uint64_t most_evaluations_for_design_point(std::size_t dimensions) {
+  constexpr std::uint64_t beside_gradient = 1 + most_halvings;
+  return 1 + most_iterations * (2 * dimensions + beside_gradient);
+}
+
 DesignPoint find_design_point(const LimitState& limit_state, std::size_t dimensions, std::uint64_t noise) {
   Surface surface(limit_state, noise);
   Vector u = Vector::Zero(static_cast<Eigen::Index>(dimensions));

@@ -14,6 +14,9 @@ struct DesignPoint {
   std::uint64_t evaluations = 0;
 };
 
+/// How often the search evaluates the limit state at most.
+std::uint64_t most_evaluations_for_design_point(std::size_t dimensions);
+
 /// Searches the design point by the improved method of Hasofer, Lind, Rackwitz and Fiessler with a merit function
 /// [ZhangDerKiureghian1995]; gradients by central differences. All points have the noise of one index. The median
 /// drive must keep the limit.

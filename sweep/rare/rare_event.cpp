@@ -5,13 +5,11 @@
 #include <fmt/format.h>
 
 #include "description/diagnostics.hpp"
-#include "sweep/rare/drive_limit.hpp"
 #include "sweep/rare/importance_sampling.hpp"
 
 namespace wormdrive {
-namespace {
 
-const Threshold& threshold_of(const Study& study, const std::string& path, const std::string& metric) {
+const Threshold& limit_of(const Study& study, const std::string& path, const std::string& metric) {
   if (study.thresholds.empty())
     reject({path}, "states no limit; a [[threshold]] names the metric, and above_UNIT or below_UNIT the limit");
   if (metric.empty()) return study.thresholds.front();
@@ -22,7 +20,11 @@ const Threshold& threshold_of(const Study& study, const std::string& path, const
   return *found;
 }
 
-}  // namespace
+std::uint64_t most_runs(const Study& study, const RareSettings& settings) {
+  constexpr std::uint64_t median = 1, likely = 1;
+  return most_evaluations(SubsetSettings{.per_level = settings.per_level}) + median +
+         most_evaluations_for_design_point(study.parameters.size()) + likely + settings.samples;
+}
 
 double RareEvent::plain_trials() const {
   const RareEstimate& p = subset.estimate;
@@ -32,8 +34,8 @@ double RareEvent::plain_trials() const {
 RareEvent estimate_rare_event(const Study& study, const std::string& path, const RareSettings& settings) {
   const std::size_t dimensions = study.parameters.size();
   RareEvent event;
-  event.threshold = threshold_of(study, path, settings.metric);
-  DriveLimit limit(study, event.threshold, settings.threads);
+  event.threshold = limit_of(study, path, settings.metric);
+  DriveLimit limit(study, event.threshold, settings.threads, settings.kept);
   const LimitState state = [&](const auto& points, const auto& noise) { return limit(points, noise); };
   try {
     event.subset = subset_simulation(state, dimensions, {.per_level = settings.per_level, .seed = study.seed});

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sweep/rare/design_point.hpp"
+#include "sweep/rare/drive_limit.hpp"
 #include "sweep/rare/subset_simulation.hpp"
 #include "sweep/trial.hpp"
 
@@ -13,6 +14,7 @@ struct RareSettings {
   std::uint64_t per_level = 2000;  ///< points of a level of the subset simulation
   std::uint64_t samples = 2000;    ///< of importance sampling
   unsigned threads = 1;
+  KeptRuns kept{};  ///< nothing for none
 };
 
 /// How rarely drives of a study miss a limit, by two methods that share the simulation of a drive and nothing else.
@@ -29,6 +31,12 @@ struct RareEvent {
   /// Trials that plain sampling takes for the variation that the subset simulation has.
   double plain_trials() const;
 };
+
+/// The limit of a study by its metric, the first one if empty. Throws InputFault where there is none; path: its file.
+const Threshold& limit_of(const Study& study, const std::string& path, const std::string& metric);
+
+/// How many runs an estimate takes at most.
+std::uint64_t most_runs(const Study& study, const RareSettings& settings);
 
 /// Estimates the probability with which the drives of a study miss one of its limits; the same for any number of
 /// threads. Throws InputFault where the study states no such limit, or where its metric does not tell how near a drive

@@ -133,6 +133,10 @@ class Subsets {
 
 }  // namespace
 
+std::uint64_t most_evaluations(const SubsetSettings& settings) {
+  return settings.per_level + (settings.most_levels - 1) * (chain_length - 1) * (settings.per_level / chain_length);
+}
+
 SubsetResult subset_simulation(const LimitState& limit_state, std::size_t dimensions, const SubsetSettings& settings) {
   Subsets subsets(limit_state, dimensions, settings);
   SubsetResult result;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct SubsetResult {
   RareEstimate estimate;
   std::vector<SubsetLevel> levels;
 };
+
+/// How often it evaluates the limit state at most.
+std::uint64_t most_evaluations(const SubsetSettings& settings);
 
 /// Subset simulation [AuBeck2001]: a small probability as a product of shares around 0.1, each estimated from Markov
 /// chains that start in the level before, by conditional sampling with an adaptive step [Papaioannou2015, sec. 4.2].

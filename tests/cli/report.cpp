@@ -193,7 +193,7 @@ TEST_CASE("files that are not results, or damaged ones, get no report") {
       folder,
       {{"a result of another kind",
         "",
-        "other.h5: error: its kind 'something' is none of run, statics, steady, efficiency, sweep and diagnosis",
+        "other.h5: error: its kind 'something' is none of run, statics, steady, efficiency, sweep, rare and diagnosis",
         {"report", "other.h5"},
         true},
        {"a scenario", "", "s.toml: error: not an HDF5 file; wormdrive run writes one", {"report", "s.toml"}, true},

@@ -1,12 +1,16 @@
+#include <optional>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
+#include "description/diagnostics.hpp"
+#include "output/replacing.hpp"
 #include "statistics/normal.hpp"
 #include "statistics/threads.hpp"
-#include "sweep/rare/rare_event.hpp"
+#include "sweep/rare/rare_file.hpp"
 #include "sweep/study/load_study.hpp"
 
 namespace wormdrive {
@@ -76,12 +80,23 @@ std::string verdict_on(const RareEvent& event) {
 
 int rare_command(const RareOptions& options) {
   const Study study = load_study(options.study);
-  const RareEvent event = estimate_rare_event(
-      study, options.study, {options.metric, options.per_level, options.samples, threads_for(options.threads)});
+  RareSettings settings{limit_of(study, options.study, options.metric).metric, options.per_level, options.samples,
+                        threads_for(options.threads)};
+  std::optional<RareFile> file;
+  if (options.resume && options.output.empty()) reject({options.study}, "cannot be resumed without --output");
+  if (!options.output.empty()) {
+    file.emplace(followed(options.output), study, settings, options.command_line, options.resume, options.replace);
+    settings.kept = file->runs();
+  }
+  const RareEvent event = estimate_rare_event(study, options.study, settings);
+  if (file) file->finish(event);
   if (options.json) {
     fmt::print("{}\n", as_json(event, study).dump(2));
     return 0;
   }
+  if (file && file->from_before() > 0)
+    print_item("resume", file->was_complete() ? fmt::format("{} already contains every run", options.output)
+                                              : fmt::format("{} runs were already made", file->from_before()));
   const Threshold& limit = event.threshold;
   const RareEstimate& p = event.subset.estimate;
   fmt::print("{}\n", study.title);
@@ -92,12 +107,13 @@ int rare_command(const RareOptions& options) {
   print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
   if (event.median_misses) {
     print_item("design", "the median drive misses the limit: a miss is not rare, and plain sampling serves");
-    return 0;
+  } else {
+    print_design_point(event, study);
+    print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
+                                     words_of(event.importance), event.importance.evaluations));
+    print_item("check", verdict_on(event));
   }
-  print_design_point(event, study);
-  print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
-                                   words_of(event.importance), event.importance.evaluations));
-  print_item("check", verdict_on(event));
+  if (file && !file->was_complete()) print_item("wrote", options.output);
   return 0;
 }
 
