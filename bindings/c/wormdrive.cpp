@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "events/simulation_failure.hpp"
 #include "simulation/load_scenario.hpp"
@@ -16,7 +17,7 @@
 
 struct wormdrive_drive {
   std::unique_ptr<wormdrive::SteppedDrive> drive;
-  std::string set_aside;
+  std::string set_aside, columns;
 };
 
 namespace wormdrive {
@@ -48,9 +49,10 @@ wormdrive_drive* made(Load&& load) {
   std::unique_ptr<wormdrive_drive> made;
   guarded([&] {
     const Scenario scenario = load();
-    std::string told;
-    for (const std::string& sentence : set_aside(scenario)) told += (told.empty() ? "" : "\n") + sentence;
-    made.reset(new wormdrive_drive{make_stepped_drive(scenario), std::move(told)});
+    auto drive = make_stepped_drive(scenario);
+    const std::vector<std::string> columns = drive->columns();
+    made.reset(new wormdrive_drive{std::move(drive), fmt::format("{}", fmt::join(set_aside(scenario), "\n")),
+                                   fmt::format("{}", fmt::join(columns, "\n"))});
   });
   return made.release();
 }
@@ -95,6 +97,15 @@ int wormdrive_get_state(const wormdrive_drive* drive, wormdrive_state* state) {
     require(drive, "drive");
     require(state, "state");
     show(*drive->drive, *state);
+  });
+}
+const char* wormdrive_columns(const wormdrive_drive* drive) { return drive ? drive->columns.c_str() : ""; }
+int wormdrive_get_value(const wormdrive_drive* drive, const char* column, double* value) {
+  return guarded([&] {
+    require(drive, "drive");
+    require(column, "column");
+    require(value, "value");
+    *value = drive->drive->value(column);
   });
 }
 int wormdrive_reset(wormdrive_drive* drive) {

@@ -47,6 +47,11 @@ WORMDRIVE_API const char* wormdrive_set_aside(const wormdrive_drive* drive);
    WORMDRIVE_HALTED: the drive cannot go on and stands where it halted until it is reset or restored. */
 WORMDRIVE_API int wormdrive_step(wormdrive_drive* drive, double torque, double dt, wormdrive_state* state);
 WORMDRIVE_API int wormdrive_get_state(const wormdrive_drive* drive, wormdrive_state* state);
+/* The columns that a trajectory of the drive has (output/schema.md), a name to a line; among them currents, temperatures and
+   other states of its effects. It lives as long as the drive. */
+WORMDRIVE_API const char* wormdrive_columns(const wormdrive_drive* drive);
+/* What such a column shows now. */
+WORMDRIVE_API int wormdrive_get_value(const wormdrive_drive* drive, const char* column, double* value);
 /* Starts again, as the scenario states. */
 WORMDRIVE_API int wormdrive_reset(wormdrive_drive* drive);
 

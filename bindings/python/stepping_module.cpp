@@ -96,6 +96,12 @@ void add_stepping(py::module_& m) {
              return numbers(drive.state());
            })
       .def("state", [](const SteppedDrive& drive) { return numbers(drive.state()); })
+      .def("columns",
+           [](const SteppedDrive& drive) {
+             py::dict all;
+             for (const std::string& name : drive.columns()) all[py::str(name)] = drive.value(name);
+             return all;
+           })
       .def("events", [](const SteppedDrive& drive) { return by_name(drive.events()); })
       .def("reset", &SteppedDrive::reset)
       .def("snapshot", [](const SteppedDrive& drive) { return packed(drive.snapshot()); })
@@ -117,6 +123,11 @@ void add_stepping(py::module_& m) {
       .def("halted", &looking<&SteppedDrives::halted>)
       .def("step", &step)
       .def("state", [](const SteppedDrives& all, py::ssize_t k) { return numbers(all.state(place(all, k))); })
+      .def("column",
+           [](const SteppedDrives& all, const std::string& name) {
+             const std::vector<double> values = all.values(name);
+             return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+           })
       .def("events", [](const SteppedDrives& all, py::ssize_t k) { return by_name(all.events(place(all, k))); })
       .def("reset",
            [](SteppedDrives& all, const std::optional<std::vector<py::ssize_t>>& which) {

@@ -1,9 +1,11 @@
 #include "simulation/stepping/stepped_drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/build.hpp"
@@ -14,6 +16,7 @@
 #include "events/simulation_failure.hpp"
 #include "simulation/lane_run.hpp"
 #include "simulation/stepping/drive_stepper.hpp"
+#include "simulation/write_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -60,6 +63,21 @@ void SteppedDrive::reset() {
   begin();
   clock_ = {};
   halted_.reset();
+}
+
+std::vector<std::string> SteppedDrive::columns() const {
+  std::vector<std::string> names;
+  for (const auto& column : columns_) names.push_back(column.description.name);
+  return names;
+}
+
+double SteppedDrive::value(const std::string& column) const {
+  const auto found =
+      std::find_if(columns_.begin(), columns_.end(), [&](const auto& c) { return c.description.name == column; });
+  if (found == columns_.end())
+    reject({"drive"}, fmt::format("has no column '{}'; it has {}", column, fmt::join(columns(), ", ")));
+  const StepState now = state();
+  return found->value({now.t, now.at});
 }
 
 std::vector<double> SteppedDrive::snapshot() const {
@@ -120,6 +138,7 @@ std::unique_ptr<SteppedDrive> make_stepped_drive(const Scenario& scenario) {
                                                  return stepper_of(std::move(rigid), plant, has_lane_plant(plant));
                                                });
   drive->digest_ = digest_of(plant);
+  drive->columns_ = trajectory_columns(contents_of(plant));
   return drive;
 }
 

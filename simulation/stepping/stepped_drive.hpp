@@ -10,7 +10,7 @@
 #include "core/numbers/sine_cosine.hpp"
 #include "description/scenario.hpp"
 #include "events/taylor/leap.hpp"
-#include "output/trajectory.hpp"
+#include "output/run_columns.hpp"
 #include "simulation/stepping/step_clock.hpp"
 
 namespace wormdrive {
@@ -43,6 +43,10 @@ class SteppedDrive {
   double time() const { return clock_.now(); }
   const StepClock& clock() const { return clock_; }
   virtual StepState state() const = 0;
+  /// The names of all columns that a trajectory of this drive has, those of its effects' states among them.
+  std::vector<std::string> columns() const;
+  /// What such a column shows now. Throws InputFault where there is none of that name.
+  double value(const std::string& column) const;
   /// Why the drive could not go on, if it could not.
   const std::optional<std::string>& halted() const { return halted_; }
   virtual StepPlace place() const = 0;
@@ -86,6 +90,7 @@ class SteppedDrive {
   StepClock clock_;
   std::optional<std::string> halted_;
   double digest_ = 0.0;  ///< of the scenario, for snapshots to be known by
+  std::vector<RunColumn<Row>> columns_;
 };
 
 /// Throws InputFault unless torque [N m] and dt [s] make a step that time resolves.

@@ -202,6 +202,11 @@ SteppedDrive& SteppedDrives::synchronous(std::size_t k) const {
 }
 
 StepState SteppedDrives::state(std::size_t k) const { return synchronous(k).state(); }
+std::vector<double> SteppedDrives::values(const std::string& column) const {
+  std::vector<double> list;
+  for (std::size_t k = 0; k < size(); ++k) list.push_back(synchronous(k).value(column));
+  return list;
+}
 std::array<long, event_kind_count> SteppedDrives::events(std::size_t k) const { return drives_[k]->events(); }
 
 void SteppedDrives::reset(std::size_t k) {

@@ -39,6 +39,8 @@ class SteppedDrives {
   std::span<const std::int8_t> halted() const { return {halted_.data(), size()}; }  ///< 1 where a drive has halted
 
   StepState state(std::size_t k) const;
+  /// What a column of a trajectory shows of every drive, as of one alone.
+  std::vector<double> values(const std::string& column) const;
   std::array<long, event_kind_count> events(std::size_t k) const;
   /// Starts one again, as its scenario states; the others go on.
   void reset(std::size_t k);

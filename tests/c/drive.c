@@ -32,6 +32,13 @@ int main(void) {
   check(wormdrive_step(drive, 3.0, 0.1, &state) == WORMDRIVE_OK, "a step");
   check(fabs(state.gear_angle - 0.01) < 1e-11 && fabs(state.gear_speed - 0.2) < 1e-11, "the drive is pushed");
   check(state.motion == 1 && fabs(state.motor_torque - 3.0) < 1e-15, "it moves under the torque of the step");
+  double speed = 0.0;
+  check(strncmp(wormdrive_columns(drive), "time\ngear_angle\ngear_speed\n", 27) == 0, "the names of the columns");
+  check(wormdrive_get_value(drive, "gear_speed", &speed) == WORMDRIVE_OK && speed == state.gear_speed, "a column");
+  check_error(wormdrive_get_value(drive, "current", &speed) == WORMDRIVE_BAD_INPUT,
+              "drive: error: has no column 'current'; it has time, gear_angle, gear_speed, gear_acceleration, motor_torque, "
+              "load_torque, normal_force, motion, flank");
+  check_error(wormdrive_get_value(drive, NULL, &speed) == WORMDRIVE_BAD_INPUT, "column is a null pointer");
   double kept[64];
   const size_t count = wormdrive_snapshot(drive, NULL, 0);
   check(count > 0 && wormdrive_snapshot(drive, kept, 64) == count, "a snapshot");

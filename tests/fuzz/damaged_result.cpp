@@ -178,12 +178,11 @@ void take_damaged_run(const std::uint8_t* data, std::size_t size) {
     const Hdf5Handle file = open_hdf5(path);
     check_result(file);
     if (read_text_attribute(file, "kind") != "run") return;
-    for (const std::string table : {"trajectory", "events"}) {
-      const StoredTable stored(file, table);
-      for (const std::string& name : stored.numbers())
-        if (stored.column(name).values().size() != stored.column("time").rows())
-          throw std::logic_error("columns of a table that was found good differ in length");
-    }
+    // one of the two, by chance: most of the time goes into the opening of columns
+    const StoredTable stored(file, size > 0 && data[0] % 2 == 1 ? "trajectory" : "events");
+    for (const std::string& name : stored.numbers())
+      if (stored.column(name).values().size() != stored.column("time").rows())
+        throw std::logic_error("columns of a table that was found good differ in length");
   });
 }
 

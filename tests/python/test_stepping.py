@@ -73,6 +73,29 @@ class OneDrive(unittest.TestCase):
                 self.assertEqual(pool.map(go_on, [pickled]), [state])
             self.assertEqual(drive.reset(), wormdrive.Drive(FIG09, **overrides).state)
 
+    def test_every_column_of_a_run_shows_in_a_step(self):
+        torques = [0.0, *(0.15 * math.sin(k) for k in range(1, 30))]
+        table = {"kind": "samples", "times_s": [0.03 * k for k in range(30)], "torques_Nm": torques, "interpolation": "hold"}
+        states = {"dc_motor": {"resistance_ohm": 1.2, "torque_constant_Nm_per_A": 0.025, "inductance_H": 2e-3},
+                  "worm_lugre": {"coulomb_torque_Nm": 1e-3, "stiffness_Nm_per_rad": 0.05},
+                  "gearbox_heat": {"heat_capacity_J_per_K": 1, "friction_decay_per_K": 0.01, "starting_rise_K": 7},
+                  "load_coupling": {"inertia_kgm2": 1e-3, "stiffness_Nm_per_rad": 3, "damping_Nms_per_rad": 0.01}}
+        teeth = {"tooth_compliance": {"stiffness_N_per_m": 1e6, "damping_s_per_m": 0.1}}
+        for effect, least in ((states, 16), (teeth, 15), ({}, 9)):
+            settings = {"duration_s": 0.9, "report_interval_s": 0.9}
+            run = wormdrive.run({**GEAR, "effect": effect, "motor": {"torque": table}, "run": settings}).trajectory
+            drive = wormdrive.Drive({**GEAR, "effect": effect, "run": settings})
+            rows = {t: k for k, t in enumerate(run.time)}
+            self.assertGreaterEqual(len(drive.columns), least)
+            for torque in torques:
+                drive.step(torque, 0.03)
+                row = rows[drive.time]
+                for name, value in drive.columns.items():
+                    # motor torque, and what follows from it, jump with the next row of the table
+                    if name in ("gear_angle", "gear_speed", "load_coupling_twist", "load_coupling_speed", "worm_angle",
+                                "motor_current", "worm_lugre_deflection", "gearbox_heat_temperature_rise", "time"):
+                        self.assertEqual(value, getattr(run, name)[row], name)
+
     def test_what_is_set_aside_is_told(self):
         drive = wormdrive.Drive(SCENARIOS / "fig10_sliding_014rad_bare.toml")
         self.assertEqual(drive.set_aside, ["[controller], its reference, sensor and disturbance are not used: every step "
@@ -161,6 +184,23 @@ class ManyDrives(unittest.TestCase):
         fan.step(torques, 0.05)
         one.step(torques[1], 0.05)
         self.assertEqual(fan[1], one.state)
+
+    def test_a_column_shows_what_each_has_alone(self):
+        friction = np.linspace(0.1, 0.3, 5)
+        heat = {"effect": {"gearbox_heat": {"heat_capacity_J_per_K": 0.1}}}
+        drives = wormdrive.Drives(FIG09, 5, mesh={"friction": friction}, **heat)
+        drives.step(np.full(5, 0.06), 0.5)
+        rises = drives.column("gearbox_heat_temperature_rise")
+        for k in range(5):
+            drive = wormdrive.Drive(FIG09, mesh={"friction": friction[k]}, **heat)
+            drive.step(0.06, 0.5)
+            self.assertEqual(drive.columns["gearbox_heat_temperature_rise"], rises[k])
+        self.assertTrue((np.diff(rises) != 0).all())
+        with self.assertRaises(wormdrive.InputError) as fault:
+            drives.column("temperature")
+        self.assertEqual(str(fault.exception),
+                         "drive: error: has no column 'temperature'; it has time, gear_angle, gear_speed, gear_acceleration, "
+                         "motor_torque, load_torque, normal_force, motion, flank, gearbox_heat_temperature_rise")
 
     def test_others_run_while_drives_are_stepped(self):
         drives = wormdrive.Drives(FIG09, 200)  # by CVODE, one after the other

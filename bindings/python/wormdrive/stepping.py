@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
+import numpy.typing as npt
 
 from . import InputError, Scenario, Source, _core
 
@@ -46,6 +47,12 @@ class Drive:
     @property
     def state(self) -> State:
         return State._make(self._core.state())
+
+    @property
+    def columns(self) -> dict[str, float]:
+        """Every column that a trajectory of this drive has, as it is now: those of `state`, of elastic teeth, of the winding
+        of its motor, and of states of effects, such as {"motor_current": 1.2, "load_coupling_twist": 0.01, ...}"""
+        return self._core.columns()
 
     @property
     def time(self) -> float:
@@ -115,6 +122,11 @@ class Drives:
         """All go on by dt [s], each under its torque [N m]. One that cannot go on stays where it halted until it is reset
         and holds back no other; when all have made their step, SimulationHalted tells of it, once."""
         self._core.step(torques, dt)
+
+    def column(self, name: str) -> npt.NDArray[np.float64]:
+        """What a column of a trajectory shows of each now, as Drive.columns has it. Raises InputError for one that there
+        is not."""
+        return self._core.column(name)
 
     def events(self, k: int) -> dict[str, int]:
         """How many events drive k had since its start, by the names of a run's events."""
