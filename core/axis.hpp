@@ -10,6 +10,7 @@ enum class Axis { rotary, linear };
 inline std::string units_on(Axis axis, const std::string& rotary) {
   if (axis == Axis::rotary) return rotary;
   if (rotary == "N m") return "N";
+  if (rotary == "N m s") return "N s";
   std::string linear = rotary;
   if (rotary.starts_with("rad")) linear.replace(0, 3, 1, 'm');
   return linear;

@@ -19,6 +19,7 @@
 #include "core/effects/gear_inertia.hpp"
 #include "core/effects/gear_viscous.hpp"
 #include "core/effects/gearbox_heat.hpp"
+#include "core/effects/hard_stops.hpp"
 #include "core/effects/holding_brake.hpp"
 #include "core/effects/load_angle.hpp"
 #include "core/effects/load_coupling.hpp"
@@ -61,7 +62,7 @@ using EffectList =
              WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,  // worm shaft
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
              FrictionDrift, StaticFriction, GearboxHeat, TransmissionError, ToothCompliance, Backlash,     // mesh
-             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia,                                     // gear shaft
+             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia, HardStops,                          // gear shaft
              LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadCoupling,                                // load
              EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor
 

@@ -33,6 +33,7 @@ inline constexpr Unit degrees{"deg", "deg", degree};
 inline constexpr Unit radian_per_second{"rad_per_s", "rad/s"};
 inline constexpr Unit radian_per_second_squared{"rad_per_s2", "rad/s^2"};
 inline constexpr Unit newton_metre{"Nm", "N m"};
+inline constexpr Unit newton_metre_second{"Nms", "N m s"};
 inline constexpr Unit newton_metre_per_second{"Nm_per_s", "N m/s"};
 inline constexpr Unit newton_metre_per_radian{"Nm_per_rad", "N m/rad"};
 inline constexpr Unit second_per_radian{"s_per_rad", "s/rad"};

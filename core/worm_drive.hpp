@@ -7,12 +7,13 @@
 #include <type_traits>
 
 #include <Eigen/Core>
-#include <ceres/jet.h>
 
 #include "core/numbers/rounded.hpp"
 #include "core/numbers/series.hpp"
+#include "core/states/impact_on_stop.hpp"
+#include "core/states/jacobian.hpp"
+#include "core/states/observe.hpp"
 #include "core/states/state_rates.hpp"
-#include "core/states/winding.hpp"
 #include "core/torque_balance.hpp"
 
 namespace wormdrive {
@@ -37,9 +38,9 @@ class WormDrive : public TorqueBalance<T, Load> {
   using Mode = wormdrive::Mode;
   template <class S>
   using MomentHere = std::conditional_t<with_states, MomentOfEffects<S>, Moment<S>>;
-  static constexpr int guard_count = 2;
-  static constexpr int speed_guard = 0, flank_guard = 1;       ///< while moving
-  static constexpr int forward_guard = 0, backward_guard = 1;  ///< while stuck
+  static constexpr int guard_count = with_states ? 3 : 2;
+  static constexpr int speed_guard = 0, flank_guard = 1, stop_guard = 2;  ///< while moving
+  static constexpr int forward_guard = 0, backward_guard = 1;             ///< while stuck
 
   /// Time [s], state and mode: all that changes while a drive runs.
   struct Instant {
@@ -55,6 +56,18 @@ class WormDrive : public TorqueBalance<T, Load> {
 
   [[gnu::always_inline]] MomentHere<T> moment(const Instant& now) const {
     return resting(moment_at(T(now.t), now.x), now);
+  }
+
+  /// The same of any time and state, whatever their scalar.
+  template <class S, class X>
+  [[gnu::always_inline]] MomentHere<S> moment_at(const S& t, const X& x) const {
+    if constexpr (with_states) {
+      MomentHere<S> at{Balance::moment(t, S(x[0]), S(x[1])), {}};
+      for (std::size_t k = 0; k < at.states.size(); ++k) at.states[k] = S(x[2 + k]);
+      return at;
+    } else {
+      return Balance::moment(t, S(x[0]), S(x[1]));
+    }
   }
 
   State derivative(double t, const State& x, Mode mode) const {
@@ -74,24 +87,8 @@ class WormDrive : public TorqueBalance<T, Load> {
     return wormdrive::state_rates(effects(), this->command_at(at), this->load(), at, mode.motion,
                                   [&] { return this->friction_loss(at, mode); });
   }
-  /// Exact Jacobian of the derivative, by automatic differentiation: it stays right whatever effects are on.
   Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {
-    using Jet = ceres::Jet<double, state_size>;
-    std::array<Jet, state_size> state;
-    for (int k = 0; k < state_size; ++k) state[k] = Jet(x[k], k);
-    const MomentHere<Jet> at = moment_at(Jet(t), state);
-    const Jet a = acceleration(at, mode);
-    Jacobian J = Jacobian::Zero();
-    if (mode.motion != Motion::stuck) {
-      J(0, 1) = 1.0;
-      J.row(1) = a.v.transpose();
-    }
-    if constexpr (with_states) {
-      const auto of_effects = state_rates(at, mode);
-      for (int k = 2; k < state_size; ++k) J.row(k) = of_effects[k - 2].v.transpose();
-      if (mode.motion == Motion::stuck) J.template leftCols<2>().setZero();  // or pivoting would round the speed off 0
-    }
-    return J;
+    return state_jacobian(*this, t, x, mode);
   }
 
   /// Time, angle, speed and the states of effects along the motion in the present mode, as power series to order N;
@@ -123,22 +120,32 @@ class WormDrive : public TorqueBalance<T, Load> {
     if (T(sign(now.mode.motion)) * now.x[1] < T(0)) now.x[1] = T(0);
   }
 
-  /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed in
-  /// its direction and the distance to the switching surface, while stuck the margins to break-in, in rad/s^2.
+  /// Functions that are positive while the mode holds and fall through zero when it ends: while moving the speed, the
+  /// distance to the switching surface and the way to a stop, while stuck the margins to break-in, in rad/s^2.
   template <class S, template <class> class M>
   std::array<S, guard_count> guards(const M<S>& at, Mode mode) const {
-    if (mode.motion == Motion::stuck)
-      return {-release_acceleration(at, Motion::forward), release_acceleration(at, Motion::backward)};
-    const S speed = T(sign(mode.motion)) * at.omega_g;
-    if (mode.flank == Flank::none) return {speed, S(T(1))};
-    return {speed, -T(sign(mode.flank)) * beyond_surface(at, mode.motion)};
+    std::array<S, guard_count> all;
+    if (mode.motion == Motion::stuck) {
+      all[forward_guard] = margin(at, Motion::forward);
+      all[backward_guard] = margin(at, Motion::backward);
+    } else {
+      all[speed_guard] = T(sign(mode.motion)) * at.omega_g;
+      all[flank_guard] =
+          mode.flank == Flank::none ? S(T(1)) : S(-T(sign(mode.flank)) * beyond_surface(at, mode.motion));
+    }
+    if constexpr (with_states) all[stop_guard] = way_to_stop(effects(), at.theta_g, mode.motion);
+    return all;
   }
 
   /// Sizes of the terms of which the guards of a moving drive are the sums: what their rounding is a share of.
   std::array<double, guard_count> guard_terms(const MomentHere<double>& at,
                                               Mode mode) const requires std::same_as<T, double> {
     const SideTorques<double> tau = side_torques(at, mode.motion);
-    return {std::abs(at.omega_g), std::abs(tau.worm) + std::abs(tau.worm - beyond_surface(tau, at))};
+    std::array<double, guard_count> terms{std::abs(at.omega_g),
+                                          std::abs(tau.worm) + std::abs(tau.worm - beyond_surface(tau, at))};
+    if constexpr (with_states)
+      terms[stop_guard] = std::abs(at.theta_g) + std::abs(way_to_stop(effects(), at.theta_g, mode.motion));
+    return terms;
   }
 
   /// Values and rates of the guards along the motion.
@@ -151,6 +158,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
 
   static std::string_view guard_name(Mode mode, int guard) {
+    if (guard == stop_guard) return "hard stop";
     if (mode.motion == Motion::stuck) return guard == forward_guard ? "forward break-in" : "backward break-in";
     return guard == speed_guard ? "gear speed" : "switching surface";
   }
@@ -159,11 +167,13 @@ class WormDrive : public TorqueBalance<T, Load> {
   Instant jump(Instant now, int guard) const {
     if (now.mode.motion == Motion::stuck) {
       now.mode = moving(now, guard == forward_guard ? Motion::forward : Motion::backward);
-    } else if (guard == speed_guard) {
-      now.x[1] = T(0);
-      now.since = T(now.t);
+    } else if (guard != flank_guard) {
       const Motion reversed = now.mode.motion == Motion::forward ? Motion::backward : Motion::forward;
-      now.mode = starts(now, reversed) ? moving(now, reversed) : Mode{};
+      if constexpr (with_states)
+        if (guard == stop_guard) strike(*this, now);
+      if (guard == speed_guard) now.x[1] = T(0);
+      now.since = T(now.t);
+      now.mode = now.x[1] != T(0) || starts(now, reversed) ? moving(now, reversed) : Mode{};
     } else {
       // the other one, unless the surface is only touched
       const auto beyond = beyond_surface(ahead<deciding, Rounded>(now), now.mode.motion);
@@ -195,21 +205,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// The gear angle that the sensor sees [rad].
   T measured_angle(const Instant& now) const { return effects().measured_angle(now.x[0]); }
 
-  Observation observe(const Instant& now) const requires std::same_as<T, double> {
-    const MomentHere<double> at = moment(now);
-    const SideTorques<double> input = inputs(at, now.mode.motion), tau = side_torques(input, at, now.mode.motion);
-    const double alpha = now.mode.motion == Motion::stuck ? 0.0 : acceleration(tau, at, now.mode);
-    Observation o{.theta_g = now.x[0],
-                  .omega_g = now.x[1],
-                  .alpha_g = alpha,
-                  .tau_m = input.worm,
-                  .tau_l = input.gear,
-                  .normal_force = normal_force(tau, at, alpha, now.mode),
-                  .mode = now.mode,
-                  .winding = winding(effects(), motor_command(at.t), at)};
-    if constexpr (with_states) o.states = at.states;
-    return o;
-  }
+  Observation observe(const Instant& now) const requires std::same_as<T, double> { return observation(*this, now); }
 
  private:
   template <class Flow>
@@ -234,16 +230,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     return resting(at, now);
   }
 
-  template <class S, class X>
-  [[gnu::always_inline]] MomentHere<S> moment_at(const S& t, const X& x) const {
-    if constexpr (with_states) {
-      MomentHere<S> at{Balance::moment(t, S(x[0]), S(x[1])), {}};
-      for (std::size_t k = 0; k < at.states.size(); ++k) at.states[k] = S(x[2 + k]);
-      return at;
-    } else {
-      return Balance::moment(t, S(x[0]), S(x[1]));
-    }
-  }
   template <class S, template <class> class M>
   static M<S> resting(M<S> at, const Instant& now) {
     if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
@@ -251,6 +237,19 @@ class WormDrive : public TorqueBalance<T, Load> {
   }
   static constexpr int deciding = 3;  ///< order of the series that decide what happens just after an event
 
+  /// Whether a stop holds the gear in a direction.
+  template <class S>
+  bool is_held([[maybe_unused]] const S& theta_g, [[maybe_unused]] Motion motion) const {
+    if constexpr (with_states)
+      return is_at_stop(effects(), theta_g, motion);
+    else
+      return false;
+  }
+  /// What is left to break-in in a direction [rad/s^2].
+  template <class S, template <class> class M>
+  S margin(const M<S>& at, Motion motion) const {
+    return is_held(at.theta_g, motion) ? S(T(1)) : S(T(-sign(motion)) * release_acceleration(at, motion));
+  }
   /// The acceleration that motion from rest would have, on the flank that this motion would load.
   template <class S, template <class> class M>
   S release_acceleration(const M<S>& at, Motion motion) const {
@@ -269,6 +268,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Whether the gear starts from rest in this direction. An acceleration that is not more than what is not known of it
   /// starts nothing: ties mean stick, and the guard of rest finds the moment at which they end.
   bool starts(const Instant& now, Motion motion) const {
+    if (is_held(now.x[0], motion)) return false;
     Instant rest{now.t, now.x, {}, now.since};
     rest.x[1] = T(0);
     if (T(sign(motion)) * release_acceleration(moment(rest), motion) <= T(0)) return false;  // mostly, at less cost

@@ -104,6 +104,20 @@ std::string refusal(const WormLuGre<double>& friction, const Scenario&) {
   return "";
 }
 
+std::string refusal(const HardStops<double>& stops, const Scenario& scenario) {
+  const Spelling low = spellings("angle_low", unit::degrees, scenario.axis).front(),
+                 high = spellings("angle_high", unit::degrees, scenario.axis).front();
+  if (!stops.low && !stops.high) return fmt::format("states neither {} nor {}; add either or both", low.key, high.key);
+  const auto told = [](double angle, const Spelling& s) { return fmt::format("{:.6g} {}", angle / s.unit.si, s.unit.symbol); };
+  if (stops.low && stops.high && *stops.low >= *stops.high)
+    return fmt::format("has {} = {}, which must be less than {} = {}", low.key, told(*stops.low, low), high.key,
+                       told(*stops.high, high));
+  const double start = scenario.initial.theta_g;
+  if ((stops.low && start < *stops.low) || (stops.high && start > *stops.high))
+    return fmt::format("leaves out the start, {}: it must lie between the stops", told(start, low));
+  return "";
+}
+
 std::string refusal(const LoadCrank<double>& crank, const Scenario& scenario) {
   if (scenario.axis == Axis::linear) return "needs a gear that turns, but the axis is linear";
   const double shortest = LoadCrank<double>::shortest_rod * crank.crank;

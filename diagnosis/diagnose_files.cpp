@@ -10,6 +10,7 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "description/rejection.hpp"
+#include "diagnosis/candidates/catalogue.hpp"
 #include "diagnosis/changes.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/data/recorded_table.hpp"
@@ -93,6 +94,8 @@ Diagnosis of_break_ins(const Scenario& scenario, const std::vector<std::string>&
 
 Diagnosis of_recordings(const Scenario& scenario, const std::vector<std::string>& files,
                         const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads) {
+  // before what such a drive would need for the motion is compared with what the recordings state
+  if (const std::string why = why_not_diagnosed(scenario.effects); !why.empty()) reject({files.front()}, why);
   std::vector<Recording> recordings;
   std::vector<std::string> remarks;
   for (const std::string& file : files) {

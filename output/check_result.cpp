@@ -98,13 +98,15 @@ void check_diagnosis(hid_t file) {
 
 void check_run(hid_t file) {
   const StoredTable trajectory(file, "trajectory"), events(file, "events");
-  RunContents contents{.elastic = trajectory.has("gear_motion"), .winding = trajectory.has("motor_current")};
+  RunContents contents{.elastic = trajectory.has("gear_motion"),
+                       .winding = trajectory.has("motor_current"),
+                       .stops = trajectory.has("hard_stops_impulse")};
   StateLayout<EffectList<double>>::for_each([&](std::string_view id, const EffectState& state, std::size_t place) {
     if (const StateColumn column = state_column(id, state, place); trajectory.has(column.description.name))
       contents.states.push_back(column);
   });
   check_table(trajectory, descriptions(trajectory_columns(contents), Axis::rotary), Range::rising, Range::finite);
-  check_table(events, descriptions(event_columns(contents.elastic), Axis::rotary), Range::ordered, Range::finite);
+  check_table(events, descriptions(event_columns(contents), Axis::rotary), Range::ordered, Range::finite);
   if (!has_member(file, "controller")) return;
   const StoredTable controller(file, "controller");
   Columns columns = descriptions(controller_columns(), Axis::rotary);

@@ -54,6 +54,7 @@ bool opens(const std::string& path) {
 
 /// "a run", "a statics map"
 std::string described(const std::string& kind) {
+  if (kind == "rare") return "an estimate of rare misses";
   return kind == "run" || kind == "sweep" || kind == "diagnosis" ? fmt::format("a {}", kind)
                                                                  : fmt::format("a result of {}", kind);
 }
@@ -100,7 +101,8 @@ void reject_replacing(const std::string& path, std::string_view kind, Replace re
   if (replace == Replace::anything || !fs::exists(path, none) || fs::file_size(path, none) == 0) return;
   if (!is_hdf5(path)) reject_place(path, fmt::format("it exists and is not an HDF5 file; {}", cure));
   reject_another_kind(path, kind);
-  if (kind == "sweep") reject_place(path, fmt::format("it holds a finished sweep; {}", cure));
+  if (kind == "sweep" || kind == "rare")  // which may have taken hours
+    reject_place(path, fmt::format("it holds a finished {}; {}", kind == "sweep" ? "sweep" : "estimate", cure));
 }
 
 void reject_replacing_unmarked(const std::string& path, std::string_view mark, Replace replace) {

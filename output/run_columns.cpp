@@ -66,21 +66,22 @@ std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents) {
 
 namespace {
 
-/// The kinds of event that a drive can have, as flags: those of a rigid drive come first.
-ColumnDescription kinds_column(bool elastic) {
+/// The kinds of event that a drive can have, as flags.
+ColumnDescription kinds_column(const RunContents& contents) {
   ColumnDescription column{"kind", "", "what happened", "", {}};
   for (const EventKind kind : event_kinds) {
-    if (!elastic && kind > EventKind::flank_change) break;
+    if (!can_happen(kind, contents)) continue;
     column.flag_meanings += fmt::format("{}{}", column.flag_meanings.empty() ? "" : " ", name(kind));
     column.flag_values.push_back(static_cast<std::int8_t>(kind));
   }
   return column;
 }
 
-std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
-  const std::vector<RunColumn<Event>> columns{
+std::vector<RunColumn<Event>> make_event_columns(const RunContents& contents) {
+  const bool elastic = contents.elastic;
+  std::vector<RunColumn<Event>> columns{
       {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
-      {kinds_column(elastic), [](const Event& e) { return static_cast<double>(e.kind()); }},
+      {kinds_column(contents), [](const Event& e) { return static_cast<double>(e.kind()); }},
       {{"motion_before", "", fmt::format("{} before", sign_of_speed(elastic)), motions, signs},
        [](const Event& e) { return sign(e.before.mode.motion); }},
       {{"motion_after", "", fmt::format("{} after", sign_of_speed(elastic)), motions, signs},
@@ -99,6 +100,9 @@ std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
       {{"motor_torque_after", "N m", "motor torque just after"}, [](const Event& e) { return e.after.tau_m; }},
       {{"load_torque_before", "N m", "load torque just before"}, [](const Event& e) { return e.before.tau_l; }},
       {{"load_torque_after", "N m", "load torque just after"}, [](const Event& e) { return e.after.tau_l; }}};
+  columns = joined(
+      columns, contents.stops,
+      {{{"gear_speed_before", "rad/s", "gear speed just before"}, [](const Event& e) { return e.before.omega_g; }}});
   return joined(
       columns, elastic,
       {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Event& e) { return e.after.teeth->theta_w; }},
@@ -111,9 +115,14 @@ std::vector<RunColumn<Event>> make_event_columns(bool elastic) {
 
 }  // namespace
 
-const std::vector<RunColumn<Event>>& event_columns(bool elastic) {
-  static const std::vector<RunColumn<Event>> columns[] = {make_event_columns(false), make_event_columns(true)};
-  return columns[elastic ? 1 : 0];
+bool can_happen(EventKind kind, const RunContents& contents) {
+  return kind <= EventKind::flank_change || contents.elastic || (contents.stops && kind == EventKind::impact);
+}
+
+const std::vector<RunColumn<Event>>& event_columns(const RunContents& contents) {
+  static const std::vector<RunColumn<Event>> columns[] = {make_event_columns({}), make_event_columns({.elastic = true}),
+                                                          make_event_columns({.stops = true})};
+  return columns[contents.elastic ? 1 : contents.stops ? 2 : 0];
 }
 
 const std::vector<RunColumn<ControlRecord>>& controller_columns() {

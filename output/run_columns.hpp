@@ -42,10 +42,13 @@ std::vector<std::vector<double>> values(const std::vector<RunColumn<Source>>& co
 /// The column of a state of an effect; place: among the states of all.
 StateColumn state_column(std::string_view id, const EffectState& state, std::size_t place);
 
+/// Whether a run can have events of a kind.
+bool can_happen(EventKind kind, const RunContents& contents);
+
 /// The columns of a run's tables, with those of elastic teeth, of a motor's winding and of states of effects behind
 /// them.
 std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents);
-const std::vector<RunColumn<Event>>& event_columns(bool elastic);
+const std::vector<RunColumn<Event>>& event_columns(const RunContents& contents);
 const std::vector<RunColumn<ControlRecord>>& controller_columns();
 
 }  // namespace wormdrive

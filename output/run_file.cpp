@@ -16,8 +16,7 @@ RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axi
   write_provenance(file_.file(), provenance);
   trajectory_.emplace(file_.file(), "trajectory", descriptions(trajectory_columns(contents_), axis),
                       contents_.expected_rows);
-  events_.emplace(file_.file(), "events", descriptions(event_columns(contents_.elastic), axis),
-                  contents_.expected_rows);
+  events_.emplace(file_.file(), "events", descriptions(event_columns(contents_), axis), contents_.expected_rows);
   if (contents_.controlled)
     controller_.emplace(file_.file(), "controller", descriptions(controller_columns(), axis), contents_.expected_rows);
   file_.flush();
@@ -26,7 +25,7 @@ RunFile::RunFile(const std::string& path, const Provenance& provenance, Axis axi
 
 void RunFile::append(const Trajectory& part) {
   trajectory_->append(values(trajectory_columns(contents_), part.rows));
-  events_->append(values(event_columns(contents_.elastic), part.events));
+  events_->append(values(event_columns(contents_), part.events));
   // HDF5 writes how long a column is before it writes where the data are: killed between the two, the last rows are
   // lost. Flushing after every portion, one kill in a hundred hit these 50 us; now it is one in ten thousand.
   if (Clock::now() - flushed_ < std::chrono::seconds(1)) return;

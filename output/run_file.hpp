@@ -25,6 +25,7 @@ struct RunContents {
   bool controlled = false;  ///< there will be samples of a controller
   bool elastic = false;     ///< worm and gear move on their own
   bool winding = false;     ///< the motor has one
+  bool stops = false;       ///< the gear can hit hard ones
   std::vector<StateColumn> states{};
   std::uint64_t expected_rows = 0;  ///< about how many
 };

@@ -23,7 +23,7 @@ enum class EventKind : std::int8_t {
   reversal,      ///< passes through zero speed into the other direction
   flank_change,  ///< the other flank takes the load, direction unchanged
   // of elastic teeth only, whose worm and gear may each start, stop and reverse
-  impact,           ///< a flank touches
+  impact,           ///< a flank touches; of rigid teeth, the gear hits a hard stop
   opening,          ///< the flanks part
   gear_break_away,  ///< the gear starts from rest
   gear_stop,        ///< the gear comes to rest
@@ -39,8 +39,10 @@ constexpr EventKind kind_of(Mode before, Mode after) {
   if (after.motion == Motion::stuck) return EventKind::stop;
   return before.motion != after.motion ? EventKind::reversal : EventKind::flank_change;
 }
-/// Of several changes at once the teeth's names the event, then the worm's.
+/// Of several changes at once the teeth's names the event, then the worm's; an impact on a stop names itself.
 constexpr EventKind kind_of(const Observation& before, const Observation& after) {
+  constexpr std::size_t impulse = StateLayout<EffectList<double>>::first<HardStops<double>>();
+  if (before.states[impulse] != after.states[impulse]) return EventKind::impact;
   if (!before.teeth || !after.teeth) return kind_of(before.mode, after.mode);
   if (before.mode.flank != after.mode.flank) {
     if (before.mode.flank == Flank::none) return EventKind::impact;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/elastic/elastic_teeth.hpp"
+#include "core/states/impact_on_stop.hpp"
 #include "core/states/winding.hpp"
 #include "description/build.hpp"
 #include "output/run_columns.hpp"
@@ -21,7 +22,7 @@ inline std::string describe_solver(const RunSettings& run) {
 /// What the run of a scenario will show.
 inline RunContents contents_of(const Scenario& scenario) {
   RunContents contents{scenario.control.has_value(), has_elastic_teeth(scenario.effects),
-                       dc_motor(scenario.effects).has_value()};
+                       dc_motor(scenario.effects).has_value(), hard_stops(scenario.effects).has_value()};
   contents.expected_rows = static_cast<std::uint64_t>(std::min(scenario.run.duration / scenario.run.rows_every(), 1e6));
   scenario.effects.for_each_state([&](std::string_view id, const EffectState& state, std::size_t place) {
     if (!state.meaning.empty()) contents.states.push_back(state_column(id, state, place));

@@ -19,7 +19,10 @@ auto indicator_scales(const WormDrive<double, Load, with_states>& drive,
   const auto rest = drive.guards(drive.moment(now), Mode{});
   const double a = std::max(std::abs(rest[0]), std::abs(rest[1])), acceleration = a > 0.0 && std::isfinite(a) ? a : 1.0;
   const double surface = drive.mesh().has_teeth ? acceleration * drive.mesh().Jw * drive.mesh().i : 1.0;
-  return std::array{std::sqrt(acceleration), surface, acceleration, acceleration};
+  std::array<double, Interface<WormDrive<double, Load, with_states>>::indicators.size()> scales;
+  scales.fill(1.0);  // of the way to a stop
+  std::ranges::copy(std::array{std::sqrt(acceleration), surface, acceleration, acceleration}, scales.begin());
+  return scales;
 }
 template <class Load>
 auto indicator_scales(const CompliantDrive<double, Load>& drive,

@@ -61,8 +61,9 @@ struct Interface;
 template <class T, class Load, bool with_states>
 struct Interface<WormDrive<T, Load, with_states>> {
   static constexpr std::size_t count = WormDrive<T, Load, with_states>::state_size;
-  static constexpr std::array<std::string_view, 4> indicators{"gear speed", "switching surface", "forward break-in",
-                                                              "backward break-in"};
+  static constexpr std::array<std::string_view, 5> names{"gear speed", "switching surface", "forward break-in",
+                                                         "backward break-in", "hard stop"};
+  static constexpr std::span indicators = std::span(names).first(with_states ? 5 : 4);
   static constexpr auto states =
       and_of_effects<count>(std::array{ScalarVariable::gear_angle, ScalarVariable::gear_speed}, first_effect_state);
   static constexpr auto rates = and_of_effects<count>(

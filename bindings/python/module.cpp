@@ -86,7 +86,7 @@ PYBIND11_MODULE(_core, m) {
            })
       .def("events",
            [](const RunResult& r) {
-             return table(event_columns(r.contents().elastic), r.scenario().axis, r.trajectory().events);
+             return table(event_columns(r.contents()), r.scenario().axis, r.trajectory().events);
            })
       .def("controller", [](const RunResult& r) { return table(controller_columns(), r.scenario().axis, r.samples()); })
       .def_property_readonly("controlled", [](const RunResult& r) { return r.scenario().control.has_value(); })

@@ -20,8 +20,9 @@ namespace {
 constexpr int agree = 0, differ = 1;
 
 /// The tables of result files that are compared row by row, with what their rows stand over.
-constexpr std::pair<const char*, const char*> compared_tables[] = {
-    {"trajectory", "time"}, {"controller", "time"}, {"statics", "load_torque"}, {"model", "worm_speed"}};
+constexpr std::pair<const char*, const char*> compared_tables[] = {{"trajectory", "time"},     {"controller", "time"},
+                                                                   {"statics", "load_torque"}, {"model", "worm_speed"},
+                                                                   {"levels", "index"},        {"estimates", "index"}};
 
 /// How one signal of two results compares.
 struct Difference {

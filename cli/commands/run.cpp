@@ -14,6 +14,7 @@
 #include "description/toml/write_scenario.hpp"
 #include "events/simulation_failure.hpp"
 #include "simulation/load_scenario.hpp"
+#include "simulation/write_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -24,7 +25,7 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
                         {"steps", summary.statistics.steps}, {"evaluations", summary.statistics.evaluations},
                         {"gear_angle", summary.end.theta_g}, {"gear_speed", summary.end.omega_g}};
   for (const EventKind kind : event_kinds)
-    if (kind <= EventKind::flank_change || has_elastic_teeth(scenario.effects))
+    if (can_happen(kind, contents_of(scenario)))
       result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
   if (summary.control) result["control"] = as_json(*summary.control);
   if (summary.audit)

@@ -8,7 +8,7 @@ namespace wormdrive {
 // Compiled once, for these solvers take seconds wherever they are instantiated.
 
 /// A square matrix of few rows.
-inline constexpr int most_rows = 8;
+inline constexpr int most_rows = 16;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_rows, most_rows>;
 /// Eigenvalues of a real matrix.
 using Eigenvalues = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, most_rows, 1>;

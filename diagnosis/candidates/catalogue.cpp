@@ -204,6 +204,7 @@ std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magni
   std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
                                 {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
                                 {"gearbox_heat", "friction_drift stands for what warming up does within recordings"},
+                                {"hard_stops", "stops are to be stated, not a deviation"},
                                 {"holding_brake", "a brake to state, not a deviation"},
                                 {"load_crank", "a crank is to be stated, not a deviation"},
                                 {"load_coupling", "a coupling in front of the load is to be stated, not a deviation"},

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/elastic/elastic_teeth.hpp"
 #include "description/build_control.hpp"
 #include "description/keys.hpp"
+#include "simulation/write_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -48,7 +48,7 @@ std::vector<Metric> metrics_of(const Scenario& scenario) {
   if (scenario.control) add_tracking(list, !scenario.control->reference.terms.empty());
   if (scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law)) add_lemma1(list, scenario);
   for (const EventKind kind : event_kinds)
-    if (kind <= EventKind::flank_change || has_elastic_teeth(scenario.effects))
+    if (can_happen(kind, contents_of(scenario)))
       list.push_back({fmt::format("{}_events", name(kind)), unit::none,
                       fmt::format("events of the kind {}, over the whole run", name(kind)), [kind](const Outcome& o) {
                         return static_cast<double>(o.run.events[static_cast<std::size_t>(kind)]);

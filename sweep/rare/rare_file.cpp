@@ -1,6 +1,7 @@
 #include "sweep/rare/rare_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <utility>
@@ -71,12 +72,20 @@ std::map<std::uint64_t, Trial> stored_runs(const std::string& path, const Study&
       if (columns.front()[row] != static_cast<double>(row))
         table.column("index").reject(fmt::format("contains {} in the row of run {}", columns.front()[row], row));
       Trial run{row, {}, {}, static_cast<TrialStatus>(status), {}};
-      for (std::size_t k = 1; k + 1 < columns.size(); ++k)
-        (k <= study.parameters.size() ? run.parameters : run.metrics).push_back(columns[k][row]);
+      for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+        run.parameters.push_back(columns[1 + k][row]);
+        if (!std::isfinite(run.parameters.back()))
+          table.column(study.parameters[k].name)
+              .reject(fmt::format("holds {} for run {}, which is not finite", run.parameters.back(), row));
+      }
+      for (std::size_t k = 1 + study.parameters.size(); k + 1 < columns.size(); ++k)
+        run.metrics.push_back(columns[k][row]);
       runs.emplace(row, std::move(run));
     }
   } catch (const OutputFault& fault) {
     reject({path}, fmt::format("cannot be resumed: {}", fault.what()));
+  } catch (const InputFault& fault) {  // of its study or scenario
+    reject({path}, fmt::format("cannot be resumed: its study or scenario is damaged: {}", fault.faults.front().what));
   }
   return runs;
 }
@@ -175,7 +184,7 @@ RareFile::RareFile(const std::string& path, const Study& study, const RareSettin
   if (!goes_on && from_before_ > 0) return;
   if (!goes_on) {
     reject_replacing(path, "rare", replace);
-    PartFile file(part, OutputLock(), "rare", Replace::anything);  // so that it is whole from its first moment on
+    PartFile file(part, OutputLock(), "rare", replace);  // so that it is whole from its first moment on
     write_origin(file.file(), study, settings_, command_line);
     FixedTable::create(file.file(), "runs", run_columns(study), most_runs(study, settings));
     file.finish();
@@ -228,7 +237,7 @@ void RareFile::finish(const RareEvent& event) {
   std::map<std::uint64_t, Trial> all = made_;
   for (const Trial& run : written_) all.emplace(run.index, run);
   const std::string path = file_->path() + ".whole";
-  PartFile whole(path, OutputLock(), "rare", Replace::anything);
+  PartFile whole(path, OutputLock(), "rare", Replace::same_kind);
   write_origin(whole.file(), study_, settings_, command_line_);
   write_runs(whole.file(), study_, all);
   write_estimates(whole.file(), event);
@@ -240,6 +249,7 @@ void RareFile::finish(const RareEvent& event) {
 }
 
 void RareFile::keep_safe(const std::stop_token& stop) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // every thread has its own: faults are told once, by the exception
   std::unique_lock lock(mutex_);
   for (bool last = false; !last && !fault_;) {
     wakes_.wait_for(lock, stop, longest_wait, [] { return false; });

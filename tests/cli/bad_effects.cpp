@@ -102,6 +102,21 @@ TEST_CASE("a gearbox that is half stated is rejected with what is missing") {
        "s.toml:19:1: error: effect.gearbox_heat has states, which elastic teeth do not carry; leave heat_capacity_J_per_K out, or switch effect.tooth_compliance off"}});
 }
 
+TEST_CASE("stops between which there is nothing, or not the start, are rejected") {
+  const std::string stops = "[effect.hard_stops]\n";
+  check_rejected(Folder(), {
+      {"no stop", with(stops + "restitution = 0.5\n"),
+       "s.toml:19:1: error: effect.hard_stops states neither angle_low_deg nor angle_high_deg; add either or both"},
+      {"the wrong way round", with(stops + "angle_low_deg = 30\nangle_high_deg = 20\n"),
+       "s.toml:19:1: error: effect.hard_stops has angle_low_deg = 30 deg, which must be less than angle_high_deg = 20 deg"},
+      {"the start beyond one", with(stops + "angle_low_deg = 30\n"),
+       "s.toml:19:1: error: effect.hard_stops leaves out the start, 0 deg: it must lie between the stops"},
+      {"more than all", with(stops + "angle_low_deg = -30\nrestitution = 1.5\n"),
+       "*"},
+      {"elastic teeth", with(stops + "angle_low_deg = -30\n[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.hard_stops has states, which elastic teeth do not carry; leave it out, or switch effect.tooth_compliance off"}});
+}
+
 TEST_CASE("bristles that are half stated are rejected with what is missing") {
   const std::string bristles = "[effect.worm_lugre]\ncoulomb_torque_Nm = 0.01\n";
   check_rejected(Folder(), {

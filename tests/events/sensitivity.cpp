@@ -75,11 +75,13 @@ Effects<double> one_of_each() {
                  EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
 }
 
-/// What makes the teeth elastic belongs to another drive; a late angle and what bends have tests of their own.
+/// What makes the teeth elastic, and stops, belong to other drives; a late angle and what bends have tests of their
+/// own.
 template <class Effect>
 constexpr bool left_out =
     std::is_same_v<Effect, ToothCompliance<double>> || std::is_same_v<Effect, Backlash<double>> ||
-    std::is_same_v<Effect, EncoderDelay<double>> || std::is_same_v<Effect, FrictionUnderLoad<double>>;
+    std::is_same_v<Effect, EncoderDelay<double>> || std::is_same_v<Effect, FrictionUnderLoad<double>> ||
+    std::is_same_v<Effect, HardStops<double>>;
 
 }  // namespace
 

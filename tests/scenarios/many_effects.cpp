@@ -77,6 +77,8 @@ std::vector<std::string> drawn(near_ties::Dice& dice) {
     state(0.4, fmt::format("effect.load_crank={{mass_kg={},crank_m={},rod_m={},angle_deg={}}}",
                            p.Jg * dice.decades(0.1, 3.0) / (crank * crank), crank, crank * dice.decades(1.3, 10.0),
                            dice.between(0.0, 360.0)));
+    state(0.3, fmt::format("effect.hard_stops={{angle_low_deg={},angle_high_deg={}}}", -dice.decades(2.0, 100.0),
+                           dice.decades(2.0, 100.0)));
     if (dice.chance(0.3)) {
       loads.push_back(fmt::format("{{kind=\"fan\",torque_Nm={},speed_rad_per_s={}}}", 0.3 * tau_l, speed));
       ++count;

@@ -22,6 +22,24 @@ struct Killed : std::runtime_error {
   Killed() : std::runtime_error("killed") {}
 };
 
+/// An estimate that is killed as soon as some of its runs are safe; how many are.
+std::size_t killed(const StudyFolder& folder, std::vector<std::string> words) {
+  const auto runs = [&] {  // 0 while there is no file
+    try {
+      const std::vector<double> status = read_column(open_hdf5_while_written(folder / "r.h5.part"), "runs/status");
+      return status.size() - static_cast<std::size_t>(std::count(status.begin(), status.end(), 0.0));
+    } catch (const OutputFault&) {
+      return std::size_t{0};
+    }
+  };
+  words.insert(words.begin(), WORMDRIVE_PROGRAM);
+  Process process(words, folder.path());
+  while (runs() == 0) usleep(20'000);
+  process.kill(SIGKILL);
+  process.wait();
+  return runs();
+}
+
 void check_same(const RareEvent& a, const RareEvent& b) {
   CHECK(a.subset.estimate.probability == b.subset.estimate.probability);
   CHECK(a.subset.estimate.variation == b.subset.estimate.variation);
@@ -78,28 +96,13 @@ TEST_CASE("kill -9 leaves the runs of an estimate, and --resume gives the number
   const Outcome whole = folder.run(words);
   REQUIRE(whole.exit == 0);
   words.insert(words.end(), {"-o", "r.h5"});
-  const auto runs = [&] {  // 0 while there is no file
-    try {
-      const std::vector<double> status = read_column(open_hdf5_while_written(folder / "r.h5.part"), "runs/status");
-      return status.size() - static_cast<std::size_t>(std::count(status.begin(), status.end(), 0.0));
-    } catch (const OutputFault&) {
-      return std::size_t{0};
-    }
-  };
-  {
-    std::vector<std::string> command = words;
-    command.insert(command.begin(), WORMDRIVE_PROGRAM);
-    Process process(command, folder.path());
-    while (runs() == 0) usleep(20'000);
-    process.kill(SIGKILL);
-    process.wait();
-  }
-  CHECK(runs() > 0);
+  const std::size_t left = killed(folder, words);
+  CHECK(left > 0);
   const Outcome again = folder.run(words);
   CHECK(again.exit == 2);
   CHECK(again.err == fmt::format("r.h5.part: error: contains {} runs of an interrupted estimate; add --resume to "
                                  "continue it, or delete it to start again\n",
-                                 runs()));
+                                 left));
   words.push_back("--resume");
   std::vector<std::string> others = words;
   others[3] = "500";
@@ -117,6 +120,23 @@ TEST_CASE("kill -9 leaves the runs of an estimate, and --resume gives the number
   CHECK(folder.names() == std::set<std::string>{"s.toml", "study.toml", "r.h5"});
 }
 
+TEST_CASE("a full disk loses no run of an estimate that is kept, and says how to go on", "[sweep][slow]") {
+  const StudyFolder folder(rare_study);
+  std::vector<std::string> words{"rare", "study.toml", "--per-level", "4000", "--threads", "1", "-o", "r.h5"};
+  CHECK(killed(folder, words) > 0);
+  words.push_back("--resume");
+  constexpr rlim_t room = 100'000;
+  const Outcome full = folder.run(words, room);
+  CHECK(full.exit == 4);
+  INFO(full.err);
+  CHECK(full.err.find('\n') == full.err.size() - 1);  // one line
+  CHECK(full.err.starts_with("wormdrive: cannot write r.h5.part"));
+  CHECK(
+      full.err.ends_with("File too large; runs older than a second are safe; free some space, then continue with: "
+                         "wormdrive rare study.toml --per-level 4000 --threads 1 -o r.h5 --resume\n"));
+  CHECK(folder.run(words).exit == 0);
+}
+
 TEST_CASE("an estimate is no other result: it is not resumed without its file, nor written over one", "[sweep]") {
   const StudyFolder folder(rare_study);
   CHECK(folder.run({"rare", "study.toml", "--resume"}).err ==
@@ -124,6 +144,17 @@ TEST_CASE("an estimate is no other result: it is not resumed without its file, n
   folder.write("mine.h5", "somebody's");
   const Outcome over = folder.run({"rare", "study.toml", "-o", "mine.h5"});
   CHECK(over.exit == 4);
+  folder.write("r.h5.whole", "somebody's, too");
+  CHECK(folder.run({"rare", "study.toml", "--per-level", "100", "--samples", "100", "-o", "r.h5"}).exit == 4);
+  CHECK(folder.names().contains("r.h5.whole"));
+  std::filesystem::remove(folder / "r.h5.whole");
+  CHECK(folder.run({"rare", "study.toml", "--per-level", "100", "--samples", "100", "-o", "r.h5", "--resume"}).exit ==
+        0);
+  CHECK(
+      folder.run({"rare", "study.toml", "--per-level", "200", "-o", "r.h5"}).err ==
+      "wormdrive: cannot write r.h5: it holds a finished estimate; choose another name, or replace it with --force\n");
+  CHECK(folder.run({"rare", "study.toml", "--per-level", "100", "-o", "r.h5", "--force"}).exit == 0);
+  CHECK(folder.run({"diff", "r.h5", "r.h5"}).exit == 0);
   REQUIRE(folder.sweep({"-o", "sweep.h5"}).exit == 0);
   const Outcome other = folder.run({"rare", "study.toml", "-o", "sweep.h5", "--resume"});
   CHECK(other.exit == 2);

@@ -60,6 +60,8 @@ inline const std::map<std::string, BaseExponents> base_units{
     {"rad/s^2", {.s = -2, .rad = 1}},
     {"m/s^2", {.m = 1, .s = -2}},
     {"N m", {.kg = 1, .m = 2, .s = -2}},
+    {"N m s", {.kg = 1, .m = 2, .s = -1}},
+    {"N s", {.kg = 1, .m = 1, .s = -1}},
     {"N m/s", {.kg = 1, .m = 2, .s = -3}},
     {"N m/rad", {.kg = 1, .m = 2, .s = -2, .rad = -1}},
     {"N m s/rad", {.kg = 1, .m = 2, .s = -1, .rad = -1}},

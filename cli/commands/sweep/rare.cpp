@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/commands/sweep/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "description/diagnostics.hpp"
@@ -88,8 +89,18 @@ int rare_command(const RareOptions& options) {
     file.emplace(followed(options.output), study, settings, options.command_line, options.resume, options.replace);
     settings.kept = file->runs();
   }
-  const RareEvent event = estimate_rare_event(study, options.study, settings);
-  if (file) file->finish(event);
+  const RareEvent event = [&] {
+    try {
+      RareEvent made = estimate_rare_event(study, options.study, settings);
+      if (file) file->finish(made);
+      return made;
+    } catch (const ReadFault&) {  // which room on the disk would not mend
+      throw;
+    } catch (const OutputFault& fault) {
+      throw OutputFault(fmt::format("{}; runs older than a second are safe; free some space, then {}", fault.what(),
+                                    how_to_resume(options.command_line, options.resume)));
+    }
+  }();
   if (options.json) {
     fmt::print("{}\n", as_json(event, study).dump(2));
     return 0;
@@ -104,7 +115,8 @@ int rare_command(const RareOptions& options) {
                                   in_unit(study.metric(limit.metric).unit)));
   print_item("subset", fmt::format("missed with probability {}, {} levels, {} runs", words_of(p),
                                    event.subset.levels.size(), p.evaluations));
-  print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
+  if (p.variation > 0.0)
+    print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
   if (event.median_misses) {
     print_item("design", "the median drive misses the limit: a miss is not rare, and plain sampling serves");
   } else {

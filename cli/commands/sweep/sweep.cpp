@@ -100,7 +100,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     throw;
   } catch (const OutputFault& fault) {
     throw OutputFault(fmt::format("{}; trials older than a second are safe; free some space, then {}", fault.what(),
-                                  how_to_resume(options)));
+                                  how_to_resume(options.command_line, options.resume)));
   }
   if (too_many()) {  // threads were ahead of the trial that was one too many
     const EarlyEnd early = ended_early({file.part_path()}, *options.max_failures);
@@ -109,7 +109,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   }
   if (!has_all()) {
     fmt::print(stderr, "wormdrive: interrupted after {} of {} trials, which are in {}; {}\n", before + made,
-               range.size(), file.part_path(), how_to_resume(options));
+               range.size(), file.part_path(), how_to_resume(options.command_line, options.resume));
     return 128 + Interruptible::signal();
   }
   keep_trajectories(output, options.command_line, options.quiet, options.replace);

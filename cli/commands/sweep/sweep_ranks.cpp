@@ -203,8 +203,9 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   const bool too_many = sweep.too_many();
   if (fault == bad_input) return fault;  // going on would meet it again
   const std::uint64_t there = study.trials() - missing.count() + made;
-  const std::string resume = fmt::format("continue with: mpirun -n {} {}", ranks.count(),
-                                         how_to_resume(options).substr(std::string("continue with: ").size()));
+  const std::string resume =
+      fmt::format("continue with: mpirun -n {} {}", ranks.count(),
+                  how_to_resume(options.command_line, options.resume).substr(std::string("continue with: ").size()));
   if (fault != 0 || too_many || made < missing.count()) {
     if (ranks.first() && too_many)
       fmt::print(stderr, "wormdrive: {}; {}.rank_* contain all of them\n",

@@ -45,9 +45,8 @@ TrialRange range_of(const std::string& shard, std::uint64_t trials) {
   return {begin(part - 1), begin(part)};
 }
 
-std::string how_to_resume(const SweepOptions& options) {
-  const std::string& typed = options.command_line;
-  if (options.resume) return "continue with: " + typed;
+std::string how_to_resume(const std::string& typed, bool resumes) {
+  if (resumes) return "continue with: " + typed;
   const std::size_t end = std::min(typed.find(" -- "), typed.size());  // behind it there are no options
   return fmt::format("continue with: {} --resume{}", typed.substr(0, end), typed.substr(end));
 }

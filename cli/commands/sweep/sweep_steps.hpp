@@ -28,8 +28,8 @@ class Interruptible {
 /// "3/7" as the third of seven parts of all trials, as even as whole trials allow; all of them if empty.
 TrialRange range_of(const std::string& shard, std::uint64_t trials);
 
-/// "continue with: wormdrive sweep ... --resume"
-std::string how_to_resume(const SweepOptions& options);
+/// "continue with: wormdrive sweep ... --resume" after a command as it was typed, which may resume already.
+std::string how_to_resume(const std::string& typed, bool resumes);
 
 /// How a sweep ends that is made one trial after the other until one more has failed than may.
 struct EarlyEnd {
