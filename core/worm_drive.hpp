@@ -169,8 +169,7 @@ class WormDrive : public TorqueBalance<T, Load> {
       now.mode = moving(now, guard == forward_guard ? Motion::forward : Motion::backward);
     } else if (guard != flank_guard) {
       const Motion reversed = now.mode.motion == Motion::forward ? Motion::backward : Motion::forward;
-      if constexpr (with_states)
-        if (guard == stop_guard) strike(*this, now);
+      if constexpr (with_states) guard == stop_guard ? strike(*this, now) : keep_between_stops(effects(), now.x[0]);
       if (guard == speed_guard) now.x[1] = T(0);
       now.since = T(now.t);
       now.mode = now.x[1] != T(0) || starts(now, reversed) ? moving(now, reversed) : Mode{};

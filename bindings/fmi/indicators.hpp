@@ -67,9 +67,16 @@ class Indicators {
   const std::array<double, count>& scales() const { return scales_; }
 
  private:
+  /// A gear behind an impact is on its way to another stop: nothing stands at 0. Raised, a stop would give a gear the
+  /// way back that it has made beyond it, and small bounces would never end.
+  static constexpr double raised_by(int guard) {
+    if constexpr (requires { Drive::stop_guard; })
+      if (guard == Drive::stop_guard) return 0.0;
+    return hysteresis;
+  }
   template <class S>
   std::array<S, Drive::guard_count> scaled(std::array<S, Drive::guard_count> guards, const Instant& now) const {
-    for (int g = 0; g < Drive::guard_count; ++g) guards[g] = guards[g] / scales_[index(now, g)] + hysteresis;
+    for (int g = 0; g < Drive::guard_count; ++g) guards[g] = guards[g] / scales_[index(now, g)] + raised_by(g);
     return guards;
   }
   template <class S>

@@ -30,29 +30,36 @@ bool is_at_stop(const Effects<T>& effects, const S& theta_g, Motion motion) {
   return hard_stops(effects) && !is_positive(way_to_stop(effects, theta_g, motion));
 }
 
-/// Speed of the gear behind an impact, away from the stop, and the impulse that it takes.
+/// What an impact comes to: the impulse that stops the gear, the one that drives it back, and its speed then.
 struct ImpactOnStop {
-  double speed, impulse;
+  double stopping, driving, speed;
 };
 
-/// An impact on the stop ahead. While it stops the gear the worm drives that against the stop, and while it drives it
+/// A part of this that the mesh passes on is rounding: such a gear locks itself.
+inline constexpr double rounding_of_mesh = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// A mode in which the worm drives the gear in a direction, or the gear the worm.
+template <class Drive>
+Mode driven_by_worm(const Drive& drive, Motion way, bool worm) {
+  if (!drive.mesh().has_teeth) return {way, Flank::none};
+  return {way, (way == Motion::forward) == worm ? Flank::right : Flank::left};
+}
+
+/// An impact on a stop. While it stops the gear the worm drives that against the stop, and while it drives it
 /// back the gear drives the worm, with the friction of the mesh: one that locks itself stays. A share restitution^2 of
 /// the energy that the stop takes comes back [Stronge2000, eq. 3.17], as from a spring that becomes ever stiffer.
 template <class Drive, class M>
 ImpactOnStop impact_on_stop(const Drive& drive, const M& at, Motion into) {
   using Torques = typename Drive::template SideTorques<double>;
-  const double away = -sign(into);
-  const bool teeth = drive.mesh().has_teeth;
-  // an impulse on the gear is borne by the flank that carries a load of its direction
-  const Flank flank = !teeth ? Flank::none : into == Motion::forward ? Flank::right : Flank::left;
-  const auto gives = [&](Motion motion) {  // speed per impulse [1/(kg m^2)]
-    const Mode mode{motion, flank};
+  const double away = -sign(into), speed = std::abs(at.omega_g);
+  const auto gives = [&](Mode mode) {  // speed per impulse [1/(kg m^2)]
     return away * (drive.acceleration(Torques{0.0, away}, at, mode) - drive.acceleration(Torques{0.0, 0.0}, at, mode));
   };
-  const double speed = std::abs(at.omega_g), taken = gives(into),
-               given = std::max(0.0, gives(into == Motion::forward ? Motion::backward : Motion::forward));
+  const Motion out = into == Motion::forward ? Motion::backward : Motion::forward;
+  const double taken = gives(driven_by_worm(drive, into, true)), given = gives(driven_by_worm(drive, out, false));
+  if (given <= rounding_of_mesh * taken) return {speed / taken, 0.0, 0.0};
   const double back = hard_stops(drive.effects())->restitution * speed * std::sqrt(given / taken);
-  return {back, speed / taken + (given > 0.0 ? back / given : 0.0)};
+  return {speed / taken, back / given, back};
 }
 
 /// Whether the gear would be back at a stop before its way or its time could be told from nothing: without an end to
@@ -63,8 +70,11 @@ bool is_back_at_once(const Drive& drive, const Instant& now, Motion into) {
   const double speed = std::abs(now.x[1]), pull = sign(into) * drive.acceleration(drive.moment(now), drive.settle(now));
   if (pull <= 0.0) return false;
   constexpr double resolution = 16.0 * std::numeric_limits<double>::epsilon();
+  // a bounce that loses less than the rounding of its angle gives it back would never end
+  const double lost = 1.0 - stops->restitution * stops->restitution,
+               least = lost > 0.0 ? resolution / lost : resolution;
   const double size = std::max(std::abs(stops->low.value_or(0.0)), std::abs(stops->high.value_or(0.0)));
-  return 2.0 * speed / pull <= resolution * std::abs(now.t) || 0.5 * speed * speed / pull <= resolution * size;
+  return 2.0 * speed / pull <= resolution * std::abs(now.t) || 0.5 * speed * speed / pull <= least * size;
 }
 
 /// Lets the gear hit the stop ahead.
@@ -74,19 +84,34 @@ void strike(const Drive& drive, Instant& now) {
   now.x[0] = *hard_stops(drive.effects())->ahead(into);
   const ImpactOnStop impact = impact_on_stop(drive, drive.moment(now), into);
   now.x[1] = -sign(into) * impact.speed;
-  now.x[2 + StateLayout<EffectList<double>>::first<HardStops<double>>()] -= sign(into) * impact.impulse;
   if (now.x[1] != 0.0 && is_back_at_once(drive, now, into)) now.x[1] = 0.0;
+  now.x[2 + StateLayout<EffectList<double>>::first<HardStops<double>>()] -=
+      sign(into) * (impact.stopping + (now.x[1] != 0.0 ? impact.driving : 0.0));
 }
 
-/// Torque on the gear of a stop that takes what pushes into it while the gear rests there [N m]; tau without it.
+/// Takes a gear that is beyond a stop by what a solver errs back to it.
+template <class T>
+void keep_between_stops(const Effects<T>& effects, T& theta_g) {
+  const auto& stops = hard_stops(effects);
+  if (!stops) return;
+  if (stops->low) theta_g = std::max(theta_g, *stops->low);
+  if (stops->high) theta_g = std::min(theta_g, *stops->high);
+}
+
+/// Torque on the gear of a stop that takes what pushes into it while the gear rests there [N m]: as much as keeps it
+/// from moving with the friction of mesh and bearings on its side.
 template <class Drive, class M, class Torques>
-double torque_of_stop(const Drive& drive, const M& at, const Torques& tau) {
+double torque_of_stop(const Drive& drive, const M& at, const Torques& input) {
   for (const Motion way : {Motion::forward, Motion::backward}) {
     if (!is_at_stop(drive.effects(), at.theta_g, way)) continue;
-    const double beyond = drive.beyond_surface(tau, at);
-    const Mode mode{way, !drive.mesh().has_teeth ? Flank::none : beyond > 0.0 ? Flank::right : Flank::left};
-    if (sign(way) * drive.acceleration(tau, at, mode) <= 0.0) continue;
-    return -tau.worm / drive.mesh().C(drive.signed_friction(at, mode)) - tau.gear;
+    const Torques tau = drive.side_torques(input, at, way);
+    const auto C = [&](bool worm) {
+      return drive.mesh().C(drive.signed_friction(at, driven_by_worm(drive, way, worm)));
+    };
+    const bool by_worm = sign(way) * tau.worm > 0.0;
+    if (!by_worm && C(false) <= rounding_of_mesh * C(true)) continue;  // it locks itself, whatever the load
+    const double stop = -tau.worm / C(by_worm) - tau.gear;
+    if (sign(way) * stop < 0.0) return stop;
   }
   return 0.0;
 }

@@ -12,7 +12,7 @@ Observation observation(const Drive& drive, const typename Drive::Instant& now) 
   const bool stuck = now.mode.motion == Motion::stuck;
   auto input = drive.inputs(at, now.mode.motion), tau = drive.side_torques(input, at, now.mode.motion);
   if constexpr (requires { at.states; })
-    if (const double stop = stuck ? torque_of_stop(drive, at, tau) : 0.0; stop != 0.0) {
+    if (const double stop = stuck ? torque_of_stop(drive, at, input) : 0.0; stop != 0.0) {
       input.gear += stop;
       tau.gear += stop;
     }

@@ -31,8 +31,8 @@ class ScenarioReader {
     read_mesh();
     scenario_.motor = read_motor();
     scenario_.load = read_load(root_, folder());
-    read_effects(root_, scenario_, folder(), purpose);
     root_.section("initial", [&](TableReader& table) { table.read_fields(scenario_.initial); });
+    read_effects(root_, scenario_, folder(), purpose);
     read_run(purpose);
     read_control(root_, scenario_, folder());
     read_what_is_measured();

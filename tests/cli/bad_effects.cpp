@@ -111,8 +111,10 @@ TEST_CASE("stops between which there is nothing, or not the start, are rejected"
        "s.toml:19:1: error: effect.hard_stops has angle_low_deg = 30 deg, which must be less than angle_high_deg = 20 deg"},
       {"the start beyond one", with(stops + "angle_low_deg = 30\n"),
        "s.toml:19:1: error: effect.hard_stops leaves out the start, 0 deg: it must lie between the stops"},
+      {"another start beyond one", with(stops + "angle_high_deg = 30\n[initial]\ngear_angle_rad = 1\n"),
+       "s.toml:19:1: error: effect.hard_stops leaves out the start, 57.2958 deg: it must lie between the stops"},
       {"more than all", with(stops + "angle_low_deg = -30\nrestitution = 1.5\n"),
-       "*"},
+       "s.toml:21:15: error: effect.hard_stops.restitution = 1.5 must be at least 0 and at most 1"},
       {"elastic teeth", with(stops + "angle_low_deg = -30\n[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
        "s.toml:19:1: error: effect.hard_stops has states, which elastic teeth do not carry; leave it out, or switch effect.tooth_compliance off"}});
 }

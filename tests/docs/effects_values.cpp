@@ -99,7 +99,10 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
   if (quantity == "tau_w") return on.worm_torque(moment, motion);
   if (quantity == "tau_g") return on.gear_torque(drive.inputs(moment, motion).gear, moment, motion);
   if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
-  if (quantity == "P") return impact_on_stop(drive, moment, motion).impulse;
+  if (quantity == "P") {
+    const ImpactOnStop impact = impact_on_stop(drive, moment, motion);
+    return impact.stopping + impact.driving;
+  }
   if (quantity == "rebound") return impact_on_stop(drive, moment, motion).speed;
   if (quantity == "Jw") return mesh.Jw;
   if (quantity == "Jg") return drive.Jg(moment);

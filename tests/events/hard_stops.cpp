@@ -316,4 +316,54 @@ TEST_CASE("at a stop the gear stays whatever pushes, the stop takes it, and it l
   }
 }
 
+TEST_CASE("a stop pushes and never pulls, and takes no more than friction leaves") {
+  int taken = 0, held = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    near_ties::Dice dice(20261205, static_cast<std::uint64_t>(trial));
+    MeshParameters<double> p = closing(table1(), std::floor(dice.decades(5.0, 80.0)), dice.between(0.03, 0.5));
+    p.mu = trial % 10 == 0 ? GearMesh<double>(p).mu_w() : dice.between(0.0, 0.3);  // C1 is rounding
+    p.Jg = p.Jw * 0.1;
+    const double load = dice.sign() * dice.decades(1e-3, 1e3),
+                 push = dice.sign() * std::abs(load) * dice.decades(1e-3, 1.0), side = dice.sign();
+    Stops stops;
+    (side > 0.0 ? stops.high : stops.low) = 0.0;
+    const auto d = drive_with_states(GearMesh<double>(p), constant(load), constant(push), effects(stops));
+    const auto seen = run(d, Timetable(0, 1e-6, 1e-6), {}, tight(taylor));
+    if (!seen.events.empty() || seen.end.mode.motion != Motion::stuck) continue;
+    const double shown = seen.rows.back().seen.tau_l, stop = side * (shown - load), C1 = torque_ratio(p, p.mu),
+                 C2 = torque_ratio(p, -p.mu);
+    INFO(trial << ", side " << side << ", motor " << push << ", load " << load << ", shown " << shown);
+    CHECK(std::isfinite(seen.rows.back().seen.normal_force));
+    CHECK(stop <= 0.0);
+    const bool by_worm = side * push > 0.0;
+    if (stop < 0.0) {
+      CHECK(close(shown, -push / (by_worm ? C2 : C1), 1e-9));
+      ++taken;
+    } else {
+      CHECK((by_worm ? side * (push + C2 * load) <= 0.0 : C1 < 1e-14 || side * (push + C1 * load) <= 0.0));
+      ++held;
+    }
+  }
+  CHECK(taken > 50);
+  CHECK(held > 50);
+}
+
+TEST_CASE("a gear that bounces ever less rests at its stop and not beyond it, at every tolerance and restitution") {
+  Stops stops;
+  stops.high = 1.0;
+  for (const By by : every_solver)
+    for (const double tolerance : {1e-3, 1e-6, 1e-10})
+      for (const double e : {0.0, 0.3, 0.9, 0.985}) {
+        INFO(static_cast<int>(by.solver) << static_cast<int>(by.method) << ", " << tolerance << ", e " << e);
+        stops.restitution = e;
+        SolverSettings settings = tight(by, tolerance);
+        const auto d = drive_with_states(GearMesh<double>::without_teeth(1.0), Signal{}, constant(1.0), effects(stops));
+        const double rest = std::sqrt(2.0) * (1.0 + 2.0 * e / (1.0 - e));
+        const auto seen = run(d, Timetable(0, 2.0 * rest, rest), {}, settings);
+        CHECK(seen.end.x[0] == 1.0);
+        CHECK(seen.end.mode.motion == Motion::stuck);
+        CHECK(seen.events.size() < 3000);
+      }
+}
+
 }  // namespace wormdrive::test::events_hard_stops

@@ -74,15 +74,15 @@ class OneDrive(unittest.TestCase):
             self.assertEqual(drive.reset(), wormdrive.Drive(FIG09, **overrides).state)
 
     def test_every_column_of_a_run_shows_in_a_step(self):
-        torques = [0.0, *(0.15 * math.sin(k) for k in range(1, 30))]
-        table = {"kind": "samples", "times_s": [0.03 * k for k in range(30)], "torques_Nm": torques, "interpolation": "hold"}
+        torques = [0.0, *(0.15 * math.sin(k) for k in range(1, 40))]
+        table = {"kind": "samples", "times_s": [0.03 * k for k in range(40)], "torques_Nm": torques, "interpolation": "hold"}
         states = {"dc_motor": {"resistance_ohm": 1.2, "torque_constant_Nm_per_A": 0.025, "inductance_H": 2e-3},
                   "worm_lugre": {"coulomb_torque_Nm": 1e-3, "stiffness_Nm_per_rad": 0.05},
                   "gearbox_heat": {"heat_capacity_J_per_K": 1, "friction_decay_per_K": 0.01, "starting_rise_K": 7},
                   "load_coupling": {"inertia_kgm2": 1e-3, "stiffness_Nm_per_rad": 3, "damping_Nms_per_rad": 0.01}}
         teeth = {"tooth_compliance": {"stiffness_N_per_m": 1e6, "damping_s_per_m": 0.1}}
         for effect, least in ((states, 16), (teeth, 15), ({}, 9)):
-            settings = {"duration_s": 0.9, "report_interval_s": 0.9}
+            settings = {"duration_s": 1.2, "report_interval_s": 1.2}
             run = wormdrive.run({**GEAR, "effect": effect, "motor": {"torque": table}, "run": settings}).trajectory
             drive = wormdrive.Drive({**GEAR, "effect": effect, "run": settings})
             rows = {t: k for k, t in enumerate(run.time)}
