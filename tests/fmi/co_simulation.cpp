@@ -167,6 +167,8 @@ TEST_CASE("co-simulation takes the states of effects along, and shows them") {
   agrees(shipped("current_loop.toml"), {"run.report_interval_s=1e-3"}, 2);
   agrees(shipped("presliding.toml"), {"run.report_interval_s=1e-3"}, 4);
   agrees(shipped("swinging_load.toml"), {"run.report_interval_s=1e-3"}, 7);
+  agrees(shipped("hard_stop.toml"), {"run.report_interval_s=1e-3"}, 15);
+  agrees(shipped("warm_hoist.toml"), {"run.report_interval_s=1e-3", "run.duration_s=25"}, 2);
   const Exported motor(shipped("dc_motor.toml"), {"run.duration_s=0.5", "run.relative_tolerance=1e-13"}, loop);
   Stepper stepper(*motor.fmu, 0.5);
   stepper.last(0.5, 0.1);

@@ -112,6 +112,17 @@ TEST_CASE("an FMU takes the states of its effects along: the importer integrates
   agrees(shipped("swinging_load.toml"), {"run.relative_tolerance=1e-13", "run.duration_s=0.45"}, 4);
 }
 
+TEST_CASE("an FMU bounces off its stops, and comes to rest there") {
+  agrees(shipped("hard_stop.toml"), {"run.relative_tolerance=1e-13", "run.duration_s=1.4"}, 7);
+  agrees(shipped("hard_stop.toml"), {"run.relative_tolerance=1e-13", "effect.hard_stops.restitution=0"}, 3);
+  // ever smaller bounces end, and do so where they end in a run
+  Exported less(shipped("hard_stop.toml"), {"run.relative_tolerance=1e-13", "effect.hard_stops.restitution=0.3"});
+  const Trajectory ours = simulate_scenario(less.scenario);
+  const ImportedRun theirs = imported(less, 1e-3);
+  CHECK(theirs.events.size() < 1.5 * static_cast<double>(ours.events.size()));
+  CHECK(std::abs(theirs.rows.back().gear_angle - ours.rows.back().at.theta_g) < 1e-8);
+}
+
 TEST_CASE("an FMU of one mass counts what its effects take off it, and refuses what they leave nothing of") {
   const std::vector<std::string> lighter{"effect.worm_inertia.mass_kg=-0.5", "effect.gear_inertia.mass_kg=-20",
                                          "effect.worm_coulomb.force_N=25"};
@@ -264,8 +275,8 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 2.0", "[referenc
     WARN("skipped: reference data not found");
     return;
   }
-  for (const std::string name :
-       {"fig09_switching", "fig09_backlash", "fig09_stribeck", "dc_motor", "presliding", "swinging_load"}) {
+  for (const std::string name : {"fig09_switching", "fig09_backlash", "fig09_stribeck", "dc_motor", "presliding",
+                                 "swinging_load", "warm_hoist", "hard_stop"}) {
     const Exported exported(shipped(name + ".toml"));
     const Outcome outcome =
         Process({xmllint, "--noout", "--schema", schema, "modelDescription.xml"}, exported.folder.path()).wait();

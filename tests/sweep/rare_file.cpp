@@ -24,14 +24,7 @@ struct Killed : std::runtime_error {
 
 /// An estimate that is killed as soon as some of its runs are safe; how many are.
 std::size_t killed(const StudyFolder& folder, std::vector<std::string> words) {
-  const auto runs = [&] {  // 0 while there is no file
-    try {
-      const std::vector<double> status = read_column(open_hdf5_while_written(folder / "r.h5.part"), "runs/status");
-      return status.size() - static_cast<std::size_t>(std::count(status.begin(), status.end(), 0.0));
-    } catch (const OutputFault&) {
-      return std::size_t{0};
-    }
-  };
+  const auto runs = [&] { return rows_so_far(folder / "r.h5.part", "runs/status"); };
   words.insert(words.begin(), WORMDRIVE_PROGRAM);
   Process process(words, folder.path());
   while (runs() == 0) usleep(20'000);

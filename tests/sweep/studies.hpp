@@ -55,6 +55,16 @@ values = [0, 20000]
 weights = [9, 1]
 )";
 
+/// How many rows have a status in a file that another program may be writing; 0 while there is no such file.
+inline std::size_t rows_so_far(const std::string& path, const std::string& status) {
+  try {
+    const std::vector<double> all = read_column(open_hdf5_while_written(path), status);
+    return all.size() - static_cast<std::size_t>(std::count(all.begin(), all.end(), 0.0));
+  } catch (const OutputFault&) {
+    return 0;
+  }
+}
+
 /// A folder with s.toml and study.toml.
 struct StudyFolder : Folder {
   explicit StudyFolder(const std::string& study = good_study) {
