@@ -47,7 +47,7 @@ Mode driven_by_worm(const Drive& drive, Motion way, bool worm) {
 
 /// An impact on a stop. While it stops the gear the worm drives that against the stop, and while it drives it
 /// back the gear drives the worm, with the friction of the mesh: one that locks itself stays. A share restitution^2 of
-/// the energy that the stop takes comes back [Stronge2000, eq. 3.17], as from a spring that becomes ever stiffer.
+/// the energy that the stop takes comes back (Stronge), as from a spring that becomes ever stiffer.
 template <class Drive, class M>
 ImpactOnStop impact_on_stop(const Drive& drive, const M& at, Motion into) {
   using Torques = typename Drive::template SideTorques<double>;

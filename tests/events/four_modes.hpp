@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+
 #include "core/mode.hpp"
+#include "numbers.hpp"
 
 namespace wormdrive::test {
 
@@ -31,6 +34,27 @@ Mode mode_behind(Mode mode, double& speed, double beyond, const Acceleration& ac
   if (stops) speed = 0.0;
   if (stops || mode.motion == Motion::stuck) return mode_from_rest(beyond, acceleration);
   return {mode.motion, mode.flank == Flank::left ? Flank::right : Flank::left};
+}
+
+/// Follows a motion over a duration by steps, each cut where the mode ceases to hold: moved(s) is the state a time s
+/// behind t, holds(t, x) whether the mode holds there, and change() takes the next mode; it ends the motion by false.
+template <class State, class Moved, class Holds, class Change>
+void follow(double duration, double step, double& t, State& now, const Moved& moved, const Holds& holds,
+            const Change& change) {
+  for (double left = duration; left > 0.0;) {
+    const double h = std::min(step, left);
+    if (const State then = moved(h); holds(t + h, then)) {
+      now = then;
+      t += h;
+      left -= h;
+      continue;
+    }
+    const double passed = end_of(0.0, h, [&](double s) { return holds(t + s, moved(s)); });
+    now = moved(passed);
+    t += passed;
+    left = duration - t;
+    if (!change()) return;
+  }
 }
 
 }  // namespace wormdrive::test

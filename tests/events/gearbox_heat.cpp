@@ -133,22 +133,14 @@ class Judge {
 
   Judge(const Case& c, double duration, double step) : c_(c), now(0.0, 0.0, c.heat.starting_rise) {
     mode_ = mode_from_rest(beyond(t, now), accelerations(t, now));
-    for (double left = duration; left > 0.0;) {
-      const double h = std::min(step, left);
-      if (const Eigen::Vector3d then = moved(h); holds(t + h, then)) {
-        now = then;
-        t += h;
-        left -= h;
-        continue;
-      }
-      const double passed = end_of(0.0, h, [&](double s) { return holds(t + s, moved(s)); });
-      now = moved(passed);
-      t += passed;
-      left = duration - t;
-      mode_ = mode_behind(mode_, now[1], beyond(t, now), accelerations(t, now));
-      events.push_back({t, mode_});
-      if (events.size() > 100) return;
-    }
+    follow(
+        duration, step, t, now, [this](double h) { return moved(h); },
+        [this](double when, const Eigen::Vector3d& x) { return holds(when, x); },
+        [this] {
+          mode_ = mode_behind(mode_, now[1], beyond(t, now), accelerations(t, now));
+          events.push_back({t, mode_});
+          return events.size() <= 100;
+        });
   }
 
   std::vector<Event> events;

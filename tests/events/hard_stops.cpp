@@ -154,29 +154,20 @@ class Judge {
 
   Judge(const Case& c, double duration, double step) : c_(c) {
     mode_ = from_rest();
-    for (double left = duration; left > 0.0;) {
-      const double h = std::min(step, left);
-      const Eigen::Vector2d then = moved(h);
-      if (holds(t + h, then)) {
-        now = then;
-        t += h;
-        left -= h;
-        continue;
-      }
-      const double passed = end_of(0.0, h, [&](double s) { return holds(t + s, moved(s)); });
-      now = moved(passed);
-      t += passed;
-      left = duration - t;
-      const bool impact = beyond_stop(now);
-      if (impact)
-        hit();
-      else if (mode_.motion == Motion::stuck || sign(mode_.motion) * now[1] <= 0.0)
-        mode_ = rest();
-      else
-        mode_.flank = mode_.flank == Flank::left ? Flank::right : Flank::left;
-      events.push_back({t, mode_, impact});
-      if (events.size() > 200) return;
-    }
+    follow(
+        duration, step, t, now, [this](double h) { return moved(h); },
+        [this](double when, const Eigen::Vector2d& x) { return holds(when, x); },
+        [this] {
+          const bool impact = beyond_stop(now);
+          if (impact)
+            hit();
+          else if (mode_.motion == Motion::stuck || sign(mode_.motion) * now[1] <= 0.0)
+            mode_ = rest();
+          else
+            mode_.flank = mode_.flank == Flank::left ? Flank::right : Flank::left;
+          events.push_back({t, mode_, impact});
+          return events.size() <= 200;
+        });
   }
 
   std::vector<Event> events;

@@ -59,20 +59,15 @@ class Judge {
  public:
   Judge(const Case& c, double duration, double step) : c_(c) {
     mode_ = mode_from_rest(beyond(now), accelerations(now));
-    for (double left = duration; left > 0.0;) {
-      const double h = std::min(step, left);
-      const Place then = moved(h);
-      if (holds(then)) {
-        now = then;
-        left -= h;
-        continue;
-      }
-      now = moved(end_of(0.0, h, [&](double s) { return holds(moved(s)); }));
-      left = duration - now.t;
-      mode_ = mode_behind(mode_, now.omega, beyond(now), accelerations(now));
-      events.push_back({now.t, mode_});
-      if (events.size() > 100) return;
-    }
+    double t = 0.0;
+    follow(
+        duration, step, t, now, [this](double h) { return moved(h); },
+        [this](double, const Place& x) { return holds(x); },
+        [this] {
+          mode_ = mode_behind(mode_, now.omega, beyond(now), accelerations(now));
+          events.push_back({now.t, mode_});
+          return events.size() <= 100;
+        });
   }
 
   Place now;
