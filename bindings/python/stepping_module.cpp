@@ -98,8 +98,10 @@ void add_stepping(py::module_& m) {
       .def("state", [](const SteppedDrive& drive) { return numbers(drive.state()); })
       .def("columns",
            [](const SteppedDrive& drive) {
+             const std::vector<std::string> names = drive.columns();
+             const std::vector<double> values = drive.values();
              py::dict all;
-             for (const std::string& name : drive.columns()) all[py::str(name)] = drive.value(name);
+             for (std::size_t k = 0; k < names.size(); ++k) all[py::str(names[k])] = values[k];
              return all;
            })
       .def("events", [](const SteppedDrive& drive) { return by_name(drive.events()); })

@@ -24,8 +24,9 @@ nlohmann::json as_json(const Scenario& scenario, const RunSummary& summary, cons
                         {"warnings", warnings(scenario)},    {"solver", describe_solver(scenario.run)},
                         {"steps", summary.statistics.steps}, {"evaluations", summary.statistics.evaluations},
                         {"gear_angle", summary.end.theta_g}, {"gear_speed", summary.end.omega_g}};
+  const RunContents contents = contents_of(scenario);
   for (const EventKind kind : event_kinds)
-    if (can_happen(kind, contents_of(scenario)))
+    if (can_happen(kind, contents))
       result["events"][std::string(name(kind))] = summary.events[static_cast<std::size_t>(kind)];
   if (summary.control) result["control"] = as_json(*summary.control);
   if (summary.audit)

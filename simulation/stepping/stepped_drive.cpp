@@ -71,6 +71,13 @@ std::vector<std::string> SteppedDrive::columns() const {
   return names;
 }
 
+std::vector<double> SteppedDrive::values() const {
+  const StepState now = state();
+  std::vector<double> list;
+  for (const auto& column : columns_) list.push_back(column.value({now.t, now.at}));
+  return list;
+}
+
 double SteppedDrive::value(const std::string& column) const {
   const auto found =
       std::find_if(columns_.begin(), columns_.end(), [&](const auto& c) { return c.description.name == column; });

@@ -45,7 +45,9 @@ class SteppedDrive {
   virtual StepState state() const = 0;
   /// The names of all columns that a trajectory of this drive has, those of its effects' states among them.
   std::vector<std::string> columns() const;
-  /// What such a column shows now. Throws InputFault where there is none of that name.
+  /// What they show now, in their order.
+  std::vector<double> values() const;
+  /// What one of them shows now. Throws InputFault where there is none of that name.
   double value(const std::string& column) const;
   /// Why the drive could not go on, if it could not.
   const std::optional<std::string>& halted() const { return halted_; }

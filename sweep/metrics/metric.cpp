@@ -47,8 +47,9 @@ std::vector<Metric> metrics_of(const Scenario& scenario) {
   std::vector<Metric> list;
   if (scenario.control) add_tracking(list, !scenario.control->reference.terms.empty());
   if (scenario.control && std::holds_alternative<SlidingParameters>(scenario.control->law)) add_lemma1(list, scenario);
+  const RunContents contents = contents_of(scenario);
   for (const EventKind kind : event_kinds)
-    if (can_happen(kind, contents_of(scenario)))
+    if (can_happen(kind, contents))
       list.push_back({fmt::format("{}_events", name(kind)), unit::none,
                       fmt::format("events of the kind {}, over the whole run", name(kind)), [kind](const Outcome& o) {
                         return static_cast<double>(o.run.events[static_cast<std::size_t>(kind)]);

@@ -215,10 +215,12 @@ void RareFile::keep(Trial trial) {
 
 void RareFile::flush() {
   if (waiting_.empty()) return;
-  const std::size_t last = run_columns(study_).size() - 1;
+  std::vector<std::vector<double>> rows;
+  for (const Trial& run : waiting_) rows.push_back(row_of(run));
+  const std::size_t last = rows.front().size() - 1;
   const auto write = [&](std::size_t first, std::size_t end) {
-    for (const Trial& run : waiting_)
-      for (std::size_t k = first; k < end; ++k) table_->write(k, run.index, {row_of(run)[k]});
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      for (std::size_t k = first; k < end; ++k) table_->write(k, waiting_[row].index, {rows[row][k]});
     file_->flush();
   };
   // a run is there only once it has a status, and it has one only when all else is on the disk
