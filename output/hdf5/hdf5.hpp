@@ -76,8 +76,8 @@ std::int64_t read_integer_attribute(hid_t object, const std::string& name);
 double read_number_attribute(hid_t object, const std::string& name);
 /// Text of a string attribute of an object; throws ReadFault if it is absent or something else.
 std::string read_text_attribute(hid_t object, const std::string& name);
-/// Opens what a path leads to; throws ReadFault if that is nothing, or behind a link: links lead to other files, or in
-/// circles, and no result has any.
-Hdf5Handle open_object(hid_t file, const std::string& path);
+/// Opens what a path leads to from a file or group; throws ReadFault if that is nothing, or behind a link: links lead
+/// to other files, or in circles, and no result has any.
+Hdf5Handle open_object(hid_t place, const std::string& path);
 
 }  // namespace wormdrive

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "output/hdf5/hdf5.hpp"
@@ -31,6 +33,13 @@ Value read_scalar(hid_t object, const std::string& name, const std::string& want
   return value;
 }
 
+/// A path from a place as a path from the file.
+std::string in_file(hid_t place, const std::string& path) {
+  std::string name(static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(place, nullptr, 0), 0)), ' ');
+  H5Iget_name(place, name.data(), name.size() + 1);
+  return name.size() > 1 ? name.substr(1) + "/" + path : path;
+}
+
 }  // namespace
 
 std::int64_t read_integer_attribute(hid_t object, const std::string& name) {
@@ -55,17 +64,19 @@ std::string read_text_attribute(hid_t object, const std::string& name) {
   return copy;
 }
 
-Hdf5Handle open_object(hid_t file, const std::string& path) {
-  const auto reject = [&](const std::string& what) { throw ReadFault(file_of(file), what); };
+Hdf5Handle open_object(hid_t place, const std::string& path) {
+  const auto reject = [&](fmt::format_string<std::string> what, const std::string& part) {
+    throw ReadFault(file_of(place), fmt::format(what, in_file(place, part)));
+  };
   for (std::size_t end = path.find('/', 1); path != "/"; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);
     H5L_info_t link;
-    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) reject(fmt::format("it has no '{}'", part));
-    if (link.type != H5L_TYPE_HARD) reject(fmt::format("its '{}' is a link, which no result contains", part));
+    if (H5Lget_info(place, part.c_str(), &link, H5P_DEFAULT) < 0) reject("it has no '{}'", part);
+    if (link.type != H5L_TYPE_HARD) reject("its '{}' is a link, which no result contains", part);
     if (end == std::string::npos) break;
   }
-  const hid_t object = H5Oopen(file, path.c_str(), H5P_DEFAULT);
-  if (object < 0) reject(fmt::format("its '{}' cannot be opened", path));
+  const hid_t object = H5Oopen(place, path.c_str(), H5P_DEFAULT);
+  if (object < 0) reject("its '{}' cannot be opened", path);
   return {object, H5Oclose, "cannot open " + path};
 }
 

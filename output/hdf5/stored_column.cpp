@@ -32,11 +32,11 @@ void StoredColumn::reject(const std::string& what) const {
   throw ReadFault(file_, fmt::format("its column '{}' {}", path_, what));
 }
 
-StoredColumn::StoredColumn(hid_t file, std::string path)
-    : file_(file_of(file)), path_(std::move(path)), dataset_(open_object(file, path_)) {
+StoredColumn::StoredColumn(hid_t place, const std::string& name, const std::string& path)
+    : file_(file_of(place)), path_(path), dataset_(open_object(place, name)) {
   if (H5Iget_type(dataset_) != H5I_DATASET) reject("is a group or a type instead of a column");
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, cannot), type(H5Dget_type(dataset_), H5Tclose, cannot),
-      properties(H5Dget_create_plist(dataset_), H5Pclose, cannot), whole(H5Iget_file_id(file), H5Fclose, cannot);
+      properties(H5Dget_create_plist(dataset_), H5Pclose, cannot), whole(H5Iget_file_id(place), H5Fclose, cannot);
   if (const int rank = H5Sget_simple_extent_ndims(space); H5Sis_simple(space) <= 0 || rank != 1)
     reject(fmt::format("has {} dimensions instead of one", rank));
   const std::optional<Type> known = type_of(type);

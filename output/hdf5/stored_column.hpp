@@ -16,7 +16,9 @@ class StoredColumn {
   enum class Type { number, flag, text, padded_text };
 
   /// Throws ReadFault if there is no such column.
-  StoredColumn(hid_t file, std::string path);
+  StoredColumn(hid_t file, const std::string& path) : StoredColumn(file, path, path) {}
+  /// The same of a column in a group that is open; path: that in the file.
+  StoredColumn(hid_t place, const std::string& name, const std::string& path);
 
   const std::string& path() const { return path_; }
   Type type() const { return type_; }

@@ -35,12 +35,13 @@ void check_numbers(const StoredColumn& column, Range range) {
   }
 }
 
-}  // namespace
+Hdf5Handle open_group(hid_t file, const std::string& path) {
+  Hdf5Handle group = open_object(file, path);
+  if (H5Iget_type(group) != H5I_GROUP) throw ReadFault(file_of(file), fmt::format("its '{}' is not a table", path));
+  return group;
+}
 
-std::vector<std::string> members_of(hid_t file, const std::string& group_path) {
-  const Hdf5Handle group = open_object(file, group_path);
-  if (H5Iget_type(group) != H5I_GROUP)
-    throw ReadFault(file_of(file), fmt::format("its '{}' is not a table", group_path));
+std::vector<std::string> members_of(hid_t group) {
   std::vector<std::string> names;
   const auto take = [](hid_t, const char* name, const H5L_info_t*, void* list) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -51,12 +52,20 @@ std::vector<std::string> members_of(hid_t file, const std::string& group_path) {
   return names;
 }
 
+}  // namespace
+
+std::vector<std::string> members_of(hid_t file, const std::string& group) {
+  return members_of(open_group(file, group));
+}
+
 bool has_member(hid_t file, const std::string& name) { return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0; }
 
 StoredTable::StoredTable(hid_t file, const std::string& name) : file_(file_of(file)), name_(name) {
-  names_ = members_of(file, name);
+  const Hdf5Handle group = open_group(file, name);
+  names_ = members_of(group);
+  columns_.reserve(names_.size());
   for (const std::string& member : names_) {
-    columns_.emplace_back(file, fmt::format("{}/{}", name, member));
+    columns_.emplace_back(group, member, fmt::format("{}/{}", name, member));
     if (columns_.back().rows() != rows())
       columns_.back().reject(
           fmt::format("has {} rows where '{}' has {}", columns_.back().rows(), columns_.front().path(), rows()));

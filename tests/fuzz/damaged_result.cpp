@@ -42,7 +42,15 @@ struct Objects {
 struct Good {
   std::string path;
   Objects objects;
-} good_run, good_sweep;
+};
+std::vector<Good> good_results, good_sweeps;
+
+/// A number below an end that follows from all bytes of an input (FNV-1a).
+std::size_t drawn(const std::uint8_t* data, std::size_t size, std::size_t end) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (std::size_t k = 0; k < size; ++k) hash = (hash ^ data[k]) * 0x100000001b3;
+  return (hash >> 32) % end;
+}
 
 Objects objects_of(const std::string& path) {
   const Hdf5Handle file = open_hdf5(path);
@@ -141,8 +149,9 @@ void obey(hid_t file, const Objects& objects, const Order& order) {
   }
 }
 
-/// The path of a copy of a good file that was damaged by orders of 12 bytes each.
-std::string damaged(const Good& good, const std::uint8_t* data, std::size_t size) {
+/// The path of a copy of one of the good files that was damaged by orders of 12 bytes each.
+std::string damaged(const std::vector<Good>& all, const std::uint8_t* data, std::size_t size) {
+  const Good& good = all[drawn(data, size, all.size())];
   const std::string path = good.path + ".damaged";
   fs::copy_file(good.path, path, fs::copy_options::overwrite_existing);
   const Hdf5Handle file = reopen_hdf5(path);
@@ -161,48 +170,63 @@ std::vector<std::vector<std::uint8_t>> orders() {
   return all;
 }
 
+const std::string scenario = " " WORMDRIVE_SCENARIOS "/fig09_switching.toml";
+
+std::string study_in(const fs::path& folder) {
+  const std::string path = (folder / "study.toml").string();
+  std::ofstream(path) << "scenario = \"" WORMDRIVE_SCENARIOS
+                         "/fig09_switching.toml\"\n"
+                         "set = [\"run.solver=taylor\", \"run.duration_s=0.1\"]\n"
+                         "metrics = [\"final_gear_angle\", \"final_gear_speed\", \"stop_events\"]\n"
+                         "[sweep]\ndesign = \"monte_carlo\"\ntrials = 12\nseed = 1\n"
+                         "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\n"
+                         "low = 0.2\nhigh = 0.3\n"
+                         "[[threshold]]\nmetric = \"final_gear_angle\"\nabove_rad = -0.0416\n";
+  return " " + path;
+}
+
+void add(std::vector<Good>& all, const fs::path& folder, const std::string& words) {
+  const std::string path = (folder / (std::to_string(all.size()) + ".h5")).string();
+  make(words + " --force -o " + path);
+  all.push_back({path, objects_of(path)});
+}
+
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> run_file_seeds(const fs::path& folder) {
+std::vector<std::vector<std::uint8_t>> result_file_seeds(const fs::path& folder) {
   write_results();
-  const std::string path = (folder / "run.h5").string();
-  make("run " WORMDRIVE_SCENARIOS "/fig09_switching.toml -q --set run.report_interval_s=0.02 --force -o " + path);
-  good_run = {path, objects_of(path)};
+  add(good_results, folder, "run -q --set run.report_interval_s=0.02" + scenario);
+  add(good_results, folder, "statics -q --points 5" + scenario);
+  add(good_results, folder, "steady -q --points 5" + scenario);
+  add(good_results, folder, "efficiency -q --points 3" + scenario);
+  add(good_results, folder, "rare --per-level 100 --samples 100" + study_in(folder) + " >/dev/null");
   return orders();
 }
 
-void take_damaged_run(const std::uint8_t* data, std::size_t size) {
-  const std::string path = damaged(good_run, data, size);
+void take_damaged_result(const std::uint8_t* data, std::size_t size) {
+  const std::string path = damaged(good_results, data, size);
   refusable([&] { load_scenario(path, {}, Purpose::look); });
   refusable([&] {
     const Hdf5Handle file = open_hdf5(path);
     check_result(file);
-    if (read_text_attribute(file, "kind") != "run") return;
-    // one of the two, by chance: most of the time goes into the opening of columns
-    const StoredTable stored(file, size > 0 && data[0] % 2 == 1 ? "trajectory" : "events");
+    // one of its tables: most of the time goes into the opening of columns
+    const std::vector<std::string> tables = members_of(file, "/");
+    const StoredTable stored(file, tables[drawn(data, size, tables.size())]);
     for (const std::string& name : stored.numbers())
-      if (stored.column(name).values().size() != stored.column("time").rows())
+      if (stored.column(name).values().size() != stored.rows())
         throw std::logic_error("columns of a table that was found good differ in length");
   });
 }
 
 std::vector<std::vector<std::uint8_t>> sweep_file_seeds(const fs::path& folder) {
   write_results();
-  const std::string path = (folder / "sweep.h5").string();
-  std::ofstream(folder / "study.toml") << "scenario = \"" WORMDRIVE_SCENARIOS
-                                          "/fig09_switching.toml\"\n"
-                                          "set = [\"run.solver=taylor\", \"run.duration_s=0.1\"]\n"
-                                          "metrics = [\"final_gear_angle\", \"final_gear_speed\", \"stop_events\"]\n"
-                                          "[sweep]\ndesign = \"monte_carlo\"\ntrials = 12\nseed = 1\n"
-                                          "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\n"
-                                          "low = 0.2\nhigh = 0.3\n";
-  make("sweep " + (folder / "study.toml").string() + " -q --force -o " + path);
-  good_sweep = {path, objects_of(path)};
+  add(good_sweeps, folder, "sweep -q" + study_in(folder));
+  add(good_sweeps, folder, "sweep -q --shard 2/3" + study_in(folder));
   return orders();
 }
 
 void take_damaged_sweep(const std::uint8_t* data, std::size_t size) {
-  const std::string path = damaged(good_sweep, data, size);
+  const std::string path = damaged(good_sweeps, data, size);
   refusable([&] {
     const SweepReader sweep(path);
     for (const TrialRange& range : sweep.present()) for_each_trial(sweep, range, [](const Trial&) {});

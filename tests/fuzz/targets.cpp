@@ -153,7 +153,7 @@ const std::vector<Target>& targets() {
                                    bytes("motor.torque[1].torque_Nm=3"), bytes("effect.stribeck.drop=0.1")};
        },
        take_override, toml_words},
-      {"run_file", run_file_seeds, take_damaged_run, {}, 10},
+      {"result_file", result_file_seeds, take_damaged_result, {}, 10},
       {"sweep_file", sweep_file_seeds, take_damaged_sweep, {}, 10},
       {"plant", plant_seeds, take_plant_calls, {}},
       {"loop", loop_seeds, take_loop_calls, {}}};
