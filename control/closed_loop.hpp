@@ -7,6 +7,7 @@
 
 #include "control/control_record.hpp"
 #include "control/disturbance.hpp"
+#include "control/encoder_zero.hpp"
 #include "control/reference.hpp"
 #include "control/sensor.hpp"
 #include "control/speed_estimator.hpp"
@@ -43,6 +44,7 @@ class ClosedLoop {
       : control_(std::move(control)),
         reference_(std::move(reference)),
         encoder_(sensor),
+        zero_(sensor.zero_error, sensor.index_mark),
         speed_(sensor.filter_cutoff, sampling.period),
         disturbance_(disturbance, sampling.period),
         exact_speed_(sensor.exact_speed),
@@ -64,9 +66,10 @@ class ClosedLoop {
     const auto at = system.moment(now);
     const Seen shown = latched_.empty() ? seen(system, now) : seen_before();
     const double limit = system.torque_limit();
-    const double angle = on_worm_ ? measured_on_worm(system, shown.angle) : encoder_(shown.angle, k_);
-    if (k_ == 0) speed_.start(angle);
-    const double difference = speed_(angle);
+    const double counted = on_worm_ ? measured_on_worm(system, shown.angle) : encoder_(shown.angle, k_);
+    if (k_ == 0) speed_.start(counted);
+    const double difference = speed_(counted);  // where the zero moves, nothing else does
+    const double angle = zero_.is_off() ? counted + zero_error(system, counted) : counted;
     const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired,
                         left_, limit};
     const double disturbance = disturbance_(k_++);
@@ -106,6 +109,7 @@ class ClosedLoop {
  private:
   template <class Visit>
   void visit_memory(Visit&& visit) {
+    zero_.visit_memory(visit);
     speed_.visit_memory(visit);
     disturbance_.visit_memory(visit);
     control_.visit_memory(visit);
@@ -141,10 +145,17 @@ class ClosedLoop {
     const double i = system.mesh().i;
     return encoder_(i * angle, k_) / i;
   }
+  /// Not inline either: encoders know their zero as a rule.
+  template <class System>
+  [[gnu::noinline]] double zero_error(const System& system, double angle) {
+    const double per = on_worm_ ? system.mesh().i : 1.0;
+    return zero_(per * angle, k_ == 0) / per;
+  }
 
   Control control_;
   Reference reference_;
   Encoder encoder_;
+  EncoderZero zero_;
   SpeedEstimator speed_;
   TorqueDisturbance disturbance_;
   bool exact_speed_, on_worm_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -17,20 +18,27 @@ struct SensorSettings {
   double counts{0.0};  ///< of the encoder per turn of its shaft; 0: exact
   double noise{0.0};   ///< standard deviation on its shaft [rad]
   double seed{1};
-  double filter_cutoff{0.0};  ///< of the one-pole low-pass behind the difference [Hz]; 0: none
-  bool exact_speed = false;   ///< of the angle that the sensor sees, instead of the filtered difference
-  bool on_worm = false;       ///< the encoder sits on the worm's shaft, and its angle over the ratio is measured
+  double zero_error{0.0};              ///< by which its shaft's angle is off until the index mark has passed [rad]
+  std::optional<double> index_mark{};  ///< angle of its shaft at the mark [rad]; none: the error remains
+  double filter_cutoff{0.0};           ///< of the one-pole low-pass behind the difference [Hz]; 0: none
+  bool exact_speed = false;            ///< of the angle that the sensor sees, instead of the filtered difference
+  bool on_worm = false;  ///< the encoder sits on the worm's shaft, and its angle over the ratio is measured
 
   static constexpr auto fields() {
     using P = SensorSettings;
     constexpr Presence o = Presence::optional;
-    return std::tuple{Field{&P::counts, "counts", unit::whole, bounds::not_negative,
-                            "encoder counts per turn of its shaft; 0 is exact", o},
-                      Field{&P::noise, "noise", unit::radian, bounds::not_negative,
-                            "standard deviation of the angle of the encoder's shaft", o},
-                      Field{&P::seed, "seed", unit::whole, seeds, "seed of the noise", o},
-                      Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
-                            "cut-off of the speed's low-pass; 0 is none", o}};
+    return std::tuple{
+        Field{&P::counts, "counts", unit::whole, bounds::not_negative,
+              "encoder counts per turn of its shaft; 0 is exact", o},
+        Field{&P::noise, "noise", unit::radian, bounds::not_negative,
+              "standard deviation of the angle of the encoder's shaft", o},
+        Field{&P::seed, "seed", unit::whole, seeds, "seed of the noise", o},
+        Field{&P::zero_error, "zero_error", unit::radian, bounds::any,
+              "error of the encoder's zero when it is switched on, an angle of its shaft", o},
+        Field{&P::index_mark, "index_mark", unit::radian, bounds::any,
+              "angle of its shaft at the index mark, which ends the error; without it the error remains", o},
+        Field{&P::filter_cutoff, "speed_filter", unit::hertz, bounds::not_negative,
+              "cut-off of the speed's low-pass; 0 is none", o}};
   }
   static constexpr auto choices() {
     using P = SensorSettings;

@@ -108,7 +108,9 @@ std::string refusal(const HardStops<double>& stops, const Scenario& scenario) {
   const Spelling low = spellings("angle_low", unit::degrees, scenario.axis).front(),
                  high = spellings("angle_high", unit::degrees, scenario.axis).front();
   if (!stops.low && !stops.high) return fmt::format("states neither {} nor {}; add either or both", low.key, high.key);
-  const auto told = [](double angle, const Spelling& s) { return fmt::format("{:.6g} {}", angle / s.unit.si, s.unit.symbol); };
+  const auto told = [](double angle, const Spelling& s) {
+    return fmt::format("{:.6g} {}", angle / s.unit.si, s.unit.symbol);
+  };
   if (stops.low && stops.high && *stops.low >= *stops.high)
     return fmt::format("has {} = {}, which must be less than {} = {}", low.key, told(*stops.low, low), high.key,
                        told(*stops.high, high));

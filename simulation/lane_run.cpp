@@ -32,7 +32,7 @@ bool has_lane_controller(const ControlScenario& control) {
   return (std::holds_alternative<SlidingParameters>(control.law) ||
           std::holds_alternative<PidParameters>(control.law)) &&
          control.anti_windup.method == AntiWindup::none && sensor.counts <= 0.0 && sensor.noise <= 0.0 &&
-         !sensor.exact_speed && !sensor.on_worm && control.disturbance.deviation <= 0.0;
+         sensor.zero_error == 0.0 && !sensor.exact_speed && !sensor.on_worm && control.disturbance.deviation <= 0.0;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

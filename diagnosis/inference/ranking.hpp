@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/inference/selection.hpp"
 
 namespace wormdrive {

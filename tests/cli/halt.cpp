@@ -51,7 +51,7 @@ TEST_CASE("a simulation failure states time, mode, events and reason, and keeps 
   CHECK(part("break-in at 0.0235321491 s)"));
   CHECK(outcome.err.ends_with(": the acceleration is not a finite number; the run up to there is in s.h5.part\n"));
   CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
-  CHECK(outcome.out == "");
+  CHECK(outcome.out.empty());
   CHECK(folder.names() == std::set<std::string>{"s.h5.part", "s.toml"});
 
   const wormdrive::Hdf5Handle file = wormdrive::open_hdf5(folder / "s.h5.part");

@@ -148,7 +148,8 @@ TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
   INFO(sweep.err);
   REQUIRE(sweep.exit == 0);
   REQUIRE(folder.run({"report", "sweep.h5"}).exit == 0);
-  const nlohmann::json data = data_in(folder.read("sweep.html")), groups = data.at("groups");
+  const nlohmann::json data = data_in(folder.read("sweep.html"));
+  const nlohmann::json& groups = data.at("groups");
   REQUIRE(groups.size() == 2);
   const nlohmann::json spread = groups[0].at("panels")[0], cloud = groups[1].at("panels")[0];
   CHECK(spread.at("series")[0].at("name") == "final_gear_speed");

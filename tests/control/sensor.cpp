@@ -34,6 +34,11 @@ std::vector<ControlRecord> records(Control control, const SensorSettings& sensor
   return list;
 }
 
+struct Idle {
+  ControlSignals operator()(const Measurement&) const { return {}; }
+  void visit_memory(const auto&) const {}
+};
+
 const auto ramp = [](const Measurement& m) { return ControlSignals{.torque = m.t}; };
 
 }  // namespace
@@ -119,6 +124,54 @@ TEST_CASE("an encoder on the worm shows the worm's angle over the ratio, in coun
   for (const ControlRecord& r : exact)
     REQUIRE(std::abs(r.measured.speed - 0.7 * std::cos(7.0 * r.measured.t) * (1.0 + 0.02 * std::cos(r.gear_angle))) <=
             1e-14);
+}
+
+TEST_CASE("an encoder whose zero is off shows it until its index mark passes, then whole turns of its shaft at most") {
+  // 0.1 sin(7 t) falls through 0.05 at t = (pi - asin(0.5))/7 for the first time if it starts above it
+  for (const double error : {0.02, -1.0, 3.1, -3.2, 7.0}) {
+    for (const bool on_worm : {false, true}) {
+      const double per = on_worm ? 60.0 : 1.0, whole = 2.0 * pi * std::round(error / (2.0 * pi));
+      SensorSettings sensor{.zero_error = error, .index_mark = per * 0.05, .on_worm = on_worm};
+      const auto list = records(ramp, sensor, {1e-3, 0.2}, {}, 400);
+      const auto exact = records(ramp, {.on_worm = on_worm}, {1e-3, 0.2}, {}, 400);
+      int before = 0;
+      bool passed = false;
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        const double angle = list[k].gear_angle;
+        // the worm passes a mark in every turn, the gear once
+        const auto marks = [&](double a) { return std::floor((a - 0.05) * per / (2.0 * pi)); };
+        passed = passed || (k > 0 && marks(angle) != marks(list[k - 1].gear_angle));
+        REQUIRE(std::abs(list[k].measured.angle - (angle + (passed ? whole : error) / per)) <= 1e-14);
+        REQUIRE(list[k].measured.speed == exact[k].measured.speed);
+        before += !passed;
+      }
+      REQUIRE(before > 10);
+      REQUIRE(passed);
+    }
+  }
+  for (const ControlRecord& r : records(ramp, {.zero_error = 0.3}, {1e-3}, {}, 400))  // no mark
+    REQUIRE(r.measured.angle == r.gear_angle + 0.3);
+}
+
+TEST_CASE("a loop that goes on from its memory finds the index mark where the loop itself does") {
+  auto d = entered(table1(), fig9_load(), {}, {});
+  std::vector<double> angles;
+  const auto loop = [&] {
+    return ClosedLoop(Idle{}, Reference{}, {.zero_error = 0.02, .index_mark = 0.05}, {1e-3}, {},
+                      [&](const ControlRecord& r) { angles.push_back(r.measured.angle - r.gear_angle); });
+  };
+  auto whole = loop();
+  typename std::decay_t<decltype(d)>::Instant now;
+  for (int k = 0; k < 100; ++k) {
+    now.t = 1e-3 * k;
+    now.x[0] = 1e-3 * k;
+    auto other = loop();
+    REQUIRE(other.recall(whole.memory()));
+    whole.sample(d, now);
+    other.sample(d, now);
+    REQUIRE(angles[angles.size() - 2] == angles.back());
+    REQUIRE(std::abs(angles.back() - (k < 50 ? 0.02 : 0.0)) <= 1e-15);
+  }
 }
 
 TEST_CASE("the controller is told what the limit left of what it decided at the sample before, and the limit") {

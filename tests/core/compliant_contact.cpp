@@ -140,7 +140,7 @@ TEST_CASE(
     const double deflection = 0.5e-3 + depth / arm, leaving = -1.01 * fastest_push / arm;
     const auto r = run(d, Timetable(0, 1e-4, 1e-6), {0.0, {0.0, 0.0, deflection, leaving}, {}});
     REQUIRE(r.rows.front().now.mode.contact == Flank::none);
-    REQUIRE(r.events.size() >= 1);
+    REQUIRE_FALSE(r.events.empty());
     REQUIRE(r.events[0].after.mode.contact == Flank::left);
     REQUIRE(d.penetration(d.moment(r.events[0].after), Flank::left).first > 0.0);
     for (const auto& row : r.rows) REQUIRE(row.seen.normal_force >= -1e-9);

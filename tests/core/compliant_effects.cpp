@@ -94,7 +94,7 @@ TEST_CASE("a worm at rest is held between the frictions of its two directions") 
     const double deflection = 0.5e-3 + Wn / k / mesh.gear_arm(0.0);
     const auto r = run(d, Timetable(0, 30.0, 100.0), {0.0, {-p.i * deflection, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-10));
     REQUIRE(r.rows.front().now.mode.worm == Motion::stuck);
-    REQUIRE(r.events.size() >= 1);
+    REQUIRE_FALSE(r.events.empty());
     REQUIRE(r.events[0].after.mode.worm == (direction > 0 ? Motion::forward : Motion::backward));
     REQUIRE(close(direction * rate * r.events[0].after.t, break_in, 1e-6));
   }

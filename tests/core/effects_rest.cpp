@@ -78,7 +78,7 @@ TEST_CASE("static_friction: time at rest counts from the latest stop") {
   const auto d = drive(table1(), constant(tau_l), motor, effects(StaticFriction<double>{rise, growth}));
   for (const By by : every_solver) {
     const auto result = run(d, Timetable(0, 1.2, 0.1), {0.0, {0.0, 0.5}, {}}, tight(by));
-    REQUIRE(result.events.size() >= 1);
+    REQUIRE_FALSE(result.events.empty());
     const double stop = result.events[0].after.t;
     REQUIRE((result.events[0].after.mode.motion == Motion::stuck && stop > 0.001));
     REQUIRE(result.events[0].after.since == stop);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "description/build.hpp"
 #include "diagnosis/logger.hpp"
 #include "support.hpp"
 

@@ -44,7 +44,7 @@ Hypothesis fitted(const Bench& b, std::string_view effect, std::size_t start = 0
   h.noise = {0.3, 0.01};
   for (std::size_t k = 0; k < b.all.size(); ++k)
     if (b.all[k].effect == effect) add_candidate(h, b.all, k, start);
-  REQUIRE(h.free.size() > 0);
+  REQUIRE_FALSE(h.free.empty());
   fit(b.evaluation, h, 10);
   adjust_noise(b.evaluation, h, 6);
   find_gap(b.evaluation, h);

@@ -55,6 +55,8 @@ shaft = "worm"
 counts = 500
 noise_rad = 1e-5
 seed = 9
+zero_error_rad = 0.02
+index_mark_deg = 33
 speed_filter_Hz = 150
 [disturbance]
 deviation_Nm = 1e-4

@@ -5,6 +5,7 @@
 
 #include <boost/uuid/name_generator.hpp>
 #include <boost/uuid/uuid_io.hpp>
+#include <fmt/format.h>
 
 #include "bindings/fmi/json/control_json.hpp"
 #ifndef _WIN32
