@@ -31,7 +31,9 @@ else
   cmake --build build/lint --target wormdrive_commit >/dev/null  # a header that a file includes
   # not what the build itself generated; GCC's own options mean nothing to clang, and quadmath.h is GCC's own
   run-clang-tidy -quiet -p build/lint -extra-arg=-Wno-unused-command-line-argument \
-    -extra-arg="-idirafter$(g++ -print-file-name=include)" "^$PWD/(?!build/)" || status=1
+    -extra-arg="-idirafter$(g++ -print-file-name=include)" "^$PWD/(?!build/)" | tee build/lint/findings || status=1
+  # paths through Eigen that no argument takes end in what the analyzer cannot know
+  if sed $'s/\e\\[[0-9;]*m//g' build/lint/findings | grep -q "^$PWD/.*\[clang-analyzer"; then status=1; fi
 fi
 
 if ((status == 0)); then echo "lint: ${#sources[@]} files, no findings"; fi

@@ -24,7 +24,7 @@ LinearSystem linear_system(const Evaluation& evaluation, const Hypothesis& base,
   made.b = Eigen::VectorXd::Zero(n);
   for (Eigen::Index begin = 0; begin < weigh.rows(); begin += rows_of_part) {
     const Eigen::Index rows = std::min(rows_of_part, weigh.rows() - begin);
-    Eigen::MatrixXd V = Eigen::MatrixXd::Zero(rows, n);
+    Eigen::MatrixXd V(rows, n);
     Eigen::Index column = 0;
     for (const auto& c : screening.free_columns) V.col(column++) = weigh(c, begin, rows);
     for (const auto* const s : signatures) V.col(column++) = weigh(*s, begin, rows);

@@ -85,7 +85,7 @@ Modes lasting(const std::vector<Event>& events, double period) {
 
 /// Whether a list is what a solver tells for a number that differs by no more than the solvers' errors.
 bool in_the_neighbourhood(const Tie& tie, const char* solver, double value, const Modes& list) {
-  for (double apart = 1e-13; apart < 1e-7; apart *= 3.0)
+  for (double apart = 1e-13; apart < 1e-8; apart *= 3.0)
     for (const double side : {-1.0, 1.0})
       if (tie.modes(solver, value * (1.0 + side * apart)) == list) return true;
   return false;
@@ -97,13 +97,13 @@ struct Counts {
   std::string faults;  ///< a line for each
 };
 
-Counts judge(std::uint64_t seed, std::uint64_t trials) {
+Counts judge(const std::vector<std::uint64_t>& trials) {
   Counts counts;
-  for (std::uint64_t trial = 0; trial < trials; ++trial) {
-    near_ties::Dice dice(seed, trial);
+  for (const std::uint64_t trial : trials) {
+    near_ties::Dice dice(20261128, trial);
     Tie tie{draw_effects(dice), {}};
     tie.number = tie.drive.numbers[static_cast<std::size_t>(dice.below(static_cast<int>(tie.drive.numbers.size())))];
-    const double beyond = 1.0 + (dice.chance(0.2) ? 0.0 : dice.sign() * dice.decades(1e-15, 1e-6));
+    const double beyond = 1.0 + (dice.chance(0.1) ? 0.0 : dice.sign() * dice.decades(1e-16, 1e-4));
     double value = 0.0;
     const auto fault = [&](const std::string& why) {
       counts.faults +=
@@ -141,14 +141,16 @@ Counts judge(std::uint64_t seed, std::uint64_t trials) {
 }  // namespace
 
 TEST_CASE("drives with several effects at the edge of an event end alike by every solver", "[slow]") {
-  const Counts found = judge(20261128, 12);
+  const Counts found = judge({3, 4, 5, 11, 14, 22, 23, 24, 26, 30});  // those that take least time
   INFO(found.faults);
   CHECK(found.faults.empty());
-  REQUIRE(found.cases >= 6);
+  REQUIRE(found.cases >= 9);
 }
 
 TEST_CASE("so do several hundred, in half an hour", "[.][long]") {
-  const Counts found = judge(20261129, 400);
+  std::vector<std::uint64_t> trials(400);
+  std::iota(trials.begin(), trials.end(), 100);
+  const Counts found = judge(trials);
   INFO(found.faults);
   CHECK(found.faults.empty());
   REQUIRE(found.cases > 150);
