@@ -106,15 +106,9 @@ std::optional<ControllerRejection> variation_rejection(const Scenario& scenario)
 }
 
 std::vector<ControllerRejection> sensor_rejections(const Scenario& scenario) {
-  if (!scenario.control) return {};
+  if (!scenario.control || !scenario.control->sensor.exact_speed) return {};
   const SensorSettings& sensor = scenario.control->sensor;
   std::vector<ControllerRejection> list;
-  if (sensor.index_mark && sensor.zero_error == 0.0)
-    list.push_back(
-        {"index_mark_rad", fmt::format("sensor.index_mark_rad = {:g} rad has no effect without an error that "
-                                       "it ends; remove it, or state sensor.zero_error_rad",
-                                       *sensor.index_mark)});
-  if (!sensor.exact_speed) return list;
   // An exact speed is none that was made of counts, noise or a filtered difference.
   for (const auto& [key, value] : {std::pair{"counts", sensor.counts}, std::pair{"noise_rad", sensor.noise},
                                    std::pair{"speed_filter_Hz", sensor.filter_cutoff}})

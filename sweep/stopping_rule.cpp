@@ -15,26 +15,28 @@ StoppingRule::StoppingRule(const Study& study) {
   if (watched_.empty()) return;
   missed_.resize(watched_.size());
   constexpr std::uint64_t first = 100;
-  for (std::uint64_t end = first; end < study.trials(); end += end / 10)
-    looks_.push_back({end, 0, 0, std::vector<std::uint64_t>(watched_.size())});
+  for (std::uint64_t end = first; end < study.trials(); end += end / 10) looks_.push_back(end);
 }
 
-void StoppingRule::take(const Trial& trial) {
-  const auto look = std::upper_bound(looks_.begin(), looks_.end(), trial.index,
-                                     [](std::uint64_t index, const Look& one) { return index < one.end; });
-  if (end_ || look == looks_.end()) return;
-  ++look->made;
-  look->failed += trial.status != TrialStatus::done;
-  for (std::size_t k = 0; k < watched_.size() && trial.status == TrialStatus::done; ++k) {
-    const Watched& one = watched_[k];
-    look->missed[k] += one.threshold.missed_by(one.metric.counted(trial.metrics[one.place]));
-  }
+void StoppingRule::count(const Trial& trial, Counts& counts) const {
+  const auto look = std::upper_bound(looks_.begin(), looks_.end(), trial.index);
+  if (look == looks_.end()) return;
+  auto at = counts.begin() + (look - looks_.begin()) * static_cast<std::ptrdiff_t>(numbers_per_look());
+  const bool done = trial.status == TrialStatus::done;
+  ++*at++;
+  *at++ += !done;
+  for (const Watched& one : watched_)
+    *at++ += done && one.threshold.missed_by(one.metric.counted(trial.metrics[one.place]));
+}
+
+void StoppingRule::look(std::span<const std::uint64_t> counts) {
   for (; !end_ && next_ < looks_.size(); ++next_) {
-    const Look& due = looks_[next_];
-    if (due.made < due.end - (next_ == 0 ? 0 : looks_[next_ - 1].end)) return;
-    failed_ += due.failed;
-    for (std::size_t k = 0; k < missed_.size(); ++k) missed_[k] += due.missed[k];
-    if (is_enough(due.end)) end_ = due.end;
+    const std::uint64_t end = looks_[next_], begin = next_ == 0 ? 0 : looks_[next_ - 1];
+    const auto due = counts.subspan(next_ * numbers_per_look(), numbers_per_look());
+    if (due[0] < end - begin) return;
+    failed_ += due[1];
+    for (std::size_t k = 0; k < missed_.size(); ++k) missed_[k] += due[2 + k];
+    if (is_enough(end)) end_ = end;
   }
 }
 

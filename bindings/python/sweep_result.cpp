@@ -16,12 +16,13 @@ void SweepResult::run(unsigned threads, const std::function<void()>& between) {
   std::optional<TrialRange> all = TrialRange{0, study_.trials()};
   for (std::vector<double>& column : values_) column.resize(all->size());
   StoppingRule rule(study_);
+  StoppingRule::Counts counts = rule.none();
   run_ensemble(
       study_, [&] { return std::exchange(all, std::nullopt); }, threads,
       [&](const Trial& trial) {
         between();
         take(trial);
-        rule.take(trial);
+        rule.take(trial, counts);
       },
       [&] { return rule.end().has_value(); });
   if (rule.end()) end_before(*rule.end());

@@ -59,11 +59,12 @@ bool holds_same_sweep(const std::string& output, const SweepReader& shard) {
   }
 }
 
-/// What the shards have, in the order of the trials, every one of the study once; every fault is told.
-std::vector<Stretch> in_order(const Shards& shards) {
+/// What the shards have, in the order of the trials, every one before an end once; every fault is told.
+std::vector<Stretch> in_order(const Shards& shards, std::uint64_t end) {
   std::vector<Stretch> stretches;
   for (const auto& shard : shards)
-    for (const TrialRange& range : shard->present()) stretches.push_back({shard.get(), range});
+    for (const TrialRange& range : shard->present())
+      if (range.first < end) stretches.push_back({shard.get(), {range.first, std::min(range.end, end)}});
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.range.first < b.range.first; });
   Diagnostics faults;
@@ -76,8 +77,7 @@ std::vector<Stretch> in_order(const Shards& shards) {
     next = std::max(next, range.end);
   }
   const SweepReader& last = stretches.empty() ? *shards.front() : *stretches.back().shard;
-  if (const std::uint64_t all = last.study().trials(); next < all)
-    tell_missing(shards, last, "after", {next, all}, faults);
+  if (next < end) tell_missing(shards, last, "after", {next, end}, faults);
   faults.raise();
   return stretches;
 }
@@ -85,12 +85,13 @@ std::vector<Stretch> in_order(const Shards& shards) {
 }  // namespace
 
 std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
-                           const std::string& command_line, Replace replace) {
+                           const std::string& command_line, Replace replace, std::optional<std::uint64_t> early) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
   reject_unrelated_shards(shards);
-  const std::vector<Stretch> stretches = in_order(shards);
   const Study& study = shards.front()->study();
+  const std::uint64_t end = early.value_or(study.trials());
+  const std::vector<Stretch> stretches = in_order(shards, end);
   if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;
   const OpenSweep merged =
       open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false, replace);
@@ -99,15 +100,17 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
       for_each_trial(*shard, range, [&](const Trial& trial) { merged.file->append(trial); });
     std::vector<RefereeVerdict> verdicts;
     for (const auto& shard : shards)
-      for (const RefereeVerdict& verdict : shard->verdicts()) verdicts.push_back(verdict);
+      for (const RefereeVerdict& verdict : shard->verdicts())
+        if (verdict.trial < end) verdicts.push_back(verdict);
     merged.file->write(verdicts);
+    if (early) merged.file->end_before(end);
     merged.file->finish();
   } catch (...) {
     std::error_code ignored;  // the shards have all of it
     std::filesystem::remove(merged.file->part_path(), ignored);
     throw;
   }
-  return study.trials();
+  return end;
 }
 
 }  // namespace wormdrive

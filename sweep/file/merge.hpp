@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace wormdrive {
 
 /// Writes the sweep of which the files are the shards, given in any order, and returns its number of trials. Throws
 /// InputFault if one belongs to another sweep, lacks trials, is given twice or is missing, OutputFault if what is there
-/// may not be replaced. lock: of the output.
+/// may not be replaced. lock: of the output; end: the first trial that a sweep does not take which ends early.
 std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
-                           const std::string& command_line, Replace replace = Replace::same_kind);
+                           const std::string& command_line, Replace replace = Replace::same_kind,
+                           std::optional<std::uint64_t> end = {});
 
 }  // namespace wormdrive

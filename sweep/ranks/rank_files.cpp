@@ -64,7 +64,8 @@ RankPlan plan_ranks(const std::string& name, const Study& study, bool resume, Re
     std::filesystem::rename(name + ".part", rank_file(name, ++plan.generation, 0) + ".part");
   ++plan.generation;
   if (resume && present.empty() && std::filesystem::exists(name)) {
-    reject_another_sweep(SweepReader(name), study, all);
+    const SweepReader done(name);
+    reject_another_sweep(done, study, study.may_end_early() ? done.range() : all);
     plan.complete = true;
     return plan;
   }

@@ -28,7 +28,9 @@ constexpr const char* each_its_shard = "give every process its own --shard";
 
 Tally Ranks::count_here(Tally more) {
   const std::lock_guard lock(mutex_);
-  return std::exchange(tally_, {tally_.portions + more.portions, tally_.failures + more.failures});
+  tally_.resize(more.size());
+  for (std::size_t k = 0; k < more.size(); ++k) more[k] = std::exchange(tally_[k], tally_[k] + more[k]);
+  return more;
 }
 
 #ifdef WORMDRIVE_MPI
@@ -58,10 +60,13 @@ struct Ranks::Link {
 
   Tally ask(Tally more) {
     const std::lock_guard one_at_a_time(asking);
-    Tally before;
-    complete([&](MPI_Request* request) { MPI_Isend(&more, 2, MPI_UINT64_T, 0, question, MPI_COMM_WORLD, request); });
-    complete([&](MPI_Request* request) { MPI_Irecv(&before, 2, MPI_UINT64_T, 0, answer, MPI_COMM_WORLD, request); });
-    return before;
+    const int size = static_cast<int>(more.size());
+    complete([&](MPI_Request* request) {
+      MPI_Isend(more.data(), size, MPI_UINT64_T, 0, question, MPI_COMM_WORLD, request);
+    });
+    complete(
+        [&](MPI_Request* request) { MPI_Irecv(more.data(), size, MPI_UINT64_T, 0, answer, MPI_COMM_WORLD, request); });
+    return more;
   }
 
   /// Whether somebody has asked, who then has been answered.
@@ -71,10 +76,12 @@ struct Ranks::Link {
     MPI_Status status;
     MPI_Iprobe(MPI_ANY_SOURCE, question, MPI_COMM_WORLD, &asked, &status);
     if (!asked) return false;
-    Tally tally;
-    MPI_Recv(&tally, 2, MPI_UINT64_T, status.MPI_SOURCE, question, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    tally = ranks.count_here(tally);
-    MPI_Send(&tally, 2, MPI_UINT64_T, status.MPI_SOURCE, answer, MPI_COMM_WORLD);  // so few bytes wait for nobody
+    int size = 0;
+    MPI_Get_count(&status, MPI_UINT64_T, &size);
+    Tally tally(static_cast<std::size_t>(size));
+    MPI_Recv(tally.data(), size, MPI_UINT64_T, status.MPI_SOURCE, question, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    tally = ranks.count_here(std::move(tally));
+    MPI_Send(tally.data(), size, MPI_UINT64_T, status.MPI_SOURCE, answer, MPI_COMM_WORLD);  // who asks waits for it
     return true;
   }
   void answer_until_stopped(Ranks& ranks) {
@@ -89,7 +96,6 @@ struct Ranks::Link {
 };
 
 Ranks::Ranks(bool apart) {
-  static_assert(sizeof(Tally) == 2 * sizeof(std::uint64_t));
   const Launch launched = launch();
   if (launched.size == 1) return;  // joining takes time, and a single process needs nobody
   if (apart && launched.by == "srun") return;
@@ -161,7 +167,7 @@ std::uint64_t Ranks::sum(std::uint64_t number) const {
   return all;
 }
 
-Tally Ranks::add(Tally more) { return link_ && !first() ? link_->ask(more) : count_here(more); }
+Tally Ranks::add(Tally more) { return link_ && !first() ? link_->ask(std::move(more)) : count_here(std::move(more)); }
 
 #else
 
@@ -178,7 +184,7 @@ Ranks::Ranks(bool apart) {
 Ranks::~Ranks() = default;
 std::vector<std::uint64_t> Ranks::told(std::vector<std::uint64_t> numbers) const { return numbers; }
 std::uint64_t Ranks::sum(std::uint64_t number) const { return number; }
-Tally Ranks::add(Tally more) { return count_here(more); }
+Tally Ranks::add(Tally more) { return count_here(std::move(more)); }
 
 #endif
 

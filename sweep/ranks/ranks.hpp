@@ -7,10 +7,8 @@
 
 namespace wormdrive {
 
-/// What ranks count together: portions that somebody has taken, and trials that have failed.
-struct Tally {
-  std::uint64_t portions = 0, failures = 0;
-};
+/// What ranks count together.
+using Tally = std::vector<std::uint64_t>;
 
 /// The processes that share a sweep, as mpirun or srun has started them; a single one without either, or where the
 /// program was built without MPI.
@@ -30,8 +28,8 @@ class Ranks {
   std::vector<std::uint64_t> told(std::vector<std::uint64_t> numbers) const;
   std::uint64_t sum(std::uint64_t number) const;
 
-  /// Adds to what all have counted, which starts at 0, and returns what that was. Nobody waits for anybody's trial: a
-  /// thread of the first one answers. Threads may call it.
+  /// Adds numbers to what all have counted, which starts at 0, and returns what that was; always as many numbers.
+  /// Nobody waits for anybody's trial: a thread of the first one answers. Threads may call it.
   Tally add(Tally more);
 
  private:

@@ -142,9 +142,6 @@ TEST_CASE("faults of references, sensors, disturbances and windows are reported"
        "s.toml:23:13: error: sensor.noise_rad = 1e-05 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
       {"an exact speed with a filter", but("[sensor]\nspeed_filter_Hz", "[sensor]\nspeed = \"exact\"\nspeed_filter_Hz"),
        "s.toml:23:19: error: sensor.speed_filter_Hz = 200 has no effect with speed = \"exact\"; remove it, or use speed = \"difference\""},
-      {"a mark that ends nothing", but("[sensor]", "[sensor]\nindex_mark_rad = 0.1"),
-       "s.toml:22:18: error: sensor.index_mark_rad = 0.1 rad has no effect without an error that it ends; remove it, or state "
-       "sensor.zero_error_rad"},
       {"half a count", but("[sensor]", "[sensor]\ncounts = 16.5"), "s.toml:22:10: error: sensor.counts = 16.5 must be a whole number"},
       {"no deviation", but("[sensor]", "[disturbance]\nseed = 3\n[sensor]"), "s.toml:21:1: error: [disturbance] lacks 'deviation_Nm' (standard deviation)"},
       {"a window beyond the end", but("[sensor]", "[metrics]\nfrom_s = 1\n[sensor]"),

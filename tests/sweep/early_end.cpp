@@ -4,11 +4,14 @@
 #include <csignal>
 #include <numeric>
 #include <random>
+#include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "sweep/mpirun.hpp"
 #include "sweep/stopping_rule.hpp"
 #include "sweep/studies.hpp"
 
@@ -33,19 +36,27 @@ Trial trial(std::uint64_t index, std::vector<bool> misses) {
   return made;
 }
 
+/// A rule and what it has seen.
+struct Watch {
+  StoppingRule rule;
+  StoppingRule::Counts counts = rule.none();
+
+  void take(const Trial& one) { rule.take(one, counts); }
+};
+
 /// Misses of trials that miss with a probability, as far as a rule lets them go.
 struct Ended {
   std::uint64_t end, missed;
 };
 Ended ended(double share, double until, unsigned seed) {
-  StoppingRule rule(study_of({until}));
+  Watch watch{StoppingRule(study_of({until}))};
   std::mt19937_64 random(seed);
   std::bernoulli_distribution misses(share);
   std::uint64_t index = 0, missed = 0;
-  while (!rule.end()) {
+  while (!watch.rule.end()) {
     const bool one = misses(random);
     missed += one;
-    rule.take(trial(index++, {one}));
+    watch.take(trial(index++, {one}));
   }
   return {index, missed};
 }
@@ -87,17 +98,36 @@ TEST_CASE("the end of a sweep does not depend on the order of its trials", "[swe
   trials[7].status = TrialStatus::refused;  // it counts, and misses nothing
   std::optional<std::uint64_t> in_order;
   for (int shuffled = 0; shuffled < 4; ++shuffled) {
-    StoppingRule rule(study_of({0.2, 0.2}));
-    for (const Trial& one : trials) rule.take(one);
-    REQUIRE(rule.end());
-    if (shuffled == 0) in_order = rule.end();
-    CHECK(rule.end() == in_order);
-    CHECK(*rule.end() > 2000);  // the one that is missed less needs more: 96 (1 - p)/p
+    Watch watch{StoppingRule(study_of({0.2, 0.2}))};
+    for (const Trial& one : trials) watch.take(one);
+    REQUIRE(watch.rule.end());
+    if (shuffled == 0) in_order = watch.rule.end();
+    CHECK(watch.rule.end() == in_order);
+    CHECK(*watch.rule.end() > 2000);  // the one that is missed less needs more: 96 (1 - p)/p
     std::shuffle(trials.begin(), trials.end(), random);
   }
-  StoppingRule never(study_of({0.01}));
+  Watch never{StoppingRule(study_of({0.01}))};
   for (const Trial& one : trials) never.take(one);
-  CHECK_FALSE(never.end());
+  CHECK_FALSE(never.rule.end());
+
+  // and not on who has made them: three processes that tell each other now and then
+  const StoppingRule rule(study_of({0.2, 0.2}));
+  std::vector<StoppingRule> rules(3, rule);
+  std::vector<StoppingRule::Counts> untold(3, rule.none());
+  StoppingRule::Counts all = rule.none();
+  for (const Trial& one : trials) {
+    const std::size_t who = random() % 3;
+    rule.count(one, untold[who]);
+    if (random() % 50 != 0) continue;
+    add(all, std::exchange(untold[who], rule.none()));
+    rules[who].look(all);
+  }
+  for (std::size_t who = 0; who < 3; ++who) add(all, untold[who]);
+  for (StoppingRule& one : rules) {
+    one.look(all);
+    CHECK(one.end() == in_order);
+    CHECK(one.failed() == 1);
+  }
 }
 
 TEST_CASE("a sweep that ends early has the same trials for any threads, interrupted or not", "[sweep]") {
@@ -137,11 +167,45 @@ TEST_CASE("a sweep that would end early and is killed goes on to the same end", 
   CHECK(folder.rows("a.h5") == folder.rows("b.h5"));
 }
 
+TEST_CASE("ranks end where one process does, with its rows, killed and resumed by any number of ranks or not",
+          "[sweep][slow]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder(ends_early(1000000, 3));
+  REQUIRE(folder.sweep({"-o", "alone.h5", "--referee", "0"}).exit == 0);
+  for (const char* count : {"2", "3"}) {
+    const std::string file = std::string(count) + ".h5";
+    const Outcome outcome = Process(on_ranks(count, {"-o", file}), folder.path()).wait();
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.exit == 0);
+    CHECK(outcome.out.find(fmt::format("{} of at most 1000000 trials are enough", folder.present("alone.h5"))) !=
+          std::string::npos);
+    CHECK(folder.rows(file) == folder.rows("alone.h5"));
+    CHECK(folder.run({"diff", file, "alone.h5"}).exit == 0);
+    const Outcome again = Process(on_ranks(count, {"-o", file, "--resume"}), folder.path()).wait();
+    CHECK(again.out.find("already contains every trial") != std::string::npos);
+  }
+  folder.write("study.toml", ends_early(1000000, 1));
+  REQUIRE(folder.sweep({"-o", "longer.h5", "--referee", "0"}).exit == 0);
+  int killed = 0;
+  for (const char* generation : {"1", "2"}) {
+    Process job(on_ranks("3", {"-o", "killed.h5", "--resume"}), folder.path());
+    const std::string part = folder / fmt::format("killed.h5.rank_{}_2.part", generation);
+    while (!folder.names().contains("killed.h5") && rows_so_far(part, "trials/status") == 0) usleep(1000);
+    killed += lose_a_rank();
+    job.wait();
+  }
+  CHECK(killed > 0);
+  const Outcome last = Process(on_ranks("2", {"-o", "killed.h5", "--resume"}), folder.path()).wait();
+  INFO(last.out << last.err);
+  REQUIRE(last.exit == 0);
+  CHECK(folder.rows("killed.h5") == folder.rows("longer.h5"));
+}
+
 TEST_CASE("what cannot end early is rejected", "[sweep]") {
   const StudyFolder folder(ends_early(100000, 20));
   CHECK(folder.sweep({"--shard", "1/2"}).err ==
-        "study.toml: error: threshold.until_percent ends a sweep of one process; remove it, or run without mpirun and "
-        "--shard\n");
+        "study.toml: error: threshold.until_percent ends a sweep whose processes count together; remove it, or run "
+        "without --shard\n");
   folder.write("study.toml", edited(ends_early(200, 20), "monte_carlo", "sobol"));
   CHECK(folder.sweep({}).err ==
         "study.toml:22:17: error: threshold[0].until_percent is for sweep.design = \"monte_carlo\": the trials of "

@@ -56,6 +56,13 @@ TEST_CASE("every trial has its own noise, or all have the same if the study asks
   CHECK(errors(noisy(sensor)) != errors(edited(noisy(sensor), "seed = 1", "seed = 2")));
 }
 
+TEST_CASE("encoders whose zero is off to either side are swept, with an index mark", "[sweep]") {
+  const std::string marked = noisy("sensor.index_mark_rad=0.1");
+  const std::string off = edited(edited(marked, "mesh.friction", "sensor.zero_error_rad"),
+                                 "low = 0.25\nhigh = 0.2500000001", "low = -0.01\nhigh = 0.01");
+  CHECK(spread(errors(off)) > 0.01);
+}
+
 TEST_CASE("the noise of a trial is the same in threads, shards and replays", "[sweep][slow]") {
   for (const char* noise : {sensor, disturbance}) {
     const StudyFolder folder(noisy(noise));

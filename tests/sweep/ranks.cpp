@@ -34,17 +34,6 @@ class Environment {
   std::vector<std::pair<std::string, std::string>> variables_;
 };
 
-/// The processes that a process has started.
-std::vector<pid_t> children(pid_t parent) {
-  std::vector<pid_t> list;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    std::ifstream stat(entry.path() / "stat");
-    std::string pid, name, state, of;
-    if (stat >> pid >> name >> state >> of && of == std::to_string(parent)) list.push_back(std::stoi(pid));
-  }
-  return list;
-}
-
 }  // namespace
 
 TEST_CASE("1, 2 and 4 ranks give the rows of one process", "[sweep][slow]") {
@@ -68,11 +57,7 @@ TEST_CASE("a lost rank loses its last trials, which any number of ranks can run 
   REQUIRE(folder.sweep({"-o", "alone.h5"}).exit == 0);
   Process job(on_ranks("2", {"-o", "ranks.h5"}), folder.path());
   while (rows_so_far(folder / "ranks.h5.rank_1_1.part", "trials/status") == 0) usleep(1000);
-  const std::vector<pid_t> mpiruns = children(getpid());
-  REQUIRE(mpiruns.size() == 1);
-  const std::vector<pid_t> ranks = children(mpiruns.front());
-  REQUIRE(ranks.size() == 2);
-  ::kill(ranks.back(), SIGKILL);
+  REQUIRE(lose_a_rank());
   CHECK(job.wait().exit != 0);
   CHECK_FALSE(folder.names().contains("ranks.h5"));
   std::size_t kept = 0;
@@ -143,7 +128,7 @@ TEST_CASE("ranks stop at --max-failures with the message of a single process", "
 TEST_CASE("a rank takes slow portions", "[.][slow]") {
   Ranks ranks(false);
   int made = 0;
-  for (; ranks.add({1, 0}).portions < 40; ++made) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (; ranks.add({1}).front() < 40; ++made) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   CHECK(ranks.sum(static_cast<std::uint64_t>(made)) == 40);
   std::cout << fmt::format("rank {} of {} made {}\n", ranks.rank(), ranks.count(), made);
 }

@@ -48,11 +48,9 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0, failed = open.failed;
   StoppingRule rule(study);
-  if (study.may_end_early()) {
-    const SweepReader part(file.part_path());
-    for (const TrialRange& there : part.present())
-      for_each_trial(part, there, [&](const Trial& trial) { rule.take(trial); });
-  }
+  StoppingRule::Counts counts = rule.none();
+  count_present(rule, {file.part_path()}, counts);
+  rule.look(counts);
   const auto too_many = [&] {  // threads that are ahead of the end may have failures of their own
     return options.max_failures && (rule.end() ? rule.failed() : failed) > *options.max_failures;
   };
@@ -68,7 +66,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     const auto source = [&] { return next == open.missing.end() ? std::nullopt : std::optional(*next++); };
     const auto take = [&](Trial trial) {
       failed += trial.status != TrialStatus::done;
-      rule.take(trial);
+      rule.take(trial, counts);
       file.append(std::move(trial));
       progress.at(static_cast<double>(++made), [&](double passed) {
         return fmt::format(", {:.0f} trials/s, {} failed", static_cast<double>(made) / passed, failed);
@@ -117,10 +115,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   print_item("run", fmt::format("{} trials in {:.3g} s on {} thread{}, {:.0f} per second{}", made, seconds, threads,
                                 threads == 1 ? "" : "s", static_cast<double>(made) / seconds,
                                 before > 0 ? fmt::format("; {} were already complete", before) : ""));
-  if (study.may_end_early())
-    print_item("end", rule.end()
-                          ? fmt::format("{} of at most {} trials are enough", *rule.end(), range.size())
-                          : fmt::format("all {} trials are not enough for what until_percent asks", range.size()));
+  print_end(study, rule);
   print_cost(cost);
   print_failures(SweepReader(output).counted_reasons());
   print_verdicts(verdicts, study);
@@ -150,9 +145,9 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
     reject_overwriting(output, options.study);
     if (ranks.count() > 1 && !options.shard.empty())
       reject({"--shard " + options.shard}, "the ranks share all trials; remove the option");
-    if (read->may_end_early() && (ranks.count() > 1 || !options.shard.empty()))
+    if (read->may_end_early() && !options.shard.empty())
       reject({options.study},
-             "threshold.until_percent ends a sweep of one process; remove it, or run without mpirun and --shard");
+             "threshold.until_percent ends a sweep whose processes count together; remove it, or run without --shard");
   });
   if (!good) return bad_input;
   const Study study = read ? std::move(*read) : load_study(options.study);  // once: it may be a pipe

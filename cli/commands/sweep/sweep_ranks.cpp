@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -43,6 +45,23 @@ class Missing {
   std::uint64_t count_;
 };
 
+/// What ranks tell each other of the trials that they have made.
+struct Counted {
+  std::uint64_t failures;
+  StoppingRule::Counts counts;
+};
+
+/// Adds to what all ranks have counted, and to their portions, and makes of it what all have counted then. How many
+/// portions were taken before.
+std::uint64_t add_to(Ranks& ranks, std::uint64_t portions, Counted& counted) {
+  Tally told{portions, counted.failures};
+  told.insert(told.end(), counted.counts.begin(), counted.counts.end());
+  const Tally before = ranks.add(std::move(told));
+  counted.failures += before[1];
+  add(counted.counts, std::span(before).subspan(2));
+  return before[0];
+}
+
 /// What a rank does of a sweep.
 class RankSweep {
  public:
@@ -53,7 +72,9 @@ class RankSweep {
         path_(path),
         missing_(std::move(missing)),
         portion_(std::clamp<std::uint64_t>(missing_.count() / (64 * static_cast<std::uint64_t>(ranks.count())), 1,
-                                           256 * std::uint64_t{threads_for(options.threads)})) {}
+                                           256 * std::uint64_t{threads_for(options.threads)})),
+        rule_(study),
+        untold_{0, rule_.none()} {}
 
   void make() {
     const TrialRange all{0, study_.trials()};
@@ -62,7 +83,11 @@ class RankSweep {
     Progress progress(static_cast<double>(missing_.count()), options_.quiet || !ranks_.first());
     const double begin = cpu_time();
     const auto take = [&](Trial trial) {
-      if (trial.status != TrialStatus::done) ++failures_;
+      {
+        const std::lock_guard lock(counting_);
+        untold_.failures += trial.status != TrialStatus::done;
+        rule_.count(trial, untold_.counts);
+      }
       file.append(std::move(trial));
       ++made_;
       progress.at(static_cast<double>(std::min(reached_.load(), missing_.count())), [&](double seconds) {
@@ -73,27 +98,43 @@ class RankSweep {
     run_ensemble(
         study_, [this] { return next(); }, threads_for(options_.threads), take, [&] { return is_to_end(file); });
     const auto ranks = static_cast<std::size_t>(ranks_.count());
+    tell();
     if (!too_many() && Interruptible::signal() == 0)
       judge(file, study_, options_, cpu_time() - begin, (least_judged + ranks - 1) / ranks);
     file.flush();
   }
   std::uint64_t made() const { return made_; }
-  /// What was taken by then is made nevertheless, so that every trial before the last one is there.
-  bool too_many() {
-    const std::uint64_t failures = failures_.exchange(0);
-    return ranks_.add({0, failures}).failures + failures > most_failures();
+  /// Tells the others what was counted here, and hears what they have.
+  void tell() { add(0); }
+  /// Whether more have failed than may, as far as is known here. What was taken by then is made nevertheless, so that
+  /// every trial before the last one is there.
+  bool too_many() const {
+    return options_.max_failures && (rule_.end() ? rule_.failed() : failures_) > *options_.max_failures;
   }
+  const StoppingRule& rule() const { return rule_; }
 
  private:
-  std::uint64_t most_failures() const { return options_.max_failures.value_or(~std::uint64_t{0}); }
+  /// What was counted here and by others, behind it; so many portions were taken before by anyone.
+  std::uint64_t add(std::uint64_t portions) {
+    Counted mine{0, rule_.none()};
+    {
+      const std::lock_guard lock(counting_);
+      std::swap(mine, untold_);
+    }
+    Counted all = mine;
+    const std::uint64_t before = add_to(ranks_, portions, all);
+    failures_ = all.failures;
+    const std::lock_guard lock(counting_);
+    rule_.look(all.counts);
+    ends_ = rule_.end().has_value();
+    return before;
+  }
 
-  /// The next trials that no rank has taken. Failures are told with the question, so that they cost no other.
+  /// The next trials that no rank has taken. What is counted is told with the question, so that it costs no other.
   std::optional<TrialRange> next() {
     if (left_ == 0) {
-      const std::uint64_t failures = failures_.exchange(0);
-      const Tally before = ranks_.add({1, failures});
-      if (before.failures + failures > most_failures()) return std::nullopt;
-      at_ = before.portions * portion_;
+      at_ = add(1) * portion_;
+      if (too_many() || ends_) return std::nullopt;
       left_ = at_ < missing_.count() ? std::min(portion_, missing_.count() - at_) : 0;
       reached_ = at_;
     }
@@ -104,13 +145,13 @@ class RankSweep {
     return range;
   }
 
-  static bool is_to_end(SweepFile& file) {
-    const bool ends = Interruptible::signal() != 0;
-    if (ends)
+  bool is_to_end(SweepFile& file) const {
+    const bool interrupted = Interruptible::signal() != 0;
+    if (interrupted)
       file.flush();  // trials that have begun may take longer than whoever has sent the signal waits
     else
       file.keep_safe();
-    return ends;
+    return interrupted || ends_;
   }
 
   Ranks& ranks_;
@@ -120,7 +161,11 @@ class RankSweep {
   Missing missing_;
   std::uint64_t portion_, at_ = 0, left_ = 0;
   std::atomic<std::uint64_t> reached_{0};
-  std::atomic<std::uint64_t> failures_{0};  ///< that the others have not been told
+  StoppingRule rule_;
+  Counted untold_;  ///< of trials that were made here
+  std::mutex counting_;
+  std::uint64_t failures_ = 0;  ///< of all ranks, when they were last told of here
+  std::atomic<bool> ends_{false};
   std::uint64_t made_ = 0;
 };
 
@@ -133,7 +178,10 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
     try {
       lock = OutputLock(output);
       plan = plan_ranks(output, study, options.resume, options.replace);
-      ranks.add({0, plan.failed});
+      const StoppingRule rule(study);
+      Counted present{plan.failed, rule.none()};
+      if (!plan.complete) count_present(rule, rank_parts(output), present.counts);
+      add_to(ranks, 0, present);
     } catch (...) {
       ranks.told(told);
       throw;
@@ -156,12 +204,12 @@ int common_code(const Ranks& ranks, int code) {
 }
 
 /// Puts together what the ranks have made; the first one does it.
-void join(const SweepOptions& options, const std::string& output, OutputLock lock) {
+void join(const SweepOptions& options, const std::string& output, OutputLock lock, std::optional<std::uint64_t> end) {
   const std::vector<std::string> parts = rank_parts(output);
   std::vector<std::string> used;
   for (const std::string& part : parts)
     if (SweepReader(part).trials() > 0) used.push_back(part);
-  merge_shards(used, output, std::move(lock), options.command_line, options.replace);
+  merge_shards(used, output, std::move(lock), options.command_line, options.replace, end);
   for (const std::string& part : parts) std::filesystem::remove(part);
 }
 
@@ -200,13 +248,15 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   // the others go on: they must not wait for this one
   const int fault = common_code(ranks, guarded(make, fmt::format("wormdrive: rank {}", ranks.rank())));
   const std::uint64_t made = ranks.sum(sweep.made());
+  sweep.tell();  // by now nobody has anything left to tell: all hear the same
   const bool too_many = sweep.too_many();
+  const std::optional<std::uint64_t> end = sweep.rule().end();
   if (fault == bad_input) return fault;  // going on would meet it again
   const std::uint64_t there = study.trials() - missing.count() + made;
   const std::string resume =
       fmt::format("continue with: mpirun -n {} {}", ranks.count(),
                   how_to_resume(options.command_line, options.resume).substr(std::string("continue with: ").size()));
-  if (fault != 0 || too_many || made < missing.count()) {
+  if (fault != 0 || too_many || (made < missing.count() && !end)) {
     if (ranks.first() && too_many)
       fmt::print(stderr, "wormdrive: {}; {}.rank_* contain all of them\n",
                  ended_early(rank_parts(output), *options.max_failures).told, output);
@@ -218,7 +268,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   std::string each;
   if (ranks.first()) {
     each = shares(output, plan.generation, ranks.count());
-    join(options, output, std::move(lock));
+    join(options, output, std::move(lock), end);
     keep_trajectories(output, options.command_line, options.quiet, options.replace);
   }
   if (!talks) return 0;
@@ -226,6 +276,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
   print_item("run", fmt::format("{} trials in {:.3g} s on {} rank{}{}, {:.0f} per second{}", made, seconds,
                                 ranks.count(), ranks.count() == 1 ? "" : "s", each, static_cast<double>(made) / seconds,
                                 there > made ? fmt::format("; {} were already complete", there - made) : ""));
+  print_end(study, sweep.rule());
   const SweepReader result(output);
   print_failures(result.counted_reasons());
   print_verdicts(result.verdicts(), study);

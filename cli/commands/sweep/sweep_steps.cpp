@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "description/diagnostics.hpp"
 #include "statistics/threads.hpp"
@@ -63,6 +64,22 @@ EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_fa
       end = trial.index + 1;
     });
   return {end, too_many_failed(reasons, trials, max_failures)};
+}
+
+void count_present(const StoppingRule& rule, const std::vector<std::string>& parts, StoppingRule::Counts& counts) {
+  if (counts.empty()) return;
+  for (const std::string& path : parts) {
+    const SweepReader part(path);
+    for (const TrialRange& there : part.present())
+      for_each_trial(part, there, [&](const Trial& trial) { rule.count(trial, counts); });
+  }
+}
+
+void print_end(const Study& study, const StoppingRule& rule) {
+  if (!study.may_end_early()) return;
+  print_item("end", rule.end()
+                        ? fmt::format("{} of at most {} trials are enough", *rule.end(), study.trials())
+                        : fmt::format("all {} trials are not enough for what until_percent asks", study.trials()));
 }
 
 namespace {

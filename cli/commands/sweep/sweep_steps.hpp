@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "sweep/ensemble.hpp"
 #include "sweep/file/sweep_file.hpp"
+#include "sweep/stopping_rule.hpp"
 
 namespace wormdrive {
 
@@ -38,6 +39,12 @@ struct EarlyEnd {
 };
 /// Finds that in files which have every trial before, and perhaps others.
 EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures);
+
+/// Counts the trials that files of a sweep have, where that decides about its end.
+void count_present(const StoppingRule& rule, const std::vector<std::string>& parts, StoppingRule::Counts& counts);
+
+/// Prints how many trials were enough, of a study that may end early.
+void print_end(const Study& study, const StoppingRule& rule);
 
 /// Trials of a sweep that a referee looks at in any case.
 inline constexpr std::size_t least_judged = 8;
