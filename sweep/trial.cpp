@@ -133,7 +133,7 @@ Trial Trials::at(std::vector<double> point, std::uint64_t index) {
   study_.copula.apply(point);
   Trial trial = row(index);
   if (!prepare(0, trial, point)) return trial;
-  std::vector<Trial> prepared{std::move(trial)};
+  std::vector<Trial> prepared{trial};
   run(prepared, [&](Trial made) { trial = std::move(made); });
   return trial;
 }

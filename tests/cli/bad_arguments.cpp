@@ -122,7 +122,7 @@ TEST_CASE("unknown commands and unexpected arguments end with exit code 2") {
     const Outcome outcome = folder.run(misuse.words);
     INFO(outcome.err << "expected: " << misuse.named);
     CHECK(outcome.exit == 2);
-    CHECK(outcome.out == "");
+    CHECK(outcome.out.empty());
     CHECK(outcome.err.find(misuse.named) != std::string::npos);
     CHECK(folder.names() == std::set<std::string>{"s.toml"});
   }

@@ -13,14 +13,14 @@ using nlohmann::json;
 
 namespace {
 
-const std::string fig9 = shipped("fig09_switching.toml");
+const std::string fig9 = shipped("fig09_switching.toml"), nothing;
 
 /// Standard output of a command that succeeds and has nothing to complain about.
 std::string printed(const Folder& folder, const std::vector<std::string>& words) {
   const Outcome outcome = folder.run(words);
   INFO(outcome.err);
   REQUIRE(outcome.exit == 0);
-  REQUIRE(outcome.err == "");
+  REQUIRE(outcome.err == nothing);
   return outcome.out;
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("the option --quiet prints nothing") {
                                                 {"statics", fig9, "-q", "-o", "a.h5"},
                                                 {"steady", fig9, "-q", "-o", "b.h5"},
                                                 {"statics", fig9, "-q"}})
-    CHECK(printed(folder, words) == "");
+    CHECK(printed(folder, words) == nothing);
   CHECK(folder.names() == std::set<std::string>{"a.h5", "b.h5", "fig09_switching.h5"});
 }
 

@@ -41,6 +41,8 @@ std::string recorded(const std::string& header) {
   return text;
 }
 
+const std::string nothing;
+
 /// Names the words of turning in a text.
 std::string turning(const std::string& text) {
   std::string found;
@@ -92,9 +94,9 @@ TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], prints for
   REQUIRE(found.exit == 0);
   CHECK(found.out.find("worm viscous") != std::string::npos);
   CHECK(found.out.find("N s/m") != std::string::npos);
-  CHECK(turning(found.out) == "");
+  CHECK(turning(found.out) == nothing);
   const json report = json::parse(folder.read("out/diagnosis.json"));
-  CHECK(turning(report.dump()) == "");
+  CHECK(turning(report.dump()) == nothing);
   CHECK(report.at("noise").contains("force_N"));
   CHECK(report.at("noise").contains("position_m"));
   for (const auto& [column, units] : {std::pair{"residual/gear_angle", "m"},
@@ -103,7 +105,7 @@ TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], prints for
                                       {"residual/before", "N"},
                                       {"examples/measured", "m"}})
     CHECK(units_of(folder / "out/diagnosis.h5", column) == units);
-  CHECK(turning(pictured(folder, "out/diagnosis.h5")) == "");
+  CHECK(turning(pictured(folder, "out/diagnosis.h5")) == nothing);
   CHECK(pictured(folder, "out/diagnosis.h5").find("position, forward [m]") != std::string::npos);
   CHECK(folder.read("out/extended.toml").find("[run]") == std::string::npos);
   const Outcome page = folder.run({"report", "out"});
@@ -120,10 +122,10 @@ TEST_CASE("torque at constant speed is a force on a linear axis, in the result a
   folder.write("s.toml", sledge + "[effect.worm_viscous]\ncoefficient_Ns_per_m = 3\n");
   const Outcome steady = folder.run({"steady", "s.toml", "-o", "s.h5"});
   REQUIRE(steady.exit == 0);
-  CHECK(turning(steady.out) == "");
+  CHECK(turning(steady.out) == nothing);
   CHECK(steady.out.find("the motor force is 0 throughout") == std::string::npos);
   const std::string words = pictured(folder, "s.h5");
-  CHECK(turning(words) == "");
+  CHECK(turning(words) == nothing);
   CHECK(words.find("motor force [N]") != std::string::npos);
   CHECK(folder.run({"check", "s.toml"}).out.find("the motor force is 0 throughout") != std::string::npos);
 }
@@ -154,7 +156,7 @@ below_m_per_s = 0.1
     const Outcome outcome = folder.run(words);
     INFO(words.front() << ": " << outcome.out << outcome.err);
     CHECK(outcome.exit == 0);
-    CHECK(turning(outcome.out) == "");
+    CHECK(turning(outcome.out) == nothing);
     CHECK(outcome.out.find("positions agree within") != std::string::npos);
   }
   CHECK(units_of(folder / "sweep.h5", "referee/angle_difference") == "m");

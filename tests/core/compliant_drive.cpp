@@ -85,7 +85,7 @@ TEST_CASE("teeth hold the worm of a self-locking gear up to the break-in torques
     const double deflection = rest_deflection(p, tau_l, k, 1e-3);
     const auto r = run(d, Timetable(0, 20.0, 100.0), {0.0, {-p.i * deflection, 0.0, 0.0, 0.0}, {}}, tight(bdf, 1e-10));
     REQUIRE(r.rows.front().now.mode == CompliantMode{Flank::left, Motion::stuck, Motion::forward});
-    REQUIRE(r.events.size() >= 1);
+    REQUIRE_FALSE(r.events.empty());
     REQUIRE(r.events[0].after.mode.worm == (direction > 0 ? Motion::forward : Motion::backward));
     REQUIRE(close(direction * rate * r.events[0].after.t, break_in, 1e-6));
   }
@@ -134,7 +134,7 @@ TEST_CASE("a worm at rest under a gear that flies freely starts at a short peak 
                                Signal{{Sinusoid{.amplitude = A, .frequency = f, .phase = -90 * unit::degree}}},
                                wide_gap, effects(WormCoulomb<double>{T_w})),
                      Timetable(0, 1.0, 10.0), {0.0, {0.0, 0.0, 0.0, 0.1}, {}});
-  REQUIRE(r.events.size() >= 1);
+  REQUIRE_FALSE(r.events.empty());
   REQUIRE(close(r.events[0].after.t, std::asin(T_w / A) / (2 * std::numbers::pi * f), 1e-9));
 }
 

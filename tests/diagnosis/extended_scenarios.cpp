@@ -59,6 +59,8 @@ Magnitudes typical_sizes(const Scenario& scenario) {
   return m;
 }
 
+const std::string none;
+
 /// Why a scenario is refused that a diagnosis has extended by what it has found; empty if it is not.
 std::string refusal(const Scenario& stated, const Effects<double>& found) {
   std::vector<std::string> remarks;
@@ -91,7 +93,7 @@ TEST_CASE("the scenario that a diagnosis extends by any one candidate is taken b
           apply(found, candidate.coordinates, values);
           for (const FieldValue& f : start.chosen) set_field(found, f);
           INFO(stated.title << ": " << candidate.effect << " of " << values.front());
-          CHECK(refusal(stated, found) == "");
+          CHECK(refusal(stated, found) == none);
         }
     }
   }
@@ -113,7 +115,7 @@ TEST_CASE("the same of candidates for torque points") {
             Effects<double> found = stated.effects;
             apply(found, candidate.coordinates, values);
             INFO(stated.title << ": " << candidate.effect << " of " << values.front());
-            CHECK(refusal(stated, found) == "");
+            CHECK(refusal(stated, found) == none);
           }
     }
   }

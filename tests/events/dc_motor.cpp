@@ -115,7 +115,7 @@ TEST_CASE("at rest the current rises by itself, and the gear breaks away when it
       const double U = R * needed * (1.0 + excess);
       const auto seen = run(drive_with_states(GearMesh<double>(p), constant(tau_l), constant(U), effects(m)),
                             Timetable(0, 0.1, 1e-3), {}, tight(by));
-      REQUIRE(seen.events.size() >= 1);
+      REQUIRE_FALSE(seen.events.empty());
       const auto& away = seen.events.front();
       REQUIRE(away.before.mode == Mode{});
       REQUIRE(away.after.mode == Mode{Motion::forward, Flank::right});

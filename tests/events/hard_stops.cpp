@@ -294,7 +294,7 @@ TEST_CASE("at a stop the gear stays whatever pushes, the stop takes it, and it l
       INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
       const auto seen = run(drive_with_states(GearMesh<double>(p), constant(-load), motor, effects(stops)),
                             Timetable(0, 1.05 * due, 1.05 * due / 20), {}, tight(by));
-      REQUIRE(seen.events.size() >= 1);
+      REQUIRE_FALSE(seen.events.empty());
       CHECK(std::abs(seen.events.front().after.t - due) <= 1e-11 * due);
       CHECK(seen.events.front().after.mode.motion == Motion::backward);
       for (const auto& row : seen.rows) {

@@ -50,7 +50,7 @@ TEST_CASE("a ramp that releases a held load starts one motion, whatever the roun
     for (int side : {1, -1}) {
       const auto r = run(drive(table1(), constant(load * side), Signal{{Ramp{rate * side}}}), Timetable(0, 2, never),
                          {}, tight(adams, 1e-10));
-      REQUIRE(r.events.size() >= 1);
+      REQUIRE_FALSE(r.events.empty());
       REQUIRE(r.events.size() <= 2);  // released, and later over the switching surface
       REQUIRE(sign(r.events[0].after.mode.motion) == side);
       REQUIRE(sign(r.end.mode.motion) == side);

@@ -89,7 +89,7 @@ TEST_CASE("a run file has the columns of its layout, each with units or flags an
   }
   for (const std::string attribute : {"title", "kind", "scenario", "command_line", "wormdrive_version", "commit",
                                       "sources", "libraries", "created", "solver"})
-    CHECK(read_text_attribute(run.file(), attribute) != "");
+    CHECK_FALSE(read_text_attribute(run.file(), attribute).empty());
   CHECK(read_text_attribute(run.file(), "kind") == "run");
   CHECK(read_text_attribute(run.file(), "command_line") ==
         "wormdrive run " + shipped("fig09_switching.toml") + " -q --set run.report_interval_s=0.001");

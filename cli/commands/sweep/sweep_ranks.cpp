@@ -51,8 +51,8 @@ struct Counted {
   StoppingRule::Counts counts;
 };
 
-/// Adds to what all ranks have counted, and to their portions, and makes of it what all have counted then. How many
-/// portions were taken before.
+/// Adds to what all ranks have counted, and turns it into what all have counted then. Takes so many portions, and
+/// returns how many were taken before.
 std::uint64_t add_to(Ranks& ranks, std::uint64_t portions, Counted& counted) {
   Tally told{portions, counted.failures};
   told.insert(told.end(), counted.counts.begin(), counted.counts.end());
@@ -114,7 +114,8 @@ class RankSweep {
   const StoppingRule& rule() const { return rule_; }
 
  private:
-  /// What was counted here and by others, behind it; so many portions were taken before by anyone.
+  /// Tells the others what was counted here, hears what they have, and takes so many portions; returns how many were
+  /// taken before.
   std::uint64_t add(std::uint64_t portions) {
     Counted mine{0, rule_.none()};
     {
