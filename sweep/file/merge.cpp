@@ -85,12 +85,12 @@ std::vector<Stretch> in_order(const Shards& shards, std::uint64_t end) {
 }  // namespace
 
 std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
-                           const std::string& command_line, Replace replace, std::optional<std::uint64_t> early) {
+                           const std::string& command_line, Replace replace, std::optional<std::uint64_t> early_end) {
   Shards shards;
   for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
   reject_unrelated_shards(shards);
   const Study& study = shards.front()->study();
-  const std::uint64_t end = early.value_or(study.trials());
+  const std::uint64_t end = early_end.value_or(study.trials());
   const std::vector<Stretch> stretches = in_order(shards, end);
   if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;
   const OpenSweep merged =
@@ -103,7 +103,7 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
       for (const RefereeVerdict& verdict : shard->verdicts())
         if (verdict.trial < end) verdicts.push_back(verdict);
     merged.file->write(verdicts);
-    if (early) merged.file->end_before(end);
+    if (early_end) merged.file->end_before(end);
     merged.file->finish();
   } catch (...) {
     std::error_code ignored;  // the shards have all of it

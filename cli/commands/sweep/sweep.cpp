@@ -48,12 +48,9 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   const std::uint64_t wanted = trials_in(open.missing), before = range.size() - wanted;
   std::uint64_t made = 0, failed = open.failed;
   StoppingRule rule(study);
-  StoppingRule::Counts counts = rule.none();
-  count_present(rule, {file.part_path()}, counts);
+  StoppingRule::Counts counts = counted_in({file.part_path()}, rule);
   rule.look(counts);
-  const auto too_many = [&] {  // threads that are ahead of the end may have failures of their own
-    return options.max_failures && (rule.end() ? rule.failed() : failed) > *options.max_failures;
-  };
+  const auto too_many = [&] { return exceeds_failures(options, rule, failed); };
   const auto has_all = [&] { return made == wanted || rule.end(); };
   std::vector<RefereeVerdict> verdicts;
   double seconds = 0.0;

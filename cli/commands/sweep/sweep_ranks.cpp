@@ -108,9 +108,7 @@ class RankSweep {
   void tell() { add(0); }
   /// Whether more have failed than may, as far as is known here. What was taken by then is made nevertheless, so that
   /// every trial before the last one is there.
-  bool too_many() const {
-    return options_.max_failures && (rule_.end() ? rule_.failed() : failures_) > *options_.max_failures;
-  }
+  bool too_many() const { return exceeds_failures(options_, rule_, failures_); }
   const StoppingRule& rule() const { return rule_; }
 
  private:
@@ -180,8 +178,7 @@ std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const 
       lock = OutputLock(output);
       plan = plan_ranks(output, study, options.resume, options.replace);
       const StoppingRule rule(study);
-      Counted present{plan.failed, rule.none()};
-      if (!plan.complete) count_present(rule, rank_parts(output), present.counts);
+      Counted present{plan.failed, counted_in(rank_parts(output), rule)};
       add_to(ranks, 0, present);
     } catch (...) {
       ranks.told(told);

@@ -66,13 +66,19 @@ EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_fa
   return {end, too_many_failed(reasons, trials, max_failures)};
 }
 
-void count_present(const StoppingRule& rule, const std::vector<std::string>& parts, StoppingRule::Counts& counts) {
-  if (counts.empty()) return;
+StoppingRule::Counts counted_in(const std::vector<std::string>& parts, const StoppingRule& rule) {
+  StoppingRule::Counts counts = rule.none();
+  if (counts.empty()) return counts;
   for (const std::string& path : parts) {
     const SweepReader part(path);
     for (const TrialRange& there : part.present())
       for_each_trial(part, there, [&](const Trial& trial) { rule.count(trial, counts); });
   }
+  return counts;
+}
+
+bool exceeds_failures(const SweepOptions& options, const StoppingRule& rule, std::uint64_t so_far) {
+  return options.max_failures && (rule.end() ? rule.failed() : so_far) > *options.max_failures;
 }
 
 void print_end(const Study& study, const StoppingRule& rule) {

@@ -40,8 +40,12 @@ struct EarlyEnd {
 /// Finds that in files which have every trial before, and perhaps others.
 EarlyEnd ended_early(const std::vector<std::string>& parts, std::uint64_t max_failures);
 
-/// Counts the trials that files of a sweep have, where that decides about its end.
-void count_present(const StoppingRule& rule, const std::vector<std::string>& parts, StoppingRule::Counts& counts);
+/// Counts of the trials that files of a sweep have; reads none where no count decides about its end.
+StoppingRule::Counts counted_in(const std::vector<std::string>& parts, const StoppingRule& rule);
+
+/// Whether more trials have failed than may, of all so far, or of those that are enough: threads and ranks that are
+/// ahead of the end may have failures of their own.
+bool exceeds_failures(const SweepOptions& options, const StoppingRule& rule, std::uint64_t so_far);
 
 /// Prints how many trials were enough, of a study that may end early.
 void print_end(const Study& study, const StoppingRule& rule);
