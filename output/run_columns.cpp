@@ -60,7 +60,7 @@ std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents) {
        {{"winding_temperature_rise", "K", "temperature of the motor's winding above its surroundings"},
         [](const Row& r) { return r.at.winding->warmth; }}});
   for (const auto& [description, state] : contents.states)
-    columns.push_back({description, [state](const Row& r) { return r.at.states[state]; }});
+    columns.push_back({description, [state = state](const Row& r) { return r.at.states[state]; }});
   return columns;
 }
 

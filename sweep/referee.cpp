@@ -71,9 +71,9 @@ std::vector<RefereeVerdict> referee(const SweepReader& sweep, unsigned threads,
         const std::size_t place = begun++;
         verdicts.resize(begun);
         lock.unlock();
-        RefereeVerdict verdict = judged(trials, *trial, place);
+        const RefereeVerdict verdict = judged(trials, *trial, place);
         lock.lock();
-        verdicts[place] = std::move(verdict);
+        verdicts[place] = verdict;
       }
     } catch (...) {
       const std::lock_guard lock(mutex);

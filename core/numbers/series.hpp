@@ -67,11 +67,16 @@ struct Series : SeriesOrder<N, open> {
     for (int k = 0; k <= b.last; ++k) c[k] -= b.c[k];
     return *this;
   }
-  Series operator-() const {
+  /// f of every coefficient.
+  template <class F>
+  Series each(const F& f) const {
     Series r;
     r.know(last);
-    for (int k = 0; k <= last; ++k) r.c[k] = -c[k];
+    for (int k = 0; k <= last; ++k) r.c[k] = f(c[k]);
     return r;
+  }
+  Series operator-() const {
+    return each([](const T& x) { return -x; });
   }
   friend Series operator+(Series a, const Series& b) { return a += b; }
   friend Series operator-(Series a, const Series& b) { return a -= b; }
@@ -120,24 +125,18 @@ struct Series : SeriesOrder<N, open> {
   }
   template <class Constant>
   requires std::constructible_from<T, Constant>
-  friend Series operator*(Series a, const Constant& b) {
-    const T factor(b);
-    for (int k = 0; k <= a.last; ++k) a.c[k] = a.c[k] * factor;
-    return a;
+  friend Series operator*(const Series& a, const Constant& b) {
+    return a.each([factor = T(b)](const T& x) { return x * factor; });
   }
   template <class Constant>
   requires std::constructible_from<T, Constant>
-  friend Series operator*(const Constant& a, Series b) {
-    const T factor(a);
-    for (int k = 0; k <= b.last; ++k) b.c[k] = factor * b.c[k];
-    return b;
+  friend Series operator*(const Constant& a, const Series& b) {
+    return b.each([factor = T(a)](const T& x) { return factor * x; });
   }
   template <class Constant>
   requires std::constructible_from<T, Constant>
-  friend Series operator/(Series a, const Constant& b) {
-    const T divisor(b);
-    for (int k = 0; k <= a.last; ++k) a.c[k] = a.c[k] / divisor;
-    return a;
+  friend Series operator/(const Series& a, const Constant& b) {
+    return a.each([divisor = T(b)](const T& x) { return x / divisor; });
   }
   friend bool operator<=(const Series& a, const Series& b) { return a.c[0] <= b.c[0]; }
   friend bool operator<(const Series& a, const Series& b) { return a.c[0] < b.c[0]; }

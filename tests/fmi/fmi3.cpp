@@ -136,7 +136,7 @@ TEST_CASE("the description of an FMU keeps to the schema of FMI 3.0", "[referenc
                                    {"measured_servo_axis", "plant"}})
     for (const std::string version : {"2", "3"}) {
       const Exported exported(shipped(file + ".toml"), {}, {"--kind", kind, "--fmi", version});
-      const auto keeps = [&](const std::string& schema, const std::string& xml) {
+      const auto keeps = [&, &file = file, &kind = kind](const std::string& schema, const std::string& xml) {
         const Outcome outcome =
             Process({xmllint, "--noout", "--schema", schemas + schema, xml}, exported.folder.path()).wait();
         INFO(file << ' ' << kind << ' ' << outcome.err);
