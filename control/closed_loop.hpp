@@ -49,6 +49,7 @@ class ClosedLoop {
         disturbance_(disturbance, sampling.period),
         exact_speed_(sensor.exact_speed),
         on_worm_(sensor.on_worm),
+        plain_(encoder_.is_exact() && !exact_speed_ && !on_worm_ && !zero_.is_off()),
         period_(sampling.period),
         delayed_(sampling.delay > 0.5),
         listener_(std::move(listener)) {}
@@ -64,14 +65,10 @@ class ClosedLoop {
   double sample(System& system, const typename System::Instant& now) {
     const ReferencePoint desired = reference_.at(now.t);
     const auto at = system.moment(now);
-    const Seen shown = latched_.empty() ? seen(system, now) : seen_before();
+    const bool as_it_is = plain_ && latched_.empty();
+    const Seen read = as_it_is ? with_difference(system.measured_angle(now)) : measured(system, now);
     const double limit = system.torque_limit();
-    const double counted = on_worm_ ? measured_on_worm(system, shown.angle) : encoder_(shown.angle, k_);
-    if (k_ == 0) speed_.start(counted);
-    const double difference = speed_(counted);  // where the zero moves, nothing else does
-    const double angle = zero_.is_off() ? counted + zero_error(system, counted) : counted;
-    const Measurement m{now.t, angle, exact_speed_ ? shown.speed : difference, k_ == 0 ? 0.0 : period_, desired,
-                        left_, limit};
+    const Measurement m{now.t, read.angle, read.speed, k_ == 0 ? 0.0 : period_, desired, left_, limit};
     const double disturbance = disturbance_(k_++);
     const ControlSignals decided = control_(m);
     const double before = std::exchange(left_, std::clamp(decided.torque, -limit, limit));
@@ -115,11 +112,11 @@ class ClosedLoop {
     control_.visit_memory(visit);
   }
 
-  /// What the sensor sees of the gear, as the worm shows it if it sits there; of the speed only where that is asked
-  /// for, out of line, so that what sees none is inline.
   struct Seen {
     double angle, speed;
   };
+  /// What the sensor sees of the gear, as the worm shows it if it sits there; of the speed only where that is asked
+  /// for, out of line, so that what sees none is inline.
   template <class System>
   Seen seen(const System& system, const typename System::Instant& now) const {
     return exact_speed_ || on_worm_ ? seen_with_speed(system, now) : Seen{system.measured_angle(now), 0.0};
@@ -133,23 +130,22 @@ class ClosedLoop {
     return {measured[0], measured[1]};
   }
 
-  /// What was latched for this sample. Not inline: a sample that sees what is would wait for it.
-  [[gnu::noinline]] Seen seen_before() {
-    const Seen shown = latched_.front();
-    latched_.pop();
-    return shown;
+  /// The angle of this sample, and the speed from what it differs by.
+  Seen with_difference(double angle) {
+    if (k_ == 0) speed_.start(angle);
+    return {angle, speed_(angle)};
   }
-  /// Not inline: the compiler would divide at every sample, and the controller would wait for it.
+  /// What the sensor shows where it is late, counts, errs or sits on the worm. Not inline: a controller would wait for
+  /// what few sensors do.
   template <class System>
-  [[gnu::noinline]] double measured_on_worm(const System& system, double angle) const {
-    const double i = system.mesh().i;
-    return encoder_(i * angle, k_) / i;
-  }
-  /// Not inline either: encoders know their zero as a rule.
-  template <class System>
-  [[gnu::noinline]] double zero_error(const System& system, double angle) {
+  [[gnu::noinline]] Seen measured(const System& system, const typename System::Instant& now) {
+    const Seen shown = latched_.empty() ? seen(system, now) : latched_.front();
+    if (!latched_.empty()) latched_.pop();
     const double per = on_worm_ ? system.mesh().i : 1.0;
-    return zero_(per * angle, k_ == 0) / per;
+    Seen read = with_difference(encoder_(per * shown.angle, k_) / per);
+    if (exact_speed_) read.speed = shown.speed;
+    if (zero_.is_off()) read.angle += zero_(per * read.angle, k_ == 0) / per;  // the speed does not see the zero move
+    return read;
   }
 
   Control control_;
@@ -159,6 +155,7 @@ class ClosedLoop {
   SpeedEstimator speed_;
   TorqueDisturbance disturbance_;
   bool exact_speed_, on_worm_;
+  bool plain_;  ///< the sensor shows the gear's angle as it is
   double period_;
   bool delayed_;
   Listener listener_;

@@ -54,6 +54,8 @@ class Encoder {
   explicit Encoder(const SensorSettings& settings)
       : settings_(settings), exact_(settings.noise <= 0.0 && settings.counts <= 0.0) {}
 
+  /// It shows every angle as it is.
+  bool is_exact() const { return exact_; }
   /// The measured angle of its shaft [rad] at the k-th sample.
   double operator()(double angle, std::uint64_t k) const {
     if (exact_) return angle;

@@ -153,7 +153,7 @@ class SlidingController {
 
  private:
   /// Not inline: that would cost the law without anti-windup a tenth of its time.
-  [[gnu::noinline]] ControlSignals decide_within_limit(const Measurement& m, double load) {
+  [[gnu::noinline]] ControlSignals decide_within_limit(Measurement m, double load) {
     law_.integrate(growth_(m.angle - m.desired.angle, m.period, beyond(m.applied)));
     branches_ = law_.branches(m, load);
     before_ = law_.decide(m, load, branches_);

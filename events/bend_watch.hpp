@@ -32,26 +32,7 @@ class BendWatch {
 
   /// Begins where a segment starts: on which side of zero each quantity is just after it.
   void begin(const Instant& now) {
-    if (none()) return;
-    if constexpr (Foresees<System>) {
-      const double resolution = time_resolution(now.t);
-      std::size_t k = 0;
-      visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
-        const int decides = undecided(b, resolution);
-        const bool decided = decides <= b.last;
-        // of one that nothing decides, the side to which the series goes that a step would take
-        const double sign = (decided ? b[decides].value > 0.0 : goes_up(b)) ? 1.0 : -1.0;
-        // one that stays at zero, as the load of a stop that is not met, bends nothing until it leaves it
-        const double unknown =
-            std::max(2.0 * doubt(b, decided ? decides : 0, resolution), std::numeric_limits<double>::min());
-        sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
-      });
-      here_ = values(now);
-      unsure_ = never;
-      for (k = 0; k < sides_.size(); ++k)
-        if (sides_[k].floor > 0.0 && here_[k][1] > 0.0)
-          unsure_ = std::min(unsure_, 2.0 * sides_[k].floor / here_[k][1]);
-    }
+    if (!none()) find_sides(now);
   }
   /// How long [s] the first step may be, infinity mostly: where a segment starts at a bend, rounding may have left it
   /// on the other side, and a series from there has the equations of that side. Asked for once.
@@ -105,6 +86,29 @@ class BendWatch {
   struct Side {
     double sign = 1.0, floor = 0.0;
   };
+
+  /// Not inline: few drives have bends, and all have segments.
+  [[gnu::noinline]] void find_sides(const Instant& now) {
+    if constexpr (Foresees<System>) {
+      const double resolution = time_resolution(now.t);
+      std::size_t k = 0;
+      visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
+        const int decides = undecided(b, resolution);
+        const bool decided = decides <= b.last;
+        // of one that nothing decides, the side to which the series goes that a step would take
+        const double sign = (decided ? b[decides].value > 0.0 : goes_up(b)) ? 1.0 : -1.0;
+        // one that stays at zero, as the load of a stop that is not met, bends nothing until it leaves it
+        const double unknown =
+            std::max(2.0 * doubt(b, decided ? decides : 0, resolution), std::numeric_limits<double>::min());
+        sides_[k++] = {sign, sign * b[0].value > unknown ? 0.0 : unknown};
+      });
+      here_ = values(now);
+      unsure_ = never;
+      for (k = 0; k < sides_.size(); ++k)
+        if (sides_[k].floor > 0.0 && here_[k][1] > 0.0)
+          unsure_ = std::min(unsure_, 2.0 * sides_[k].floor / here_[k][1]);
+    }
+  }
 
   /// Where the values of a series go, whatever their rounding; up where all are zero.
   template <int N>

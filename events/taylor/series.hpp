@@ -104,7 +104,7 @@ class SeriesFlow {
     then.x = state_after(e, s);
     const auto there = system.moment(then);
     const auto follows = [&](double found, const Coefficients& c, double value_there, double rounded) {
-      Coefficients rate;
+      Coefficients rate{};
       for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * c[k];
       const double allowed = e.order * accuracy.allowed(value_there) + rounded;
       return near(found, {rate.data(), static_cast<std::size_t>(e.order)}, allowed);

@@ -52,7 +52,7 @@ if [[ -n $module ]]; then
 fi
 
 # a program of one's own, without the optimisation that the libraries have had
-"$cmake" -S "$prefix/share/doc/wormdrive/example" -B example -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
+"$cmake" -G Ninja -S "$prefix/share/doc/wormdrive/example" -B example -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS_DEBUG=-O0 >configured 2>&1 || { cat configured >&2; exit 1; }
 "$cmake" --build example >built 2>&1 || { cat built >&2; exit 1; }
 expect "$(example/my_simulator "$scenario")" "12 events; at the end the gear is at "
