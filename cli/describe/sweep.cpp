@@ -34,6 +34,8 @@ std::string with_interval(const SampleEstimate& e, double scale) {
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", e.value * scale, e.low * scale, e.high * scale);
 }
 
+std::string with_interval(const std::optional<SampleEstimate>& e) { return e ? with_interval(*e) : "unknown"; }
+
 std::string with_value(const Metric& metric, double value) {
   return std::isnan(value) ? fmt::format("without {}", metric.name)
                            : fmt::format("{} {:.6g}{}", metric.name, value, in_unit(metric.unit));

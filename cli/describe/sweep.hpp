@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@ std::string in_unit(const Unit& unit);
 
 /// An estimate and its interval, if it has one, times a scale: "0.12 [0.11, 0.13]".
 std::string with_interval(const SampleEstimate& e, double scale = 1.0);
+/// The same, "unknown" if there is none.
+std::string with_interval(const std::optional<SampleEstimate>& e);
 
 /// "error_max 0.002 rad", or "without error_max" where the value is not a number.
 std::string with_value(const Metric& metric, double value);

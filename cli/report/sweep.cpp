@@ -131,11 +131,16 @@ ReportTable influence_table(const SweepSummary& summary) {
   ReportTable table{"Influence on " + words(summary.ranked_by), {{"parameter"}, {"rank correlation", true}}, {}};
   const bool sobol = !summary.influences.empty() && summary.influences.front().sobol;
   const bool shapley = !summary.influences.empty() && summary.influences.front().shapley;
-  if (shapley) table.heads.push_back({"Shapley effect [interval]"});
+  if (shapley)
+    for (const char* head : {"Shapley effect [interval]", "Sobol index, first [interval]", "total [interval]"})
+      table.heads.push_back({head});
   if (sobol) table.heads.insert(table.heads.end(), {{"Sobol index, total [interval]"}, {"first [interval]"}});
   for (const Influence& i : summary.influences) {
     table.rows.push_back({i.parameter, i.rank_correlation.value});
-    if (shapley) table.rows.back().push_back(i.shapley ? with_interval(*i.shapley) : "");
+    if (i.shapley)
+      table.rows.back().insert(
+          table.rows.back().end(),
+          {with_interval(i.shapley->share), with_interval(i.shapley->first), with_interval(i.shapley->total)});
     if (i.sobol)
       table.rows.back().insert(table.rows.back().end(), {with_interval(i.sobol->total), with_interval(i.sobol->first)});
   }

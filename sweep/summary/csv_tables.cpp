@@ -123,7 +123,10 @@ std::string summary_csv(const SweepReader& sweep, const SweepSummary& summary) {
   for (std::size_t m = 0; m < summary.shapley.size(); ++m)
     for (std::size_t k = 0; k < summary.shapley[m].of.size(); ++k) {
       rows.of("shapley", sweep.study().parameters[k].path, summary.metrics[m].metric.name);
-      rows.add("share", summary.shapley[m].of[k], "1");
+      const ShapleyEffect& effect = summary.shapley[m].of[k];
+      rows.add("share", effect.share, "1");
+      if (effect.first) rows.add("first", *effect.first, "1");
+      if (effect.total) rows.add("total", *effect.total, "1");
     }
   for (const PairIndex& pair : summary.sobol.pairs) {
     const auto& parameters = sweep.study().parameters;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "statistics/student_t.hpp"
 #include "sweep/summary/blocks.hpp"
@@ -9,15 +10,40 @@
 namespace wormdrive {
 namespace {
 
-/// Sums over the permutations of what a parameter adds to the variance, x, and of the variance itself, v.
+/// Sums over permutations of a part of the variance, x, and of the variance itself, v.
 struct ShareSums {
-  double x = 0.0, xx = 0.0, xv = 0.0;
+  std::uint64_t count = 0;
+  double x = 0.0, xx = 0.0, xv = 0.0, v = 0.0, vv = 0.0;
 
-  void add(double adds, double variance) {
-    x += adds;
-    xx += adds * adds;
-    xv += adds * variance;
+  void add(double part, double variance) {
+    ++count;
+    x += part;
+    xx += part * part;
+    xv += part * variance;
+    v += variance;
+    vv += variance * variance;
   }
+  /// Nothing where fewer than two permutations, or none in which the metric changes, tell of it.
+  std::optional<SampleEstimate> share() const {
+    if (count < 2 || v == 0.0) return std::nullopt;
+    const auto used = static_cast<double>(count);
+    const double mean = x / v;
+    // a ratio of means varies as the mean of x - share v does, whose own mean is 0
+    const double squares = std::max(0.0, xx - 2.0 * mean * xv + mean * mean * vv);
+    const double half = t_quantile(count - 1) * std::sqrt(used / (used - 1.0) * squares) / v;
+    return SampleEstimate{mean, mean - half, mean + half};
+  }
+  /// The same of a part that is never negative: few large ones make most of it, and its logarithm is nearer to normal.
+  std::optional<SampleEstimate> positive_share() const {
+    std::optional<SampleEstimate> estimate = share();
+    if (!estimate || x == 0.0) return estimate;
+    const double mean = estimate->value, factor = std::exp(estimate->high / mean - 1.0);
+    return SampleEstimate{mean, mean / factor, std::max(mean, std::min(1.0, mean * factor))};
+  }
+};
+/// Of one parameter: where it stands anywhere, first, and last.
+struct ParameterSums {
+  ShareSums all, first, last;
 };
 
 }  // namespace
@@ -26,8 +52,7 @@ ShapleyEffects shapley_effects(const Column& values, const DesignSettings& setti
                                std::uint64_t seed) {
   ShapleyEffects effects;
   const Design design(settings, parameters, seed);
-  std::vector<ShareSums> sums(parameters);
-  double v = 0.0, vv = 0.0;
+  std::vector<ParameterSums> sums(parameters);
   // f: the first draw, and with all parameters from each place of the order on drawn anew
   for_each_block(values, parameters + 1, [&](std::uint64_t permutation, const std::vector<double>& f) {
     if (!is_whole(f)) {
@@ -41,22 +66,17 @@ ShapleyEffects shapley_effects(const Column& values, const DesignSettings& setti
       return 0.5 * change * change;
     };
     const double variance = variance_from(0);
-    v += variance;
-    vv += variance * variance;
     const std::vector<std::size_t> order = design.order(permutation);
-    for (std::size_t place = 0; place < parameters; ++place)
-      sums[order[place]].add(variance_from(place) - variance_from(place + 1), variance);
+    for (std::size_t place = 0; place < parameters; ++place) {
+      const double adds = variance_from(place) - variance_from(place + 1);
+      ParameterSums& of = sums[order[place]];
+      of.all.add(adds, variance);
+      if (place == 0) of.first.add(adds, variance);
+      if (place + 1 == parameters) of.last.add(adds, variance);
+    }
   });
-  if (effects.used < 2 || v == 0.0) return effects;
-  const auto used = static_cast<double>(effects.used);
-  const double widths = t_quantile(effects.used - 1);
-  for (const ShareSums& s : sums) {
-    const double share = s.x / v;
-    // a ratio of means varies as the mean of x - share v does, whose own mean is 0
-    const double squares = std::max(0.0, s.xx - 2.0 * share * s.xv + share * share * vv);
-    const double half = widths * std::sqrt(used / (used - 1.0) * squares) / v;
-    effects.of.push_back({share, share - half, share + half});
-  }
+  for (const ParameterSums& of : sums)
+    if (const auto share = of.all.share()) effects.of.push_back({*share, of.first.share(), of.last.positive_share()});
   return effects;
 }
 

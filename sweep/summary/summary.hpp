@@ -55,11 +55,11 @@ struct Influence {
   SampleEstimate rank_correlation{};
   std::optional<SobolIndex> sobol;
   std::optional<ElementaryEffects> effects;  ///< of a Morris design
-  std::optional<SampleEstimate> shapley;     ///< of a Shapley design
+  std::optional<ShapleyEffect> shapley;      ///< of a Shapley design
   double size() const {
     return sobol     ? sobol->total.value
            : effects ? effects->mu_star.value
-           : shapley ? shapley->value
+           : shapley ? shapley->share.value
                      : std::abs(rank_correlation.value);
   }
 };

@@ -13,6 +13,12 @@ nlohmann::json as_json(const SampleEstimate& e) {
 nlohmann::json as_json(const ElementaryEffects& e) {
   return {{"mu", e.mu}, {"mu_star", as_json(e.mu_star)}, {"sigma", e.sigma}};
 }
+nlohmann::json as_json(const ShapleyEffect& e) {
+  nlohmann::json json = as_json(e.share);
+  if (e.first) json["first"] = as_json(*e.first);
+  if (e.total) json["total"] = as_json(*e.total);
+  return json;
+}
 
 /// What a design finds out of every metric and parameter, from so many of its blocks.
 template <class Effects>

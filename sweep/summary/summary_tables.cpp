@@ -117,6 +117,8 @@ SummaryTable shapley_table(const Study& study) {
                      {{"index", "1", "number of the row"}},
                      {{"metric", "name of the metric"}, {"parameter", "path of the parameter"}}};
   add_estimate(table, "share", "1", "Shapley effect: share of the variance of the metric");
+  add_estimate(table, "first", "1", "first-order Sobol index, with what the parameter tells of the others");
+  add_estimate(table, "total", "1", "total Sobol index: what remains where all others are known");
   return table;
 }
 

@@ -142,7 +142,11 @@ void write_summary_tables(hid_t file, const SweepSummary& summary, const Study& 
                   row.push_back(effects.sigma);
                 });
   write_effects(file, shapley_table(study), summary.shapley, study,
-                [](const SampleEstimate& share, std::vector<double>& row) { append(row, share); });
+                [](const ShapleyEffect& effect, std::vector<double>& row) {
+                  append(row, effect.share);
+                  for (const auto& index : {effect.first, effect.total})
+                    append(row, index.value_or(SampleEstimate{none, none, none}));
+                });
   write_pairs(file, summary, study);
 }
 

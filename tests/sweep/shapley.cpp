@@ -4,6 +4,8 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <regex>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -39,9 +41,15 @@ double ishigami(const std::vector<double>& u) {
   return std::sin(angle(0)) * (1.0 + 0.1 * std::pow(angle(2), 4)) + 7.0 * std::pow(std::sin(angle(1)), 2);
 }
 
-/// Shapley effects from the variance that is explained by every set of parameters, a set being a sum of 1, 2 and 4.
-std::vector<double> by_definition(const std::map<unsigned, double>& explained) {
-  std::vector<double> effects;
+/// Of a parameter: Shapley effect, first-order and total Sobol index.
+struct Exact {
+  double share, first, total;
+};
+
+/// From the variance that is explained by every set of parameters, a set being a sum of 1, 2 and 4.
+std::vector<Exact> by_definition(const std::map<unsigned, double>& explained) {
+  std::vector<Exact> effects;
+  const double variance_of_all = explained.at(7);
   for (unsigned own = 1; own < 8; own *= 2) {
     double sum = 0.0;
     for (const auto& [others, variance] : explained) {
@@ -49,13 +57,14 @@ std::vector<double> by_definition(const std::map<unsigned, double>& explained) {
       const int size = std::popcount(others);
       sum += (explained.at(others | own) - variance) / (size == 1 ? 6.0 : 3.0);
     }
-    effects.push_back(sum / explained.at(7));
+    effects.push_back(
+        {sum / variance_of_all, explained.at(own) / variance_of_all, 1.0 - explained.at(7 & ~own) / variance_of_all});
   }
   return effects;
 }
 
 /// Those of Ishigami's function, by the midpoint rule over normal scores.
-std::vector<double> ishigami_effects(double rho) {
+std::vector<Exact> ishigami_effects(double rho) {
   constexpr int steps = 400;
   constexpr double far = 8.5, width = 2.0 * far / steps;
   const auto score = [&](int k) { return -far + (k + 0.5) * width; };
@@ -94,12 +103,16 @@ std::vector<double> ishigami_effects(double rho) {
 double linear(const std::vector<double>& u) {
   return 1.0 + 2.0 * normal_quantile(u[0]) + 3.0 * normal_quantile(u[1]) + normal_quantile(u[2]);
 }
-/// [Owen2017]: correlated parameters share half of what either explains of the other one.
-std::vector<double> linear_effects(double rho) {
+/// [Owen2017]: correlated parameters share half of what either explains of the other one. [Kucherenko2012]: alone, each
+/// explains what the metric covaries with it; where all others are known, it has the variance that they leave it.
+std::vector<Exact> linear_effects(double rho) {
   const double variance = 4.0 + 9.0 + 1.0 + 2.0 * rho * 2.0, shared = 0.5 * rho * rho;
   const double first = 4.0 * (1.0 - shared) + 2.0 * rho + 1.0 * shared,
                last = 1.0 * (1.0 - shared) + 2.0 * rho + 4.0 * shared;
-  return {first / variance, 9.0 / variance, last / variance};
+  const double free = 9.0 / variance, remains = (1.0 - rho * rho) / variance;
+  return {{first / variance, (2.0 + rho) * (2.0 + rho) / variance, 4.0 * remains},
+          {free, free, free},
+          {last / variance, (1.0 + 2.0 * rho) * (1.0 + 2.0 * rho) / variance, remains}};
 }
 
 }  // namespace
@@ -141,7 +154,9 @@ TEST_CASE("dependent parameters that are drawn anew keep the correlations with t
   }
 }
 
-TEST_CASE("Shapley effects of Ishigami's function and of a linear model, with correlations and without", "[sweep]") {
+TEST_CASE(
+    "Shapley effects and Sobol indices of Ishigami's function and of a linear model, with correlations and without",
+    "[sweep]") {
   for (const double rho : {0.0, 0.5, -0.9}) {
     const Shapley design{20000, correlated(rho)};
     for (const auto& [function, exact] :
@@ -150,31 +165,44 @@ TEST_CASE("Shapley effects of Ishigami's function and of a linear model, with co
       REQUIRE(found.of.size() == 3);
       double sum = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const double deviation = (found.of[k].high - found.of[k].low) / (2.0 * 1.96);
-        INFO("correlation " << rho << ", parameter " << k << ": " << found.of[k].value << " +- " << deviation
-                            << ", exactly " << exact[k]);
-        CHECK(std::abs(found.of[k].value - exact[k]) < 3.5 * deviation);
-        CHECK(deviation < 0.01);
-        sum += found.of[k].value;
+        const ShapleyEffect& effect = found.of[k];
+        REQUIRE(effect.first);
+        REQUIRE(effect.total);
+        for (const auto& [estimate, value, precision] : {std::tuple{effect.share, exact[k].share, 0.01},
+                                                         {*effect.first, exact[k].first, 0.02},
+                                                         {*effect.total, exact[k].total, 0.02}}) {
+          const double deviation = (estimate.high - estimate.low) / (2.0 * 1.96);
+          INFO("correlation " << rho << ", parameter " << k << ": " << estimate.value << " +- " << deviation
+                              << ", exactly " << value);
+          CHECK(std::abs(estimate.value - value) <= 3.5 * deviation);
+          CHECK(deviation < precision);
+        }
+        sum += effect.share.value;
       }
       CHECK(close(sum, 1.0, 1e-12));
     }
   }
   // of independent parameters, half of what two do together is the part of either [Owen2014]
-  const std::vector<double> free = ishigami_effects(0.0);
+  const std::vector<Exact> free = ishigami_effects(0.0);
   const double pi4 = std::pow(std::numbers::pi, 4), variance = 49.0 / 8 + pi4 / 50 + pi4 * pi4 / 1800 + 0.5;
-  CHECK(close(free[2], 0.5 * pi4 * pi4 * 0.08 / 225 / variance, 1e-6));
+  CHECK(close(free[2].share, 0.5 * pi4 * pi4 * 0.08 / 225 / variance, 1e-6));
 }
 
-TEST_CASE("intervals of Shapley effects contain the true value as often as stated", "[sweep]") {
+TEST_CASE("intervals of Shapley effects and of their Sobol indices contain the true value as often as stated",
+          "[sweep]") {
   constexpr int designs = 500;
   const Shapley design{200, correlated(0.5)};
   for (const auto& [function, exact] :
        {std::pair{Function(ishigami), ishigami_effects(0.5)}, std::pair{Function(linear), linear_effects(0.5)}}) {
-    std::vector<int> caught(3);
+    std::vector<int> caught(9);
+    const auto holds = [](const SampleEstimate& e, double value) { return e.low <= value && value <= e.high; };
     for (std::uint64_t seed = 1; seed <= designs; ++seed) {
       const ShapleyEffects found = effects_of(function, design, 3, seed);
-      for (std::size_t k = 0; k < 3; ++k) caught[k] += found.of[k].low <= exact[k] && exact[k] <= found.of[k].high;
+      for (std::size_t k = 0; k < 3; ++k) {
+        caught[k] += holds(found.of[k].share, exact[k].share);
+        caught[3 + k] += holds(found.of[k].first.value(), exact[k].first);
+        caught[6 + k] += holds(found.of[k].total.value(), exact[k].total);
+      }
     }
     for (const int count : caught) {
       INFO(count << " of " << designs);
@@ -195,6 +223,21 @@ TEST_CASE("a permutation without a value is left out, and a constant metric has 
   CHECK(found.left_out == 1);
   std::fill(values.begin(), values.end(), 3.0);
   CHECK(shapley_effects(column, design, 2, 1).of.empty());
+}
+
+TEST_CASE("a parameter that comes first or last in fewer than two permutations has no such Sobol index", "[sweep]") {
+  const ShapleyEffects found = effects_of(linear, {3, {}}, 3, 1);
+  REQUIRE(found.of.size() == 3);
+  const Design points(Shapley{3, {}}, 3, 1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    int first = 0, last = 0;
+    for (std::uint64_t permutation = 0; permutation < 3; ++permutation) {
+      first += points.order(permutation).front() == k;
+      last += points.order(permutation).back() == k;
+    }
+    CHECK(found.of[k].first.has_value() == (first >= 2));
+    CHECK(found.of[k].total.has_value() == (last >= 2));
+  }
 }
 
 TEST_CASE("correlations that only rounding keeps apart are rejected before any order needs them", "[sweep]") {
@@ -227,7 +270,8 @@ TEST_CASE("a Shapley sweep of dependent parameters is the same in shards, and it
 
   const auto summary = folder.run({"summary", "a.h5", "--metric", "final_gear_speed"});
   INFO(summary.out);
-  CHECK(summary.out.find("mesh.friction                                Shapley effect ") != std::string::npos);
+  CHECK(std::regex_search(summary.out,
+                          std::regex("mesh.friction +Shapley effect \\S+ \\[.*\\] +first \\S+ \\[.*\\] +total ")));
   const nlohmann::json all = nlohmann::json::parse(folder.run({"summary", "a.h5", "--json"}).out),
                        found = all["shapley"]["final_gear_speed"]["parameters"];
   CHECK(all["metrics"]["final_gear_speed"]["count"] == 20);  // one draw of each permutation
@@ -239,7 +283,11 @@ TEST_CASE("a Shapley sweep of dependent parameters is the same in shards, and it
   const std::vector<double> stored = read_column(open_hdf5(folder / "a.h5"), "summary/shapley/share");
   CHECK(std::find(stored.begin(), stored.end(), found["mesh.friction"]["value"].get<double>()) != stored.end());
   const std::string csv = folder.run({"export", "a.h5", "--what", "summary"}).out;
-  CHECK(csv.find("shapley,mesh.friction,final_gear_speed,share,") != std::string::npos);
+  for (const char* value : {"share", "first", "total"})
+    CHECK(csv.find(fmt::format("shapley,mesh.friction,final_gear_speed,{},", value)) != std::string::npos);
+  const std::vector<double> totals = read_column(open_hdf5(folder / "a.h5"), "summary/shapley/total_low");
+  const double total_low = found["mesh.friction"]["total"]["low"];
+  CHECK(std::find(totals.begin(), totals.end(), total_low) != totals.end());
 }
 
 }  // namespace wormdrive::test::sweep_shapley
