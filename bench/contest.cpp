@@ -4,12 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <optional>
 
 #include <alloca.h>
 #include <fmt/format.h>
+
+#include "statistics/cpu_time.hpp"
 
 namespace bench {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 constexpr double shortest = 1e-3;  ///< a measurement repeats its run until it takes this long [s]
 constexpr double patience = 4.0;   ///< CPU time that all measurements of one contender may take [s] ...
 constexpr int least = 3;           ///< ... unless there were fewer of them
-
-double cpu_time() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// A contender at the tolerance with which it takes part.
 struct Entry {
@@ -91,13 +86,13 @@ void Timing::measure(const std::function<Outcome()>& run, int k) {
   constexpr int page = 4096, shift = 65 * 16;  // visits every multiple of 16 in a page
   volatile char* room = static_cast<char*>(alloca(1 + std::abs(k) * shift % page));
   room[0] = 0;
-  const double start = cpu_time();
+  const double start = wormdrive::thread_cpu_time();
   double spent = 0.0;
   int runs = 0;
   do {
     run();
     ++runs;
-    spent = cpu_time() - start;
+    spent = wormdrive::thread_cpu_time() - start;
   } while (spent < shortest);
   total_ += spent;
   if (k >= 0) times_.push_back(spent / runs);

@@ -1,22 +1,16 @@
 // What a run of a prepared scenario costs from C++, beside which bench/python_overhead.py puts the same from Python:
 // prepared_run SCENARIO... CPU time, rows kept in memory.
 #include <algorithm>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "simulation/load_scenario.hpp"
 #include "simulation/run_scenario.hpp"
+#include "statistics/cpu_time.hpp"
 
 using namespace wormdrive;
 
 namespace {
-
-double cpu_time() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// Median over rounds of so many runs each [s].
 double run_time(const Scenario& scenario, int repetitions) {

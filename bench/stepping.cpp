@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "description/toml/parse_scenario.hpp"
 #include "simulation/stepping/stepped_drives.hpp"
+#include "statistics/cpu_time.hpp"
 #include "tests/simulation/programs/stepped_gear.hpp"
 
 using namespace wormdrive;
 
 namespace {
-
-double cpu_time() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// Torques that hold for twenty steps, as of an agent that acts at 50 Hz on a drive that is stepped at 1 kHz.
 class Agent {
@@ -40,12 +34,7 @@ class Agent {
 
 void report(const char* what, std::size_t count, int steps, bool reverses, const std::vector<std::string>& overrides) {
   constexpr double dt = 1e-3;
-  std::vector<Scenario> scenarios;
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<std::string> own = overrides;
-    own.push_back(fmt::format("mesh.friction={}", 0.2 + 0.05 * static_cast<double>(k) / static_cast<double>(count)));
-    scenarios.push_back(parse_scenario(gear, "gear", own, Purpose::run));
-  }
+  const std::vector<Scenario> scenarios = gears(count, overrides);
   SteppedDrives drives(scenarios);
   std::vector<double> times;
   long allocated = 0;

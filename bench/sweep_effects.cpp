@@ -3,7 +3,6 @@
 // with CVODE, and as many as fit in the lanes of one register. sweep_effects [name of a row...] [--seconds per row]
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <string_view>
 #include <vector>
@@ -13,16 +12,11 @@
 #include "events/simulation_failure.hpp"
 #include "simulation/load_scenario.hpp"
 #include "simulation/run_batch.hpp"
+#include "statistics/cpu_time.hpp"
 
 using namespace wormdrive;
 
 namespace {
-
-double cpu_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// What a scenario has beside the nominal one, in a strength of about 1 in which trials differ.
 struct Addition {
@@ -119,9 +113,9 @@ std::vector<Addition> additions(const Scenario& with_pid) {
 double rate(int trials, double seconds, const std::function<void()>& batch) {
   double fastest = 0.0, spent = 0.0;
   for (int k = 0; k < 2 || spent < seconds; ++k) {
-    const double begin = cpu_time();
+    const double begin = thread_cpu_time();
     batch();
-    const double time = cpu_time() - begin;
+    const double time = thread_cpu_time() - begin;
     spent += time;
     fastest = std::max(fastest, trials / time);
   }

@@ -12,12 +12,7 @@ namespace wormdrive::test::cli_accepted_effects {
 
 namespace {
 
-const std::string sledge = R"(title = "A sledge"
-[mesh]
-kind = "none"
-axis = "linear"
-mass_kg = 2
-[motor.torque]
+const std::string sledge = sledge_of_two_kilograms + R"([motor.torque]
 kind = "constant"
 force_N = 3.5
 [run]

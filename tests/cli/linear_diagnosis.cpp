@@ -16,12 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string sledge = R"(title = "A sledge"
-[mesh]
-kind = "none"
-axis = "linear"
-mass_kg = 2
-)";
+const std::string& sledge = sledge_of_two_kilograms;
 
 /// Six seconds of the sledge with viscous friction that nobody stated.
 std::string recorded(const std::string& header) {

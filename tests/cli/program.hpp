@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 
 #include "output/hdf5/stored_column.hpp"
+#include "scenario_texts.hpp"
 
 namespace wormdrive::test {
 
@@ -128,27 +129,6 @@ class Folder {
 inline std::string shipped(const std::string& scenario) { return WORMDRIVE_SCENARIOS "/" + scenario; }
 /// Reads a run with h5py and prints one line a column.
 inline const std::string h5py_script = WORMDRIVE_TESTS "/output/read_with_h5py.py";
-
-/// A scenario without a fault; line numbers in the tests count from its first line.
-inline const std::string good_scenario = R"(title = "A good one"
-[mesh]
-ratio = 60
-lead_angle_deg = 4
-pressure_angle_deg = 20
-worm_pitch_radius_m = 0.011
-gear_pitch_radius_m = 0.045
-friction = 0.25
-worm_inertia_kgm2 = 2.53e-5
-gear_inertia_kgm2 = 7.39e-4
-[motor.torque]
-kind = "constant"
-torque_Nm = -0.05
-[load]
-kind = "constant"
-torque_Nm = 0.02
-[run]
-duration_s = 0.01
-)";
 
 /// A text with one of its parts replaced; the part has to occur.
 inline std::string edited(std::string text, const std::string& part, const std::string& by) {

@@ -8,6 +8,7 @@
 #include "description/diagnostics.hpp"
 #include "diagnosis/sheet.hpp"
 #include "output/hdf5/stored_column.hpp"
+#include "scenario_texts.hpp"
 #include "simulation/load_scenario.hpp"
 #include "support.hpp"
 
@@ -74,16 +75,7 @@ TEST_CASE("columns may be called otherwise, angles may be in degrees") {
 
 TEST_CASE("a run of the program is a recording: the samples of its controller, or its rows at even intervals") {
   const Folder folder;
-  folder.write("s.toml", R"([mesh]
-ratio = 60
-lead_angle_deg = 4
-pressure_angle_deg = 20
-worm_pitch_radius_m = 0.011
-gear_pitch_radius_m = 0.045
-friction = 0.25
-worm_inertia_kgm2 = 2.53e-5
-gear_inertia_kgm2 = 7.39e-4
-[load]
+  folder.write("s.toml", mesh_of_the_paper + R"([load]
 kind = "gravity_arm"
 mass_kg = 1
 arm_m = 0.07

@@ -13,6 +13,7 @@
 #include "fuzz/damaged_result.hpp"
 #include "fuzz/loop_calls.hpp"
 #include "fuzz/plant_calls.hpp"
+#include "scenario_texts.hpp"
 #include "sweep/study/load_study.hpp"
 
 namespace wormdrive::fuzz {
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using test::good_scenario;
 const std::string scenarios = WORMDRIVE_SCENARIOS;
 
 Bytes contents(const fs::path& path) {
@@ -44,26 +46,6 @@ void round_trip(const Scenario& scenario) {
   if (once != twice) throw std::logic_error("what was written reads as something else:\n" + once + "\n" + twice);
 }
 
-const std::string small_scenario = R"(title = "A small one"
-[mesh]
-ratio = 60
-lead_angle_deg = 4
-pressure_angle_deg = 20
-worm_pitch_radius_m = 0.011
-gear_pitch_radius_m = 0.045
-friction = 0.25
-worm_inertia_kgm2 = 2.53e-5
-gear_inertia_kgm2 = 7.39e-4
-[motor.torque]
-kind = "constant"
-torque_Nm = -0.05
-[load]
-kind = "constant"
-torque_Nm = 0.02
-[run]
-duration_s = 0.01
-)";
-
 std::vector<Bytes> files_in(const fs::path& folder, const std::string& extension) {
   std::vector<Bytes> all;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -76,15 +58,15 @@ void take_scenario(const std::uint8_t* data, std::size_t size) {
 }
 
 void take_override(const std::uint8_t* data, std::size_t size) {
-  refusable([&] { round_trip(parse_scenario(small_scenario, "s.toml", {text_of(data, size)}, Purpose::look)); });
+  refusable([&] { round_trip(parse_scenario(good_scenario, "s.toml", {text_of(data, size)}, Purpose::look)); });
 }
 
 void take_study(const std::uint8_t* data, std::size_t size) {
-  refusable([&] { parse_study(text_of(data, size), small_scenario, "study.toml"); });
+  refusable([&] { parse_study(text_of(data, size), good_scenario, "study.toml"); });
 }
 
 void take_recording(const std::uint8_t* data, std::size_t size) {
-  static const Scenario scenario = parse_scenario(small_scenario, "s.toml", {}, Purpose::look);
+  static const Scenario scenario = parse_scenario(good_scenario, "s.toml", {}, Purpose::look);
   static const std::string path = (fs::temp_directory_path() / ("wormdrive_fuzz_" + std::to_string(getpid()))).string();
   std::ofstream(path, std::ios::binary) << text_of(data, size);
   refusable([&] { read_recording(path, scenario); });

@@ -10,12 +10,7 @@ namespace wormdrive::test::scenarios_linear_axis {
 namespace {
 
 /// 2 kg pushed with 3 N against dry friction of 1 N: 1 m/s^2.
-const std::string sledge = R"(title = "A sledge"
-[mesh]
-kind = "none"
-axis = "linear"
-mass_kg = 2
-[motor.torque]
+const std::string sledge = sledge_of_two_kilograms + R"([motor.torque]
 kind = "constant"
 force_N = 3.5
 [load]

@@ -131,7 +131,7 @@ void print_influences(const SweepSummary& summary, bool complete) {
       fmt::print("  {:<44} Sobol index total {:<24} first {}\n", i.parameter, with_interval(i.sobol->total),
                  with_interval(i.sobol->first));
     else if (i.shapley)
-      fmt::print("  {:<44} Shapley effect {:<25} first {:<24} total {}\n", i.parameter, with_interval(i.shapley->share),
+      fmt::print("  {:<44} Shapley effect {:<29} first {:<29} total {}\n", i.parameter, with_interval(i.shapley->share),
                  with_interval(i.shapley->first), with_interval(i.shapley->total));
     else if (i.effects)
       fmt::print("  {:<44} mu* {:<30} mu {:<12.4g} sigma {:.4g}{}\n", i.parameter, with_interval(i.effects->mu_star),

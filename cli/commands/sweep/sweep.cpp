@@ -15,6 +15,7 @@
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
 #include "events/simulation_failure.hpp"
+#include "statistics/cpu_time.hpp"
 #include "statistics/threads.hpp"
 #include "sweep/file/resume.hpp"
 #include "sweep/ranks/rank_files.hpp"

@@ -18,6 +18,7 @@
 #include "cli/replay_trial.hpp"
 #include "cli/shell_words.hpp"
 #include "events/simulation_failure.hpp"
+#include "statistics/cpu_time.hpp"
 #include "statistics/threads.hpp"
 #include "sweep/file/merge.hpp"
 #include "sweep/ranks/rank_files.hpp"

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "description/diagnostics.hpp"
+#include "statistics/cpu_time.hpp"
 #include "statistics/threads.hpp"
 #include "sweep/file/pieces.hpp"
 #include "sweep/referee.hpp"
@@ -87,17 +87,6 @@ void print_end(const Study& study, const StoppingRule& rule) {
                         ? fmt::format("{} of at most {} trials are enough", *rule.end(), study.trials())
                         : fmt::format("all {} trials are not enough for what until_percent asks", study.trials()));
 }
-
-namespace {
-double time_of(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-}  // namespace
-
-double cpu_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
-double thread_cpu_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
 
 std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
                                   std::size_t at_least) {

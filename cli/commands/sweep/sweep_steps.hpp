@@ -53,10 +53,6 @@ void print_end(const Study& study, const StoppingRule& rule);
 /// Trials of a sweep that a referee looks at in any case.
 inline constexpr std::size_t least_judged = 8;
 
-/// CPU time of this process, and of the calling thread [s].
-double cpu_time();
-double thread_cpu_time();
-
 /// What a sweep spends its CPU time on [s].
 struct SweepCost {
   double trials = 0.0, file = 0.0, referee = 0.0, summary = 0.0;

@@ -23,13 +23,7 @@ long events_of(const SteppedDrives& drives) {
 /// Steps drives under torques that reverse, and counts what each step allocates. The first third is left out: solvers
 /// record the equations of a mode when they meet it first, and torques behind a delay take their place.
 int faults(const char* what, std::size_t count, int steps, const std::vector<std::string>& overrides) {
-  std::vector<Scenario> scenarios;
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<std::string> own = overrides;
-    own.push_back(fmt::format("mesh.friction={}", 0.2 + 0.05 * static_cast<double>(k) / static_cast<double>(count)));
-    scenarios.push_back(parse_scenario(gear, "gear", own, Purpose::run));
-  }
-  SteppedDrives drives(scenarios);
+  SteppedDrives drives(gears(count, overrides));
   std::vector<double> torques(count, 0.05);
   std::mt19937 random(1);
   const int first = steps / 3;
