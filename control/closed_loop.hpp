@@ -112,6 +112,7 @@ class ClosedLoop {
     control_.visit_memory(visit);
   }
 
+  /// Angle [rad] and speed [rad/s] of the gear, as a sensor sees or shows them.
   struct Seen {
     double angle, speed;
   };

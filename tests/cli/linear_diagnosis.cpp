@@ -16,8 +16,6 @@ using nlohmann::json;
 
 namespace {
 
-const std::string& sledge = sledge_of_two_kilograms;
-
 /// Six seconds of the sledge with viscous friction that nobody stated.
 std::string recorded(const std::string& header) {
   std::mt19937 random(1);
@@ -82,7 +80,7 @@ std::string units_of(const std::string& path, const std::string& column) {
 TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], prints forces and positions throughout",
           "[slow]") {
   const Folder folder;
-  folder.write("s.toml", sledge);
+  folder.write("s.toml", sledge_of_two_kilograms);
   folder.write("r.csv", recorded("time_s,motor_force_N,position_m"));
   const Outcome found = folder.run({"diagnose", "s.toml", "r.csv", "-o", "out", "--no-pictures"});
   INFO(found.out << found.err);
@@ -114,7 +112,7 @@ TEST_CASE("a diagnosis on a linear axis, of a scenario without [run], prints for
 
 TEST_CASE("torque at constant speed is a force on a linear axis, in the result and its picture", "[slow]") {
   const Folder folder;
-  folder.write("s.toml", sledge + "[effect.worm_viscous]\ncoefficient_Ns_per_m = 3\n");
+  folder.write("s.toml", sledge_of_two_kilograms + "[effect.worm_viscous]\ncoefficient_Ns_per_m = 3\n");
   const Outcome steady = folder.run({"steady", "s.toml", "-o", "s.h5"});
   REQUIRE(steady.exit == 0);
   CHECK(turning(steady.out) == nothing);
@@ -127,7 +125,7 @@ TEST_CASE("torque at constant speed is a force on a linear axis, in the result a
 
 TEST_CASE("a sweep of a linear axis prints forces and positions: referee, summary and worst drive") {
   const Folder folder;
-  folder.write("s.toml", sledge +
+  folder.write("s.toml", sledge_of_two_kilograms +
                              "[effect.worm_coulomb]\nforce_N = 1\n"
                              "[[motor.torque]]\nkind = \"sinusoid\"\namplitude_N = 8\nfrequency_Hz = 0.7\n"
                              "[run]\nduration_s = 0.5\nsolver = \"taylor\"\n");
@@ -160,7 +158,7 @@ below_m_per_s = 0.1
 
 TEST_CASE("faults of a recording on a linear axis are reported in its units") {
   const Folder folder;
-  folder.write("s.toml", sledge);
+  folder.write("s.toml", sledge_of_two_kilograms);
   folder.write("small.csv", edited(recorded("time_s,motor_force_N,position_m"), "position_m", "y"));
   folder.write("none.csv", "a,b\n1,2\n");
   check_rejected(folder,

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "description/toml/parse_scenario.hpp"
 #include "simulation/stepping/stepped_drives.hpp"
 #include "tests/simulation/programs/stepped_gear.hpp"
 
 using namespace wormdrive;
+using namespace wormdrive::test;
 
 namespace {
 
