@@ -63,6 +63,7 @@ struct DiagnoseOptions {
   std::vector<std::string> loads;  ///< "file:key=value"
   std::string output;              ///< folder
   double seed = 1;                 ///< of bootstraps
+  unsigned draws = 0;              ///< from what the data leave open; 0: that is taken for normal
   unsigned threads = 0;            ///< 0: as many as the machine has
   bool pictures = true;
   Replace replace = Replace::same_kind;

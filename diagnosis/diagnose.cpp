@@ -19,6 +19,7 @@
 #include "diagnosis/inference/alone.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/ranking.hpp"
+#include "diagnosis/inference/resampled_draws.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
 #include "diagnosis/representative_pieces.hpp"
@@ -210,6 +211,8 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   Hypothesis last = fitted_anew(by_all, found.model);
   const Eigen::MatrixXd spread = covariance(by_all, last, 2);
   d.uncertainty = joint_estimate(last, spread);
+  if (settings.draws > 0) tell("resampling the data");
+  d.uncertainty.draws = resampled_draws(by_all, last, spread, d.uncertainty, settings.draws, settings.seed);
   for (const Found& f : found.causes)
     d.causes.push_back(estimated(last, spread, all[f.candidate].effect, all[f.candidate].coordinates));
   const auto is_cause = [&](const Coordinate& c) {

@@ -134,6 +134,8 @@ DataKind kind_of_data(const std::vector<std::string>& files, const Scenario& sce
 
 Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vector<std::string>& files,
                          const DiagnosisSettings& settings, const std::map<std::string, LoadParameters>& loads) {
+  if (settings.draws > 0 && kind != DataKind::recording)
+    reject({files.front()}, fmt::format("holds {}; draws are for a recording over time", name(kind)));
   Diagnosis diagnosis = [&] {
     switch (kind) {
       case DataKind::speed_torque_records: return of_records(scenario, files, settings);
@@ -150,9 +152,11 @@ Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vec
 Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier, DataKind kind,
                          const std::vector<std::string>& later, const DiagnosisSettings& settings,
                          const std::map<std::string, LoadParameters>& loads) {
-  const Diagnosis then = diagnose_files(scenario, kind_of_data(earlier, scenario), earlier, settings, loads);
-  const Scenario fitted = as_fitted(scenario, then);
   DiagnosisSettings known = settings;
+  known.draws = 0;
+  const Diagnosis then = diagnose_files(scenario, kind_of_data(earlier, scenario), earlier, known, loads);
+  const Scenario fitted = as_fitted(scenario, then);
+  known = settings;
   known.tolerances = known_tolerances(then);
   Diagnosis now = diagnose_files(fitted, kind, later, known, loads);
   tell_changes(then, fitted, now);

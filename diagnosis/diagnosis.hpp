@@ -32,11 +32,12 @@ struct EstimatedEffect {
   std::string remedy{};  ///< of such a fault: what to change in the file, a sentence; empty of an effect
 };
 
-/// What data leave open of several numbers together: a normal distribution.
+/// What data leave open of several numbers together: a normal distribution, and draws where they are asked for.
 struct JointEstimate {
   std::vector<std::string> effects;  ///< of each number
   std::vector<Estimate> numbers;
   std::vector<std::vector<double>> correlation;
+  std::vector<std::vector<double>> draws{};  ///< of all numbers
 };
 
 /// One effect, or class of effects, that was tried, and what came of it.

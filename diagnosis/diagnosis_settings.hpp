@@ -18,6 +18,7 @@ struct Tolerance {
 struct DiagnosisSettings {
   std::vector<Tolerance> tolerances{};  ///< in place of the defaults of the same field
   std::uint64_t seed = 1;               ///< of bootstraps
+  int draws = 0;                        ///< of the numbers that are fitted to a recording, by fitting them so often
   int threads = 2;                      ///< results do not depend on it
   int most_causes = 4;
   std::function<void(const std::string&)> progress{};  ///< is told what goes on, a phrase at a time; may be empty

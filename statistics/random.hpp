@@ -10,7 +10,13 @@ namespace wormdrive {
 inline constexpr Bounds seeds = bounds::between(0.0, 0x1p53);
 
 /// What a random number is for: streams of one seed never overlap.
-enum class Stream : std::uint64_t { encoder_noise = 1, torque_disturbance = 2, reference = 3 };
+enum class Stream : std::uint64_t {
+  encoder_noise = 1,
+  torque_disturbance = 2,
+  reference = 3,
+  block_weights = 4,
+  pulls = 5
+};
 
 /// Random bits without memory: they depend on seed, stream and the two counters alone, whoever asks and when;
 /// Philox4x64-10 [Salmon2011].

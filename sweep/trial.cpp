@@ -24,6 +24,7 @@ std::string_view name(TrialStatus status) {
 Trials::Trials(const Study& study, LaneKind lanes)
     : study_(study),
       design_(study.design, study.parameters.size(), study.seed, study.strata),
+      drawn_with_(study.drawn_with()),
       lanes_(lanes),
       scenarios_(study.own_metrics.empty() ? runs_together(study.scenario) : 1, study.scenario) {
   for (Scenario& scenario : scenarios_) {
@@ -42,6 +43,7 @@ Trial Trials::row(std::uint64_t index) const {
 std::vector<double> Trials::probabilities(std::uint64_t index) {
   std::vector<double> u = design_.point(index);
   if (!study_.has_correlated_points()) study_.copula.apply(u);
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = u[drawn_with_[k]];
   return u;
 }
 

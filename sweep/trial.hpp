@@ -69,6 +69,7 @@ class Trials {
 
   const Study& study_;
   Design design_;
+  std::vector<std::size_t> drawn_with_;  ///< of each parameter
   LaneKind lanes_;
   std::vector<Scenario> scenarios_;               ///< of trials that are made together
   std::vector<std::vector<Variable>> variables_;  ///< of each scenario, of each parameter

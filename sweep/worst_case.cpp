@@ -100,6 +100,10 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
     reject({sweep.path()},
            "comes from a table of points, which states no distributions to search; sweep a study that "
            "has some");
+  if (const UncertainParameter* const drawn = study.drawn_by_rows())
+    reject({sweep.path()}, fmt::format("draws '{}' by rows of a file, between which there is nothing to search; sweep "
+                                       "a study with distributions",
+                                       drawn->path));
   if (summary.worst.empty())
     reject({sweep.path()},
            fmt::format("has no trial to start a search from{}", settings.done_only ? ": none ran to the end" : ""));

@@ -32,9 +32,11 @@ Kept kept(const std::optional<std::string>& output, std::vector<std::string> inp
 
 /// What was found: the JSON of a report, the scenarios that follow, the residual torque as a table.
 py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& files,
-                  const std::vector<std::string>& since, std::uint64_t seed, unsigned threads, const Kept& kept) {
+                  const std::vector<std::string>& since, std::uint64_t seed, int draws, unsigned threads,
+                  const Kept& kept) {
   DiagnosisSettings settings;
   settings.seed = seed;
+  settings.draws = draws;
   settings.threads = static_cast<int>(threads_for(threads));
   const DataKind kind = kind_of_data(files, scenario);
   Diagnosis found = without_python([&](SignalWatch& watch) {
@@ -67,14 +69,14 @@ py::dict diagnose(const Scenario& scenario, const std::vector<std::string>& file
 }  // namespace
 
 void add_diagnosis(py::module_& m) {
-  m.def("diagnose",
-        [](const Scenario& scenario, const std::vector<std::string>& files, const std::vector<std::string>& since,
-           std::uint64_t seed, unsigned threads, const std::optional<std::string>& output,
-           const std::string& scenario_file, const std::string& command_line) {
-          std::vector<std::string> inputs = files;
-          inputs.insert(inputs.end(), since.begin(), since.end());
-          return diagnose(scenario, files, since, seed, threads, kept(output, inputs, scenario_file, command_line));
-        });
+  m.def("diagnose", [](const Scenario& scenario, const std::vector<std::string>& files,
+                       const std::vector<std::string>& since, std::uint64_t seed, int draws, unsigned threads,
+                       const std::optional<std::string>& output, const std::string& scenario_file,
+                       const std::string& command_line) {
+    std::vector<std::string> inputs = files;
+    inputs.insert(inputs.end(), since.begin(), since.end());
+    return diagnose(scenario, files, since, seed, draws, threads, kept(output, inputs, scenario_file, command_line));
+  });
 }
 
 }  // namespace wormdrive

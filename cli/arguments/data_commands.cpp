@@ -22,6 +22,11 @@ void add_data_commands(CommandSet& commands) {
   command.add_option("--seed", options.seed, "seed of the bootstrap")
       ->check(CLI::Range(0.0, 9007199254740992.0, "NOT NEGATIVE"))
       ->capture_default_str();
+  command
+      .add_option("--draws", options.draws,
+                  "fit a recording anew so many times, with its blocks weighted at random, so that uncertainty.toml "
+                  "draws these fits instead of a normal distribution")
+      ->check(CLI::Range(10U, 1000000U, "10 TO 1000000"));
   add_threads(command, options.threads);
   command.add_flag_callback(
       "--no-pictures", [&chosen = options] { chosen.pictures = false; }, "do not draw pictures");

@@ -160,6 +160,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     const Phases phases(!talk);
     DiagnosisSettings settings;
     settings.seed = static_cast<std::uint64_t>(options.seed);
+    settings.draws = static_cast<int>(options.draws);
     settings.threads = threads;
     settings.progress = [&](const std::string& phase) { phases.tell(phase); };
     return options.since.empty() ? diagnose_files(scenario, kind, options.data, settings, loads)

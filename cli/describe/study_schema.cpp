@@ -40,6 +40,10 @@ void add_lists(SchemaTable& table, const Empirical*) {
   table.with("file", any_text(file_of_study)).requires_key("file");
   table.with("column", any_text("its column with the values")).requires_key("column");
 }
+void add_lists(SchemaTable& table, const RowOfFile*) {
+  table.with("file", any_text(file_of_study)).requires_key("file");
+  table.with("column", any_text("its column with the values, the path if not stated"));
+}
 
 /// The keys of a design.
 template <class Sampled>

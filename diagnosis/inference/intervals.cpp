@@ -7,100 +7,16 @@
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
-#include "diagnosis/rules/evidence.hpp"
-#include "diagnosis/rules/noise.hpp"
-#include "statistics/parallel.hpp"
-#include "statistics/symmetric_eigen.hpp"
+#include "diagnosis/inference/sandwich.hpp"
 
 namespace wormdrive {
-
-namespace {
-
-/// Curvature and slope of the log likelihood of one block of time, in scales of the free coordinates.
-struct BlockSlopes {
-  Eigen::MatrixXd curvature;
-  Eigen::VectorXd slope;
-};
-
-/// Of the blocks that are fitted. steps: of the free coordinates for their derivatives, in scales.
-std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hypothesis& h,
-                                         const std::vector<double>& steps) {
-  const InnovationLayout& layout = evaluation.layout();
-  const auto n = static_cast<Eigen::Index>(h.free.size());
-  std::vector<std::vector<double>> J(h.free.size());
-  parallel_for(h.free.size(), evaluation.threads(), [&](std::size_t k) {
-    J[k].assign(layout.size, 0.0);
-    if (!has_slope(h.free[k])) return;
-    for (const double step : {steps[k], -steps[k]}) {
-      const std::vector<double> side = sensitivity(evaluation, h, k, step);
-      for (std::size_t r = 0; r < layout.size; ++r) J[k][r] += 0.5 * side[r];
-    }
-  });
-  constexpr double nu = rules::tail_freedom;
-  std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
-  std::vector<std::uint8_t> used(layout.blocks, 0);
-  Eigen::VectorXd row(n);
-  for (std::size_t r = 0; r < layout.size; ++r) {
-    if (layout.part[r] != 1) continue;
-    const double s = h.noise_model.groups[layout.group[r]].scale, z = h.residuals[r] / s, z2 = z * z;
-    for (Eigen::Index k = 0; k < n; ++k) row[k] = J[static_cast<std::size_t>(k)][r] / s;
-    BlockSlopes& block = all[layout.block[r]];
-    block.slope += ((nu + 1.0) * z / (nu + z2)) * row;
-    block.curvature += ((nu + 1.0) * (nu - z2) / ((nu + z2) * (nu + z2))) * (row * row.transpose());
-    used[layout.block[r]] = 1;
-  }
-  std::size_t kept = 0;
-  for (std::size_t b = 0; b < all.size(); ++b)
-    if (used[b]) std::swap(all[kept++], all[b]);
-  all.resize(kept);
-  return all;
-}
-
-/// Covariance in scales.
-Eigen::MatrixXd sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps) {
-  const std::vector<BlockSlopes> blocks = slopes_by_block(evaluation, h, steps);
-  const auto n = static_cast<Eigen::Index>(h.free.size());
-  Eigen::MatrixXd tolerances = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), pull = Eigen::VectorXd::Zero(n);
-  add_tolerances(h, tolerances, pull);
-  Eigen::MatrixXd H = tolerances;
-  for (const BlockSlopes& b : blocks) {
-    H += b.curvature;
-    mean += b.slope / static_cast<double>(blocks.size());
-  }
-  // in coordinates in which the curvature is that of independent unit errors
-  const SymmetricEigen of_curvature = symmetric_eigen(H);
-  constexpr double flat = 1e-12;
-  const Eigen::MatrixXd W =
-      of_curvature.vectors * of_curvature.values.cwiseMax(flat).cwiseSqrt().cwiseInverse().asDiagonal();
-  Eigen::MatrixXd scatter = W.transpose() * tolerances * W;
-  for (const BlockSlopes& b : blocks) {
-    // what a block says is judged without what it has itself done to the fit
-    const SymmetricEigen own = symmetric_eigen(W.transpose() * b.curvature * W);
-    const Eigen::ArrayXd left = 1.0 - own.values.array().max(0.0).min(rules::most_own_curvature);
-    const Eigen::VectorXd y = own.vectors.transpose() * (W.transpose() * (b.slope - mean));
-    const Eigen::VectorXd alone = own.vectors * (y.array() / left).matrix();
-    scatter += alone * alone.transpose();
-  }
-  // few blocks may scatter less than the likelihood allows
-  const SymmetricEigen of_scatter = symmetric_eigen(scatter);
-  const Eigen::MatrixXd U = W * of_scatter.vectors;
-  return U * of_scatter.values.cwiseMax(1.0).asDiagonal() * U.transpose();
-}
-
-}  // namespace
 
 Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds) {
   if (h.free.empty()) return {};
   const auto n = static_cast<Eigen::Index>(h.free.size());
-  std::vector<double> steps(h.free.size(), derivative_step);
-  Eigen::MatrixXd spread = sandwich(evaluation, h, steps);
-  for (int round = 0; round < rounds; ++round) {
-    constexpr double longest = 1.0;
-    for (Eigen::Index k = 0; k < n; ++k)
-      steps[static_cast<std::size_t>(k)] = std::clamp(std::sqrt(spread(k, k)), derivative_step, longest);
-    spread = sandwich(evaluation, h, steps);
-  }
+  Eigen::MatrixXd spread = sandwich(evaluation, h, std::vector<double>(h.free.size(), derivative_step)).spread;
+  for (int round = 0; round < rounds; ++round)
+    spread = sandwich(evaluation, h, steps_over_errors(spread.diagonal())).spread;
   Eigen::VectorXd scales(n);
   for (Eigen::Index k = 0; k < n; ++k) scales[k] = h.free[static_cast<std::size_t>(k)].scale;
   spread = scales.asDiagonal() * spread * scales.asDiagonal();
@@ -116,10 +32,6 @@ Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, in
   return spread;
 }
 
-namespace {
-
-/// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
-/// free coordinate in SI.
 double structural_error(const Hypothesis& h, std::size_t k) {
   const Coordinate& c = h.free[k];
   // teeth that meet across a gap make the likelihood rough, and what is stated look known better than it is
@@ -133,8 +45,6 @@ double structural_error(const Hypothesis& h, std::size_t k) {
     }
   return std::hypot(std::hypot(error.of_value * value, error.of_scale * c.scale), error.size);
 }
-
-}  // namespace
 
 namespace {
 

@@ -15,6 +15,10 @@ namespace wormdrive {
 /// event that passes a sample makes the likelihood steep over less.
 Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds);
 
+/// What the predictor itself gets wrong, beyond the noise, for one by teeth that yield a little: standard error of a
+/// free coordinate in SI.
+double structural_error(const Hypothesis& h, std::size_t coordinate);
+
 /// A number with its standard error and 95 % interval.
 Estimate estimate(std::string_view field, const Unit& unit, double value, double error);
 

@@ -28,8 +28,8 @@ std::string ids(const std::vector<EstimatedEffect>& effects) {
 
 namespace {
 /// diagnosis.h5 is the first: it tells that the others are of a diagnosis too.
-constexpr const char* file_names[] = {"diagnosis.h5",    "extended.toml",    "fitted_to_earlier.toml",
-                                      "experiment.toml", "uncertainty.toml", "diagnosis.json"};
+constexpr const char* file_names[] = {"diagnosis.h5",     "extended.toml", "fitted_to_earlier.toml", "experiment.toml",
+                                      "uncertainty.toml", draws_file,      "diagnosis.json"};
 }  // namespace
 
 std::string extended_file(const Diagnosis& d) {
@@ -77,6 +77,7 @@ std::vector<std::string> DiagnosisFolder::write(const Diagnosis& found, const nl
   };
   write_or_remove("fitted_to_earlier.toml", found.since ? to_toml(found.since->scenario) : "");
   write_or_remove("experiment.toml", found.experiment ? to_toml(*found.experiment) : "");
+  write_or_remove(draws_file, uncertainty_draws(found));
   write_or_remove("uncertainty.toml", uncertainty_study(found));
   for (const std::string& picture : pictures()) written.push_back(picture);
   written.push_back(inside("diagnosis.json"));

@@ -56,7 +56,46 @@ JointEstimate of_drive(const JointEstimate& all) {
     u.correlation.emplace_back();
     for (const std::size_t b : kept) u.correlation.back().push_back(all.correlation[a][b]);
   }
+  for (const std::vector<double>& draw : all.draws) {
+    u.draws.emplace_back();
+    for (const std::size_t a : kept) u.draws.back().push_back(draw[a]);
+  }
   return u;
+}
+
+std::vector<Path> paths_of(const JointEstimate& u, Axis axis) {
+  std::vector<Path> paths;
+  for (std::size_t k = 0; k < u.numbers.size(); ++k) {
+    const std::string& field = u.numbers[k].field;
+    paths.push_back(path_of(u.effects[k], field, field_of({}, u.effects[k], field).unit, axis));
+  }
+  return paths;
+}
+
+/// Normal, cut off where a draw would lie beyond what the number may be.
+std::string normal_parameter(const Path& path, const std::string& effect, const Estimate& e) {
+  const Bounds& bounds = field_of({}, effect, e.field).bounds;
+  constexpr double far = 6.0;  // deviations beyond which no draw lies
+  const bool low = e.value - far * e.standard_error<bounds.low, high = e.value + far * e.standard_error> bounds.high;
+  std::string text =
+      fmt::format("\n[[parameter]]\npath = \"{}\"\ndistribution = \"{}\"\nmean = {}\ndeviation = {}\n", path.text,
+                  low || high ? "truncated_normal" : "normal", e.value / path.unit, e.standard_error / path.unit);
+  if (low) text += fmt::format("low = {}\n", bounds.low / path.unit);
+  if (high) text += fmt::format("high = {}\n", bounds.high / path.unit);
+  return text;
+}
+
+std::string correlations(const JointEstimate& u, const std::vector<Path>& paths) {
+  std::string text;
+  for (std::size_t a = 0; a < paths.size(); ++a)
+    for (std::size_t b = a + 1; b < paths.size(); ++b) {
+      constexpr double least = 1e-4, most = 1.0 - 1e-9;
+      const double correlation = std::clamp(u.correlation[a][b], -most, most);
+      if (std::abs(correlation) < least) continue;
+      text += fmt::format("\n[[correlation]]\nbetween = [\"{}\", \"{}\"]\ncoefficient = {}\n", paths[a].text,
+                          paths[b].text, correlation);
+    }
+  return text;
 }
 
 }  // namespace
@@ -72,30 +111,26 @@ std::string uncertainty_study(const Diagnosis& d) {
       "scenario = \"extended.toml\"\n";
   if (const std::vector<std::string> certain = certain_fields(d); !certain.empty())
     text += fmt::format("set = [{}]\n", fmt::join(certain, ", "));
-  text += "\n[sweep]\ndesign = \"latin_hypercube\"\ntrials = 1000\nseed = 1\n";
-  std::vector<std::string> paths;
-  for (std::size_t k = 0; k < u.numbers.size(); ++k) {
-    const Estimate& e = u.numbers[k];
-    const FieldOfEffect field = field_of({}, u.effects[k], e.field);
-    const Path path = path_of(u.effects[k], e.field, field.unit, d.extended.axis);
-    paths.push_back(path.text);
-    constexpr double far = 6.0;  // deviations beyond which no draw lies
-    const bool low = e.value - far * e.standard_error < field.bounds.low;
-    const bool high = e.value + far * e.standard_error > field.bounds.high;
-    text += fmt::format("\n[[parameter]]\npath = \"{}\"\ndistribution = \"{}\"\nmean = {}\ndeviation = {}\n", path.text,
-                        low || high ? "truncated_normal" : "normal", e.value / path.unit, e.standard_error / path.unit);
-    if (low) text += fmt::format("low = {}\n", field.bounds.low / path.unit);
-    if (high) text += fmt::format("high = {}\n", field.bounds.high / path.unit);
-  }
-  for (std::size_t a = 0; a < paths.size(); ++a)
-    for (std::size_t b = a + 1; b < paths.size(); ++b) {
-      constexpr double least = 1e-4, most = 1.0 - 1e-9;
-      const double correlation = std::clamp(u.correlation[a][b], -most, most);
-      if (std::abs(correlation) < least) continue;
-      text += fmt::format("\n[[correlation]]\nbetween = [\"{}\", \"{}\"]\ncoefficient = {}\n", paths[a], paths[b],
-                          correlation);
-    }
-  return text;
+  const std::vector<Path> paths = paths_of(u, d.extended.axis);
+  text += fmt::format("\n[sweep]\ndesign = \"latin_hypercube\"\ntrials = {}\nseed = 1\n",
+                      u.draws.empty() ? 1000 : u.draws.size());
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    text += u.draws.empty() ? normal_parameter(paths[k], u.effects[k], u.numbers[k])
+                            : fmt::format("\n[[parameter]]\npath = \"{}\"\ndistribution = \"row\"\nfile = \"{}\"\n",
+                                          paths[k].text, draws_file);
+  return u.draws.empty() ? text + correlations(u, paths) : text;
+}
+
+std::string uncertainty_draws(const Diagnosis& d) {
+  const JointEstimate u = of_drive(d.uncertainty);
+  if (u.draws.empty() || u.numbers.empty()) return "";
+  const std::vector<Path> paths = paths_of(u, d.extended.axis);
+  std::string text;
+  for (std::size_t k = 0; k < paths.size(); ++k) text += (k == 0 ? "" : ",") + paths[k].text;
+  for (const std::vector<double>& draw : u.draws)
+    for (std::size_t k = 0; k < paths.size(); ++k)
+      text += fmt::format("{}{}", k == 0 ? "\n" : ",", draw[k] / paths[k].unit);
+  return text + "\n";
 }
 
 }  // namespace wormdrive

@@ -66,6 +66,10 @@ inline constexpr std::size_t most_pairs = 6;
 inline constexpr int most_turns = 5, turns_alone = 2;
 /// nats | set | another process noise, another gap and another round of a fit have to gain more
 inline constexpr double least_noise_gain = 0.05, least_gap_gain = 2.0, least_round_gain = 0.3;
+/// nats | derived | a draw stops where a step promises less: a twentieth of its standard deviation
+inline constexpr double least_draw_gain = 1e-3;
+/// steps | set | of the fit of a draw; three are usual
+inline constexpr int most_draw_rounds = 10;
 /// share of what makes a round worth another one | derived | a step that promises less is the end of a fit
 inline constexpr double nothing_to_gain = 0.03;
 

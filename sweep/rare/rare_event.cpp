@@ -10,6 +10,10 @@
 namespace wormdrive {
 
 const Threshold& limit_of(const Study& study, const std::string& path, const std::string& metric) {
+  if (const UncertainParameter* const drawn = study.drawn_by_rows())
+    reject({path}, fmt::format("draws '{}' by rows of a file, between which there is nothing to search; an estimate of "
+                               "rare misses needs distributions",
+                               drawn->path));
   if (study.thresholds.empty())
     reject({path}, "states no limit; a [[threshold]] names the metric, and above_UNIT or below_UNIT the limit");
   if (metric.empty()) return study.thresholds.front();

@@ -28,13 +28,21 @@ std::string quoted_key(const std::string& key) {
 
 std::vector<double> DataColumns::read(TableReader& table, const std::string& key, const std::string& file,
                                       const std::string& column) {
-  if (const auto values = stated(file, column)) return *values;
-  const Csv* const found = csv(table, key, file);
-  if (!found) return {};
   std::vector<double> values;
-  tell_faults_of_file(table, key, file, [&] { values = found->numbers(column); });
-  if (values.empty()) return {};
-  read_[file][column] = values;
+  if (auto in_text = stated(file, column)) {
+    values = std::move(*in_text);
+  } else {
+    const Csv* const found = csv(table, key, file);
+    if (!found) return {};
+    tell_faults_of_file(table, key, file, [&] { values = found->numbers(column); });
+    if (values.empty()) return {};
+    read_[file][column] = values;
+  }
+  if (const std::size_t rows = rows_.try_emplace(file, values.size()).first->second; rows != values.size())
+    table.fault(key,
+                fmt::format("{} = \"{}\": column '{}' has {} rows but another one has {}; remove [data] to have the "
+                            "file read again",
+                            table.path_of(key), file, column, values.size(), rows));
   return values;
 }
 

@@ -33,6 +33,7 @@ class DataColumns {
   std::optional<std::string> folder_;
   std::map<std::string, std::optional<Csv>> files_;  ///< nothing of one that could not be read
   std::map<std::string, std::map<std::string, std::vector<double>>> read_;
+  std::map<std::string, std::size_t> rows_;  ///< of each file
 };
 
 }  // namespace wormdrive

@@ -40,9 +40,12 @@ double middle_of(std::uint64_t level, std::uint64_t levels) {
 bool goes_by_levels(const DesignSettings& settings) {
   return std::holds_alternative<Grid>(settings) || std::holds_alternative<OneAtATime>(settings);
 }
-bool allows_correlation(const DesignSettings& settings) {
+bool draws_each_trial(const DesignSettings& settings) {
   return std::holds_alternative<MonteCarlo>(settings) || std::holds_alternative<LatinHypercube>(settings) ||
-         std::holds_alternative<SobolSequence>(settings) || std::holds_alternative<Shapley>(settings);
+         std::holds_alternative<SobolSequence>(settings);
+}
+bool allows_correlation(const DesignSettings& settings) {
+  return draws_each_trial(settings) || std::holds_alternative<Shapley>(settings);
 }
 bool is_sample(const DesignSettings& settings) {
   return allows_correlation(settings) || std::holds_alternative<Saltelli>(settings);

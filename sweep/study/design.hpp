@@ -84,6 +84,8 @@ double middle_of(std::uint64_t level, std::uint64_t levels);
 bool is_sample(const DesignSettings& settings);
 /// Whether every parameter has levels of its own.
 bool goes_by_levels(const DesignSettings& settings);
+/// Whether every trial is a draw of all parameters.
+bool draws_each_trial(const DesignSettings& settings);
 /// Whether parameters may be dependent.
 bool allows_correlation(const DesignSettings& settings);
 

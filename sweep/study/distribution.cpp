@@ -95,6 +95,7 @@ double Gumbel::quantile(double u) const {
 double Weibull::quantile(double u) const { return low + scale * portable::pow(-log_of_complement(u), 1.0 / shape); }
 
 double Empirical::quantile(double u) const { return equally_likely(values, u); }
+double RowOfFile::quantile(double u) const { return equally_likely(values, u); }
 
 std::string Discrete::refusal() const {
   if (values.empty()) return "values must hold at least one number";
@@ -150,11 +151,13 @@ double QuantileTable::quantile(double u) const {
 }
 
 bool only_whole_numbers(const Distribution& distribution) {
-  const auto* const discrete = std::get_if<Discrete>(&distribution);
-  const auto* const empirical = std::get_if<Empirical>(&distribution);
-  if (!discrete && !empirical) return false;
-  const std::vector<double>& values = discrete ? discrete->values : empirical->values;
-  return std::all_of(values.begin(), values.end(), [](double v) { return v == std::round(v); });
+  const auto are_whole = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return v == std::round(v); });
+  };
+  if (const auto* const discrete = std::get_if<Discrete>(&distribution)) return are_whole(discrete->values);
+  if (const auto* const empirical = std::get_if<Empirical>(&distribution)) return are_whole(empirical->values);
+  if (const auto* const row = std::get_if<RowOfFile>(&distribution)) return are_whole(row->values);
+  return false;
 }
 
 }  // namespace wormdrive

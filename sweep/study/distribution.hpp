@@ -188,12 +188,29 @@ struct Empirical {
   double quantile(double u) const;
 };
 
+/// What was found together with others: a column of a file, of which every trial draws a row. All parameters of the
+/// file have the values of that row.
+struct RowOfFile {
+  static constexpr std::string_view kind = "row";
+  std::string file;
+  std::vector<double> values;  ///< row by row
+
+  std::string refusal() const { return ""; }
+  double quantile(double u) const;
+};
+
 /// A new distribution is a struct like these and one entry here.
 using Distribution = std::variant<Uniform, Normal, TruncatedNormal, Lognormal, Triangular, Discrete, QuantileTable,
-                                  LogUniform, Beta, Pert, Gumbel, Weibull, Empirical>;
+                                  LogUniform, Beta, Pert, Gumbel, Weibull, Empirical, RowOfFile>;
 
 inline double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return d.quantile(u); }, distribution);
+}
+
+/// Whether both are columns of one file, drawn by its rows.
+inline bool are_of_one_row(const Distribution& a, const Distribution& b) {
+  const auto *const one = std::get_if<RowOfFile>(&a), *const other = std::get_if<RowOfFile>(&b);
+  return one && other && one->file == other->file;
 }
 
 /// Whether only single values can be drawn, all of them whole.

@@ -147,6 +147,11 @@ void read_design(TableReader& table, Study& study, const std::vector<StatedParam
                     is_sample(study.design)
                         ? "Sobol indices of dependent parameters do not add up to the variance; use \"shapley\""
                         : "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""));
+  if (const UncertainParameter* const drawn = study.drawn_by_rows(); drawn && !draws_each_trial(study.design))
+    table.fault("design", fmt::format("sweep.design = \"{}\" needs parameters that can change one by one, but '{}' is "
+                                      "drawn by rows of a file; use \"monte_carlo\", \"latin_hypercube\" or "
+                                      "\"sobol\"",
+                                      *kind, drawn->path));
   const auto* const latin = std::get_if<LatinHypercube>(&study.design);
   if (!latin || study.copula.independent() || !table.faults().empty()) return;
   if (latin->trials > CorrelatedStrata::most_trials)

@@ -34,6 +34,14 @@ void read_distribution(TableReader& table, Empirical& distribution, DataColumns&
   std::sort(distribution.values.begin(), distribution.values.end());
 }
 
+void read_distribution(TableReader& table, RowOfFile& distribution, DataColumns& data) {
+  const auto file = table.required_text("file", "a CSV file, relative to the folder of the study");
+  const auto column = table.text("column");
+  if (!file) return;
+  distribution.file = *file;
+  distribution.values = data.read(table, "file", *file, column.value_or(table.text("path").value_or("")));
+}
+
 StatedParameter read_parameter(TableReader& table, const std::string& name, DataColumns& data, bool in_table) {
   StatedParameter stated{{}, table.where("path"), {}, {}};
   stated.parameter.path = table.required_text("path", "the number that is uncertain, as --set takes it").value_or("");
@@ -107,6 +115,10 @@ Copula read_correlations(TableReader& root, const std::vector<StatedParameter>& 
         table.fault(
             "between",
             fmt::format("correlation[{}].between names '{}', which is not the path of a [[parameter]]", k, path));
+      else if (std::holds_alternative<RowOfFile>(found->parameter.distribution))
+        table.fault("between", fmt::format("correlation[{}].between names '{}', which is drawn by rows of a file; the "
+                                           "rows have its correlations",
+                                           k, path));
       else
         pair.push_back(found - parameters.begin());
     }

@@ -63,6 +63,23 @@ struct Study {
   bool varies(std::string_view path) const {
     return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.path == path; });
   }
+  /// The parameter whose coordinate of the unit cube each has: its own, or the first one's with which it is drawn by
+  /// rows of a file.
+  std::vector<std::size_t> drawn_with() const {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      std::size_t first = 0;
+      while (first < k && !are_of_one_row(parameters[first].distribution, parameters[k].distribution)) ++first;
+      list.push_back(first);
+    }
+    return list;
+  }
+  /// A parameter that is drawn by rows of a file, if there is one.
+  const UncertainParameter* drawn_by_rows() const {
+    const auto is_row = [](const UncertainParameter& p) { return std::holds_alternative<RowOfFile>(p.distribution); };
+    const auto found = std::find_if(parameters.begin(), parameters.end(), is_row);
+    return found == parameters.end() ? nullptr : &*found;
+  }
   /// The place of one of its metrics.
   std::size_t place_of(std::string_view metric) const {
     const auto named = [&](const Metric& m) { return m.name == metric; };

@@ -167,6 +167,17 @@ TEST_CASE("data of no kind, of two kinds and too few data are rejected, and noth
            "b.csv: error: holds a break-in table; a load of its own is for a recording over time",
            {"diagnose", scenario, "b.csv", "--load", "b.csv:torque_Nm=2", "-o", "out"},
            true},
+          {"draws of a table",
+           "",
+           "b.csv: error: holds a break-in table; draws are for a recording over time",
+           {"diagnose", scenario, "b.csv", "--draws", "50", "-o", "out"},
+           true},
+          {"too few draws",
+           "",
+           "wormdrive diagnose: error: --draws: Value 9 not in range 10 to 1000000; see wormdrive diagnose --help or "
+           "docs/howto/first_diagnosis.md",
+           {"diagnose", scenario, "b.csv", "--draws", "9", "-o", "out"},
+           true},
           {"absent", "", "absent.csv: error: cannot be read: No such file or directory", words("absent.csv"), true},
       });
 }

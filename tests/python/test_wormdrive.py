@@ -386,9 +386,10 @@ class Studies(unittest.TestCase):
     def test_a_diagnosis_says_what_the_program_says(self):
         bench = SCENARIOS / "example_bench.toml", SCENARIOS / "example_bench.csv"
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "-o", folder], check=True)
+            subprocess.run([PROGRAM, "diagnose", *bench, "-q", "--no-pictures", "--draws", "10", "-o", folder], check=True)
             theirs = json.loads(Path(folder, "diagnosis.json").read_text())
-            ours = wormdrive.diagnose(*bench, output=Path(folder, "ours"))
+            ours = wormdrive.diagnose(*bench, output=Path(folder, "ours"), draws=10)
+            self.assertEqual(Path(folder, "ours/draws.csv").read_text(), Path(folder, "draws.csv").read_text())
             written = json.loads(Path(folder, "ours/diagnosis.json").read_text())
             self.assertEqual(written, ours.findings)
             self.assertEqual(Path(folder, "ours/extended.toml").read_text(), ours.extended)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <variant>
 
@@ -60,6 +61,26 @@ wormdrive::Scenario as_it_is(const Case& drawn, const truth::Drive& drive) {
   return scenario;
 }
 
+/// The draws of a diagnosis as a study that was read keeps them, without their file.
+std::string in_text(const wormdrive::Diagnosis& found) {
+  const std::string csv = wormdrive::uncertainty_draws(found);
+  if (csv.empty()) return "";
+  std::vector<std::string> columns;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::size_t k = 0;
+    for (std::string cell; std::getline(cells, cell, ','); ++k)
+      if (k < columns.size())
+        columns[k] += cell + ",";
+      else
+        columns.push_back("\"" + cell + "\" = [");
+  }
+  std::string text = "\n[data.\"" + std::string(wormdrive::draws_file) + "\"]\n";
+  for (const std::string& column : columns) text += column + "]\n";
+  return text;
+}
+
 /// The study of a diagnosis for the task.
 wormdrive::Study study_of(const std::string& stated, const wormdrive::Diagnosis& found, std::uint64_t trials) {
   wormdrive::Scenario median = found.extended;
@@ -69,8 +90,9 @@ wormdrive::Study study_of(const std::string& stated, const wormdrive::Diagnosis&
       wormdrive::set_field(median.effects, {open.effects[k], open.numbers[k].field, open.numbers[k].value});
   const std::string text =
       std::regex_replace(stated, std::regex("\ntrials = [0-9]+"), "\ntrials = " + std::to_string(trials));
-  return wormdrive::parse_study("metrics = [\"error_rms\", \"error_max\", \"torque_peak\", \"torque_rms\"]\n" + text,
-                                wormdrive::to_toml(at_work(median)), "uncertainty.toml");
+  return wormdrive::parse_study(
+      "metrics = [\"error_rms\", \"error_max\", \"torque_peak\", \"torque_rms\"]\n" + text + in_text(found),
+      wormdrive::to_toml(at_work(median)), "uncertainty.toml");
 }
 
 }  // namespace

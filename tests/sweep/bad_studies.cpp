@@ -103,7 +103,7 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
       {"distribution = \"lognormal\"", "distribution = \"gauss\"",
        "study.toml:16:16: error: parameter[1].distribution = \"gauss\" must be one of \"uniform\", \"normal\", "
        "\"truncated_normal\", \"lognormal\", \"triangular\", \"discrete\", \"table\", "
-       "\"log_uniform\", \"beta\", \"pert\", \"gumbel\", \"weibull\", \"empirical\""},
+       "\"log_uniform\", \"beta\", \"pert\", \"gumbel\", \"weibull\", \"empirical\", \"row\""},
       {"deviation = 0.05", "deviation = 0",
        "study.toml:12:13: error: parameter[0].deviation = 0 must be greater than 0"},
       {"low = 0.1", "low = 0.1\nhigh = 0.05",

@@ -309,10 +309,11 @@ def summary(path: Union[str, "os.PathLike[str]"], /, *, metric: str = "", worst:
     return json.loads(_core.summary(os.fspath(path), metric, worst, done_only))  # type: ignore[no-any-return]
 
 
-def diagnose(scenario: Source, data: Any, /, *, since: Any = None, seed: int = 1, threads: int = 0,
+def diagnose(scenario: Source, data: Any, /, *, since: Any = None, seed: int = 1, draws: int = 0, threads: int = 0,
              output: Optional[Union[str, "os.PathLike[str]"]] = None, **overrides: Any) -> Diagnosis:
     """What a scenario lacks to explain data: a CSV file or a result of a run, a list of these, or a dict of columns with the
     names of a CSV file, {"time_s": array, ...}. since: data of the same drive from before, likewise; then what has changed.
+    draws: how often the recording is fitted anew, with its blocks weighted at random, for draws.csv of output.
     output: a folder for the files of `wormdrive diagnose`, pictures apart; `wormdrive report` makes a page of it."""
     core = Scenario(scenario, _look=True, **overrides)._scenario
     folder = None if output is None else os.fspath(output)
@@ -320,8 +321,8 @@ def diagnose(scenario: Source, data: Any, /, *, since: Any = None, seed: int = 1
 
     with tempfile.TemporaryDirectory() as scratch:
         return Diagnosis(_core.diagnose(core, _files_of(data, scratch, "data.csv"),
-                                        [] if since is None else _files_of(since, scratch, "since.csv"), seed, threads, folder,
-                                        scenario_file, _command_line()))
+                                        [] if since is None else _files_of(since, scratch, "since.csv"), seed, draws, threads,
+                                        folder, scenario_file, _command_line()))
 
 
 def _files_of(data: Any, scratch: str, name: str) -> list[str]:

@@ -19,13 +19,14 @@ int main(int argc, char** argv) {
   std::string hidden = "nothing", conditions = "realistic";
   recovery::Plan plan;
   std::uint64_t trials = 200;
-  int threads = 2;
+  int threads = 2, draws = 0;
   app.add_option("--hide", hidden, "what is hidden: single or nothing");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--cases", plan.cases, "number of recordings");
   app.add_option("--seed", plan.seed, "seed of all random numbers");
   app.add_option("--duration", plan.duration, "of a recording [s]");
   app.add_option("--trials", trials, "possible drives of each");
+  app.add_option("--draws", draws, "also by so many fits of resampled data; 0: by the normal distribution alone");
   app.add_option("--threads", threads, "recordings at a time");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -41,9 +42,16 @@ int main(int argc, char** argv) {
     std::mutex one_at_a_time;
     wormdrive::parallel_for(cases.size(), threads, [&](std::size_t k) {
       const recovery::Bench bench = recovery::record(cases[k]);
-      const wormdrive::Diagnosis found =
-          wormdrive::diagnose(recovery::data_sheet(plan.conditions), {bench.recording}, {.threads = 1});
-      const std::vector<recovery::Forecast> list = recovery::forecast(cases[k], bench.drive, found, trials);
+      wormdrive::Diagnosis found =
+          wormdrive::diagnose(recovery::data_sheet(plan.conditions), {bench.recording}, {.draws = draws, .threads = 1});
+      std::vector<recovery::Forecast> list;
+      if (draws > 0) {
+        list = recovery::forecast(cases[k], bench.drive, found, trials);
+        for (recovery::Forecast& f : list) f.metric += " (resampled)";
+        found.uncertainty.draws.clear();
+      }
+      for (recovery::Forecast& f : recovery::forecast(cases[k], bench.drive, found, trials))
+        list.push_back(std::move(f));
       const std::lock_guard lock(one_at_a_time);
       without += list.empty();
       std::string hiding;

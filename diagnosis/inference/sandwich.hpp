@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/fitting/hypothesis.hpp"
+
+namespace wormdrive {
+
+/// Change of the whitened innovations by each free coordinate, per scale, as the mean of a step up and one down. steps:
+/// of each, in scales.
+std::vector<std::vector<double>> central_sensitivities(const Evaluation& evaluation, const Hypothesis& h,
+                                                       const std::vector<double>& steps);
+/// Steps as long as standard errors, within limits; variances in squared scales.
+std::vector<double> steps_over_errors(const Eigen::VectorXd& variances);
+
+/// What a fit's likelihood and the scatter of its slopes over blocks of time say, in scales of the free coordinates.
+struct Sandwich {
+  Eigen::MatrixXd spread;   ///< covariance of the coordinates
+  Eigen::MatrixXd missing;  ///< scatter of the slope behind it that random weights of the blocks do not make
+};
+
+/// Of an evaluated hypothesis. steps: of the free coordinates for their derivatives, in scales.
+Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps);
+
+}  // namespace wormdrive
