@@ -59,12 +59,16 @@ class Encoder {
   /// The measured angle of its shaft [rad] at the k-th sample.
   double operator()(double angle, std::uint64_t k) const {
     if (exact_) return angle;
-    if (settings_.noise > 0.0)
-      angle += settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
+    if (settings_.noise > 0.0) angle += noise(k);
     if (settings_.counts <= 0.0) return angle;
-    const double step = 2.0 * std::numbers::pi / settings_.counts;
-    return step * std::floor(angle / step + 0.5);
+    return count() * std::floor(angle / count() + 0.5);
   }
+  /// The noise of the k-th sample [rad].
+  double noise(std::uint64_t k) const {
+    return settings_.noise * normal(static_cast<std::uint64_t>(settings_.seed), Stream::encoder_noise, k);
+  }
+  /// The angle of a count [rad]; infinite without counts.
+  double count() const { return 2.0 * std::numbers::pi / settings_.counts; }
 
  private:
   SensorSettings settings_;

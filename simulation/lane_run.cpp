@@ -31,8 +31,8 @@ bool has_lane_controller(const ControlScenario& control) {
   const SensorSettings& sensor = control.sensor;
   return (std::holds_alternative<SlidingParameters>(control.law) ||
           std::holds_alternative<PidParameters>(control.law)) &&
-         control.anti_windup.method == AntiWindup::none && sensor.counts <= 0.0 && sensor.noise <= 0.0 &&
-         sensor.zero_error == 0.0 && !sensor.exact_speed && !sensor.on_worm && control.disturbance.deviation <= 0.0;
+         control.anti_windup.method == AntiWindup::none && (sensor.zero_error == 0.0 || !sensor.index_mark) &&
+         !sensor.exact_speed && !sensor.on_worm;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -41,13 +41,14 @@ constexpr Lemma1Quiet<double> all_quiet{infinity, infinity, infinity};
 
 /// In the place of a controller.
 struct HeldTorque {
-  double torque = 0.0;
+  double torque = 0.0, disturbance = 0.0;
   bool held = false;
 
   bool pause() const { return held; }
   template <class Drive>
-  double sample(const Drive&, const typename Drive::Instant&) {
+  double sample(Drive& drive, const typename Drive::Instant&) {
     held = true;
+    drive.disturb(disturbance);
     return torque;
   }
 };
@@ -65,6 +66,8 @@ class LaneRunOf final : public LaneRun {
         nominal_(make_nominal(scenario)),
         lemma_(lemma1(nominal_, make_variations(scenario))),
         watch_(scenario.control->window, scenario.control->law, lemma_),
+        encoder_(scenario.control->sensor),
+        disturbance_(scenario.control->disturbance, scenario.control->sampling.period),
         progress_{run_.timetable(*scenario.control), run_.start(), EventLog()} {}
   LaneRunOf(const LaneRunOf&) = delete;  // solver and run point into it
   LaneRunOf& operator=(const LaneRunOf&) = delete;
@@ -79,18 +82,30 @@ class LaneRunOf final : public LaneRun {
   }
   LaneVariant variant() const override {
     return {.ideal = std::isinf(drive_.torque_limit()) && solver_.nominal().response().gain == 1.0 &&
-                     scenario_.control->sampling.delay <= 0.5 && is_encoder_exact(),
+                     scenario_.control->sampling.delay <= 0.5 && is_encoder_exact() && !is_disturbed(),
             .pid = std::holds_alternative<PidParameters>(scenario_.control->law),
             .swings = std::is_same_v<Load, GravityLoad>,
             .rubs = rubs()};
   }
   bool estimate_is_aligned() const override { return nominal_.load_angle_offset == 0.0 && is_encoder_exact(); }
+  bool is_rough() const override { return !encoder_.is_exact() || scenario_.control->sensor.zero_error != 0.0; }
+  bool is_noisy() const override { return scenario_.control->sensor.noise > 0.0; }
+  bool is_disturbed() const override { return scenario_.control->disturbance.deviation > 0.0; }
+  void draw(long first, long end, std::size_t stride, double* noise, double* disturbance) override {
+    for (long k = first; k < end; ++k) {
+      const auto sample = static_cast<std::uint64_t>(k);
+      const std::size_t at = static_cast<std::size_t>(k - first) * stride;
+      if (noise) noise[at] = is_noisy() ? encoder_.noise(sample) : -0.0;  // which changes no angle, not even 0
+      if (disturbance) disturbance[at] = disturbance_(sample);
+    }
+  }
 
   void start(const Lane& lane) override {
     advance({.held = true});
     const ControlScenario& control = *scenario_.control;
-    const auto* const scale = encoder<EncoderScale<double>>();
-    const auto* const offset = encoder<EncoderOffset<double>>();
+    const auto* const scale = effect<EncoderScale<double>>();
+    const auto* const offset = effect<EncoderOffset<double>>();
+    const double zero_error = control.sensor.zero_error;
     LaneTrial<double> trial{.sliding = {},
                             .pid = {},
                             .load_torque = nominal_.load_torque,
@@ -98,6 +113,8 @@ class LaneRunOf final : public LaneRun {
                             .load_constant = nominal_.load_constant,
                             .encoder_share = scale ? scale->share : 0.0,
                             .encoder_zero = offset ? offset->angle : -0.0,  // which changes no angle, not even 0
+                            .count = encoder_.count(),
+                            .zero_error = zero_error != 0.0 ? zero_error : -0.0,
                             .speed = {control.sensor.filter_cutoff, control.sampling.period},
                             .sums = watch_.meter.sums(),
                             .quiet = watch_.lemma ? watch_.lemma->quiet() : all_quiet,
@@ -106,18 +123,17 @@ class LaneRunOf final : public LaneRun {
                             .drive = {},
                             .arm_offset = solver_.nominal().arm_offset(),
                             .theta = 0.0,
-                            .omega = 0.0,
-                            .filler = 0.0};
+                            .omega = 0.0};
     if (const auto* const sliding = std::get_if<SlidingParameters>(&control.law))
       trial.sliding = {*sliding, nominal_, SlidingBounds(*sliding, lemma_)};
     if (const auto* const pid = std::get_if<PidParameters>(&control.law))
       trial.pid = {lqr_gains(*pid, mean_inertia(nominal_)), *pid, nominal_};
     leave(trial);
-    trial.speed.start(drive_.measured_angle(progress_.now));
+    trial.speed.start(encoder_(drive_.measured_angle(progress_.now), 0));
     lane.write(trial);
   }
 
-  void go_on(const Lane& lane, long sample, double t, double torque) override {
+  void go_on(const Lane& lane, long sample, double t, double torque, double disturbance) override {
     LaneTrial<double> trial = lane.read();
     if (sample != next_) {
       solver_.count_leaps(sample - next_);
@@ -128,7 +144,7 @@ class LaneRunOf final : public LaneRun {
       watch_.meter.instant(t, progress_.now.mode);
       run_.record(drive_, progress_.now);
     }
-    advance({.torque = torque});
+    advance({.torque = torque, .disturbance = disturbance});
     next_ = sample + 1;
     leave(trial);
     lane.write(trial);
@@ -150,11 +166,13 @@ class LaneRunOf final : public LaneRun {
 
  private:
   template <class Effect>
-  const Effect* encoder() const {
-    const auto& effect = std::get<std::optional<Effect>>(drive_.effects().list);
-    return effect ? &*effect : nullptr;
+  const Effect* effect() const {
+    const auto& found = std::get<std::optional<Effect>>(drive_.effects().list);
+    return found ? &*found : nullptr;
   }
-  bool is_encoder_exact() const { return !encoder<EncoderScale<double>>() && !encoder<EncoderOffset<double>>(); }
+  bool is_encoder_exact() const {
+    return !is_rough() && !effect<EncoderScale<double>>() && !effect<EncoderOffset<double>>();
+  }
   bool rubs() const { return solver_.nominal().rubs({Motion::forward, Flank::left}); }
 
   void advance(HeldTorque torque) {
@@ -183,6 +201,8 @@ class LaneRunOf final : public LaneRun {
   NominalModel nominal_;
   Lemma1 lemma_;
   ControlWatch watch_;
+  Encoder encoder_;
+  TorqueDisturbance disturbance_;
   Progress<Drive> progress_;
   long next_ = 0;  ///< sample up to which it has come alone
 };

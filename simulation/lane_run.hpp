@@ -10,9 +10,9 @@ namespace wormdrive {
 /// Whether torques that are held reach the mesh of a scenario as they are, and nothing but an arm under gravity loads
 /// it.
 bool has_lane_plant(const Scenario& scenario);
-/// Whether a scenario can run in a lane: between angle and torque an encoder's scale and zero, the sliding controller
-/// or the PID, and a delay of a sample; between torque and angle the mesh, bearings, a motor's limit, and an arm under
-/// gravity or a constant load.
+/// Whether a scenario can run in a lane: between angle and torque an encoder's scale, zero, counts and noise, the
+/// sliding controller or the PID, and a delay of a sample; between torque and angle the mesh, bearings, a motor's
+/// limit, a random torque, and an arm under gravity or a constant load.
 bool fits_lane(const Scenario& scenario);
 /// Whether two scenarios take the same samples of the same reference, equally exact.
 bool share_samples(const Scenario& a, const Scenario& b);
@@ -26,11 +26,18 @@ class LaneRun {
   virtual LaneVariant variant() const = 0;
   /// Whether its load is estimated at the angle of the gear.
   virtual bool estimate_is_aligned() const = 0;
+  /// Whether its encoder counts, is noisy, or its zero is off.
+  virtual bool is_rough() const = 0;
+  virtual bool is_noisy() const = 0;
+  virtual bool is_disturbed() const = 0;
+  /// Puts the noise of its encoder [rad] and what disturbs its shaft [N m] at samples in [first, end) there, where that
+  /// is not null; every sample once and in order.
+  virtual void draw(long first, long end, std::size_t stride, double* noise, double* disturbance) = 0;
 
   /// Goes to the first sample and takes up its lane. Throws SimulationFailure.
   virtual void start(const Lane& lane) = 0;
-  /// Goes on from a sample to the next under a torque [N m]. Throws SimulationFailure.
-  virtual void go_on(const Lane& lane, long sample, double t, double torque) = 0;
+  /// Goes on from a sample to the next under a torque and what disturbs the shaft [N m]. Throws SimulationFailure.
+  virtual void go_on(const Lane& lane, long sample, double t, double torque, double disturbance) = 0;
   virtual void note(const Lane& lane, const ControlRecord& record) = 0;
   /// At the end; samples: how many were added to its sums.
   virtual RunSummary finish(const Lane& lane, long samples) = 0;

@@ -33,21 +33,31 @@ class LaneGroup {
 
   /// first: any of their scenarios.
   std::vector<BatchResult> run(const Scenario& first) {
-    bool aligned = true;
+    bool aligned = true, rough = false, noisy = false, disturbed = false;
     LaneVariant variant = runs_.front()->variant();
     for (int lane = 0; lane < lanes(); ++lane) {
       alive_[lane / width_] |= 1U << lane % width_;
       aligned = aligned && runs_[lane]->estimate_is_aligned();
+      rough = rough || runs_[lane]->is_rough();
+      noisy = noisy || runs_[lane]->is_noisy();
+      disturbed = disturbed || runs_[lane]->is_disturbed();
       variant.ideal = variant.ideal && runs_[lane]->variant().ideal;
       attempt(lane, [&] { runs_[lane]->start(place(lane)); });
     }
+    const int registers = (lanes() + width_ - 1) / width_;
+    const auto numbers = static_cast<std::size_t>(portion * registers * width_);
+    if (noisy) noise_.assign(numbers, 0.0);
+    if (disturbed) disturbance_.assign(numbers, 0.0);
     const LaneBatch batch{.trials = memory_.data(),
-                          .registers = (lanes() + width_ - 1) / width_,
+                          .registers = registers,
                           .alive = alive_.data(),
                           .accuracy = TaylorAccuracy(first.run.solver_settings()),
                           .estimate_is_aligned = aligned,
                           .variant = variant,
                           .is_delayed = first.control->sampling.delay > 0.5,
+                          .is_rough = rough,
+                          .noise = noisy ? noise_.data() : nullptr,
+                          .disturbance = disturbed ? disturbance_.data() : nullptr,
                           .owner = this,
                           .go_on = go_on,
                           .note = note,
@@ -83,9 +93,18 @@ class LaneGroup {
                            alone ? std::numeric_limits<double>::quiet_NaN() : next - t, counts,
                            control.reference.at(t)});
       }
+      draw(samples.front().number, k, static_cast<std::size_t>(batch.registers * width_));
       take_samples(kind_, batch, samples);
     }
     return counted;
+  }
+  /// What is random at samples in [first, end), for runs that go on.
+  void draw(long first, long end, std::size_t stride) {
+    if (noise_.empty() && disturbance_.empty()) return;
+    for (int lane = 0; lane < lanes(); ++lane)
+      if ((alive_[lane / width_] >> lane % width_ & 1U) != 0U)
+        runs_[lane]->draw(first, end, stride, noise_.empty() ? nullptr : noise_.data() + lane,
+                          disturbance_.empty() ? nullptr : disturbance_.data() + lane);
   }
 
   int lanes() const { return static_cast<int>(runs_.size()); }
@@ -101,9 +120,10 @@ class LaneGroup {
       alive &= ~bit;
     }
   }
-  static void go_on(void* owner, int lane, const LaneSample& sample, double torque) {
+  static void go_on(void* owner, int lane, const LaneSample& sample, double torque, double disturbance) {
     auto& group = *static_cast<LaneGroup*>(owner);
-    group.attempt(lane, [&] { group.runs_[lane]->go_on(group.place(lane), sample.number, sample.t, torque); });
+    group.attempt(lane,
+                  [&] { group.runs_[lane]->go_on(group.place(lane), sample.number, sample.t, torque, disturbance); });
   }
   static void note(void* owner, int lane, const ControlRecord& record) {
     auto& group = *static_cast<LaneGroup*>(owner);
@@ -116,6 +136,7 @@ class LaneGroup {
   std::vector<BatchResult> results_;
   std::array<unsigned, LaneBatch::most> alive_{};
   alignas(64) std::array<double, LaneBatch::most * lane_fields> memory_{};
+  std::vector<double> noise_, disturbance_;  ///< of a portion of samples, of all lanes; empty where there are none
 };
 
 /// Whether one kernel can take both.

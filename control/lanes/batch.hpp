@@ -32,10 +32,15 @@ struct LaneBatch {
   bool estimate_is_aligned;  ///< every load is estimated at the angle of the gear: no offset, and exact encoders
   LaneVariant variant;
   bool is_delayed;  ///< a torque is applied a sample after it was decided
+  bool is_rough;    ///< an encoder counts, is noisy, or its zero is off
+  /// Of every sample of all registers, sample by sample: the noise of the encoders [rad] and what disturbs the shafts
+  /// [N m]; null where nothing is random.
+  const double *noise, *disturbance;
 
   void* owner;
-  /// Takes a trial, lanes counted through, to the next sample under a torque [N m], events included.
-  void (*go_on)(void* owner, int lane, const LaneSample& sample, double torque);
+  /// Takes a trial, lanes counted through, to the next sample under a torque [N m] and what disturbs the shaft, events
+  /// included.
+  void (*go_on)(void* owner, int lane, const LaneSample& sample, double torque, double disturbance);
   /// Shows what its monitor may have to note.
   void (*note)(void* owner, int lane, const ControlRecord& record);
   /// Sine and cosine of any angle, as a trial alone has them.

@@ -32,19 +32,24 @@ class LaneKernel {
   template <LaneVariant variant>
   [[gnu::noinline]] static void take(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
     auto* const trials = reinterpret_cast<LaneTrial<V>*>(batch.trials);
+    std::size_t at = 0;  // of what is random
     for (; sample != end; ++sample)
-      for (int r = 0; r < batch.registers; ++r) take<variant>(batch, *sample, r, trials[r]);
+      for (int r = 0; r < batch.registers; ++r, at += Width::lanes) take<variant>(batch, *sample, r, at, trials[r]);
   }
   template <LaneVariant variant>
-  [[gnu::always_inline]] static void take(const LaneBatch& batch, const LaneSample& sample, int r, LaneTrial<V>& x) {
+  [[gnu::always_inline]] static void take(const LaneBatch& batch, const LaneSample& sample, int r, std::size_t at,
+                                          LaneTrial<V>& x) {
     const V theta_now = x.theta;
     SineAndCosineOf<V> gear{0.0, 1.0};
     if constexpr (variant.swings) gear = sine_and_cosine(batch, r, theta_now);
-    const V shown = variant.ideal ? theta_now : theta_now + x.encoder_share * theta_now + x.encoder_zero;
+    V shown = variant.ideal ? theta_now : theta_now + x.encoder_share * theta_now + x.encoder_zero;
+    if (!variant.ideal && batch.is_rough) shown = counted(batch, r, at, shown, x.count);
+    const V speed = x.speed(shown);
+    if (!variant.ideal && batch.is_rough) shown = shown + x.zero_error;
     const V estimated = variant.swings && batch.estimate_is_aligned
                             ? gear.cosine
                             : sine_and_cosine(batch, r, shown + x.load_angle_offset).cosine;
-    const MeasurementOf<V> m{sample.t, shown, x.speed(shown), sample.period, sample.desired};
+    const MeasurementOf<V> m{sample.t, shown, speed, sample.period, sample.desired};
     const V load = x.load_torque * estimated + x.load_constant;
     const ControlSignalsOf<V> decided = variant.pid ? x.pid(m, load) : x.sliding(m, load);
     V applied = decided.torque;
@@ -52,14 +57,16 @@ class LaneKernel {
       applied = within_limits<V>(decided.torque, -x.limit, x.limit);
       if (batch.is_delayed) std::swap(applied, x.left);
     }
-    const ControlRecordOf<V> record{theta_now, m, decided, applied, 0.0};
+    const V disturbance = !variant.ideal && batch.disturbance ? from(batch.disturbance + at) : V(0.0);
+    const ControlRecordOf<V> record{theta_now, m, decided, applied, disturbance};
     if (sample.counts) x.sums.add(record);
     if (const unsigned loud = set_bits(!x.quiet(record)) & batch.alive[r]) [[unlikely]]
       note(batch, r, loud, record);
 
     V theta = theta_now, omega = x.omega;
-    const HeldTorquesOf<V> held =
-        x.drive.template under<variant.ideal>(record.applied + 0.0);  // the motor adds its signal, none
+    const V command = record.applied + 0.0;  // the motor adds its signal, none
+    const HeldTorquesOf<V> held = !variant.ideal && batch.disturbance ? x.drive.under(command, disturbance)
+                                                                      : x.drive.template under<variant.ideal>(command);
     const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
     const auto known =
         x.drive.held.goes_on(omega, held, arm) &
@@ -71,8 +78,34 @@ class LaneKernel {
     } else {
       x.theta = select(known, theta, theta_now);
       x.omega = select(known, omega, x.omega);
-      go_on(batch, sample, r, alone, record.applied);
+      go_on(batch, sample, r, alone, record);
     }
+  }
+
+  [[gnu::always_inline]] static V from(const double* memory) {
+    V v;
+    __builtin_memcpy(&v, memory, sizeof v);
+    return v;
+  }
+  /// What encoders show of angles: with noise, then rounded to counts.
+  [[gnu::always_inline]] static V counted(const LaneBatch& batch, int r, std::size_t at, V angle, const V& count) {
+    if (batch.noise) angle = angle + from(batch.noise + at);
+    const V counts = angle / count + 0.5;
+    constexpr double whole = 0x1.8p52;  // numbers of this size have no fraction
+    const V nearest = (counts + whole) - whole;
+    V below = select(nearest > counts, nearest - 1.0, nearest);
+    if (const unsigned far = set_bits(!(abs(counts) < V(0x1p51))) & batch.alive[r]) [[unlikely]]
+      below = floor_of_each(counts, below, far);
+    return select(count < V(std::numeric_limits<double>::infinity()), count * below, angle);
+  }
+  [[gnu::noinline]] static V floor_of_each(const V& x, const V& near, unsigned lanes) {
+    const Each each(x);
+    Each below(near);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int k = __builtin_ctz(lanes);
+      below.of[k] = __builtin_floor(each.of[k]);
+    }
+    return from(below.of);
   }
 
   using Each = EachLane<Width>;
@@ -84,7 +117,7 @@ class LaneKernel {
   [[gnu::noinline]] static void note(const LaneBatch& batch, int r, unsigned lanes, const ControlRecordOf<V>& record) {
     const Each theta(record.gear_angle), shown(record.measured.angle), speed(record.measured.speed),
         torque(record.decided.torque), s(record.decided.s), u(record.decided.u),
-        compensation(record.decided.compensation), applied(record.applied);
+        compensation(record.decided.compensation), applied(record.applied), disturbance(record.disturbance);
     const MeasurementOf<V>& m = record.measured;
     for (; lanes != 0; lanes &= lanes - 1) {
       const int k = __builtin_ctz(lanes);
@@ -93,15 +126,15 @@ class LaneKernel {
                   {m.t, shown.of[k], speed.of[k], m.period, m.desired},
                   {torque.of[k], s.of[k], u.of[k], compensation.of[k]},
                   applied.of[k],
-                  0.0});
+                  disturbance.of[k]});
     }
   }
   [[gnu::noinline]] static void go_on(const LaneBatch& batch, const LaneSample& sample, int r, unsigned lanes,
-                                      const V& torque) {
-    const Each torques(torque);
+                                      const ControlRecordOf<V>& record) {
+    const Each torques(record.applied), disturbances(record.disturbance);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
-      batch.go_on(batch.owner, r * Width::lanes + lane, sample, torques.of[lane]);
+      batch.go_on(batch.owner, r * Width::lanes + lane, sample, torques.of[lane], disturbances.of[lane]);
     }
   }
 };

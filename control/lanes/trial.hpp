@@ -19,6 +19,8 @@ struct LaneTrial {
   PidLawOf<V> pid;
   V load_torque, load_angle_offset, load_constant;  ///< of the estimated load
   V encoder_share, encoder_zero;  ///< what the encoder shows too much: a share of the angle, and an angle [rad]
+  V count;                        ///< the angle of an encoder's count; infinite without counts [rad]
+  V zero_error;                   ///< of an encoder, which the speed does not show [rad]
   SpeedEstimatorOf<V> speed;
   SampleSums<V> sums;
   Lemma1Quiet<V> quiet;
@@ -27,7 +29,6 @@ struct LaneTrial {
   DrivenMotionOf<V> drive;        ///< the present mode; motion 0 at rest
   SineAndCosineOf<V> arm_offset;  ///< of the arm against the gear
   V theta, omega;                 ///< of the gear [rad, rad/s]
-  V filler = 0.0;                 ///< the Pairs of a trial alone ask for an even number
 };
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);

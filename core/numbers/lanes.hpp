@@ -33,6 +33,7 @@ struct Lanes {
   [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.x + b.x); }
   [[gnu::always_inline]] friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.x - b.x); }
   [[gnu::always_inline]] friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.x * b.x); }
+  [[gnu::always_inline]] friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.x / b.x); }
   [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) { return Lanes(-a.x); }
   [[gnu::always_inline]] Lanes& operator+=(const Lanes& b) { return x += b.x, *this; }
   [[gnu::always_inline]] friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.x < b.x}; }

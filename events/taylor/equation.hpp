@@ -33,7 +33,7 @@ struct NominalEquation {
   DrivenMotion driven{};
   Mode mode{};
   bool rubs = false;
-  double per_worm_torque = 0.0, per_gear_torque = 0.0;
+  double per_gear_torque = 0.0;
   HeldTorques friction{};  ///< what dry friction of the bearings does to the drive
   /// What the terms of per_gear_torque add up to, and of the push of dry friction: both may all but cancel, and what
   /// rounding leaves of them is a share of this.
@@ -60,9 +60,9 @@ struct NominalEquation {
                        .skew = worm_viscous - surface * gear_viscous},
               .per_command = motor.gain * inverse,
               .gain = motor.gain,
+              .per_worm_torque = inverse,
               .known = {motor.offset * inverse + friction.push, motor.offset + friction.beyond}};
     rubs = driven.held.drag != 0.0 || driven.held.skew != 0.0;
-    per_worm_torque = inverse;
     per_gear_torque = C * inverse;
     most_per_gear_torque = most_C * std::abs(inverse);
     most_push = (std::abs(worm_coulomb) + most_C * std::abs(gear_coulomb)) * std::abs(inverse);
@@ -73,7 +73,7 @@ struct NominalEquation {
   /// and gear and of coefficient k of theta'.
   Terms acceleration_terms(const Terms& worm, const Terms& gear, double speed, int k) const {
     const Terms load{std::abs(per_gear_torque) * gear.present, most_per_gear_torque * gear.most};
-    return std::abs(per_worm_torque) * worm + load + rubbing(driven.held.drag * speed) +
+    return std::abs(driven.per_worm_torque) * worm + load + rubbing(driven.held.drag * speed) +
            (k == 0 ? Terms{std::abs(friction.push), most_push} : Terms{});
   }
   Terms distance_terms(const Terms& worm, const Terms& gear, double speed, int k) const {

@@ -189,12 +189,18 @@ template <class V>
 struct DrivenMotionOf {
   HeldMotionOf<V> held;
   V per_command, gain;     ///< acceleration and motor torque of a command
+  V per_worm_torque;       ///< acceleration of a torque on the worm's shaft
   HeldTorquesOf<V> known;  ///< what dry friction of the bearings and other constant torques do to the drive
 
   /// unit_gain: the gain is 1.
   template <bool unit_gain>
   [[gnu::always_inline]] HeldTorquesOf<V> under(const V& command) const {
     return {command * per_command + known.push, (unit_gain ? command : command * gain) + known.beyond};
+  }
+  /// The same with a torque that disturbs the worm's shaft.
+  [[gnu::always_inline]] HeldTorquesOf<V> under(const V& command, const V& disturbance) const {
+    return {command * per_command + (known.push + disturbance * per_worm_torque),
+            command * gain + (known.beyond + disturbance)};
   }
 };
 using DrivenMotion = DrivenMotionOf<double>;

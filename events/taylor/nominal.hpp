@@ -82,7 +82,7 @@ class NominalFlow<WormDrive<double, Load>> {
     if (!covers_ || curve_.falls() || !inputs_are_constant()) return std::nullopt;
     const NominalEquation& m = equation(mode);
     DrivenMotion driven = m.driven;
-    driven.known = uncommanded_torques(m);
+    driven.known = uncommanded_torques(m, 0.0);
     return driven;
   }
   /// Whether its bearings are viscous.
@@ -168,7 +168,7 @@ class NominalFlow<WormDrive<double, Load>> {
         }
       power *= h;
       // What is known first comes first: the series waits for the load.
-      alpha += worm_torque_[k] * m.per_worm_torque - m.driven.held.drag * e.omega[k];
+      alpha += worm_torque_[k] * m.driven.per_worm_torque - m.driven.held.drag * e.omega[k];
       if constexpr (swings)
         alpha += m.driven.held.gravity * arm_.cosine(k);
       else
@@ -191,17 +191,17 @@ class NominalFlow<WormDrive<double, Load>> {
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   const NominalEquation& equation(Mode mode) const { return equations_[index(sign(mode.motion), sign(mode.flank))]; }
   /// What is held beside the command.
-  HeldTorques uncommanded_torques(const NominalEquation& m) const {
-    HeldTorques rest{disturbance_ * m.per_worm_torque + m.driven.known.push, disturbance_ + m.driven.known.beyond};
+  HeldTorques uncommanded_torques(const NominalEquation& m, double disturbance) const {
+    HeldTorques rest = m.driven.known;
     if constexpr (!swings) {
       const double load = load_gain_ * load_.piece.constant;
       rest.push += load * m.per_gear_torque;
       rest.beyond -= load * surface_;
     }
-    return rest;
+    return {rest.push + disturbance * m.driven.per_worm_torque, rest.beyond + disturbance};
   }
   HeldTorques held_torques(const NominalEquation& m) const {
-    const HeldTorques rest = uncommanded_torques(m);  // nothing but the command is left to wait for
+    const HeldTorques rest = uncommanded_torques(m, disturbance_);  // nothing but the command is left to wait for
     return {motor_.constant * m.driven.per_command + rest.push, motor_.constant * m.driven.gain + rest.beyond};
   }
 

@@ -171,7 +171,7 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
     return choices[std::uniform_int_distribution<std::size_t>(0, choices.size() - 1)(random)];
   };
   std::vector<Scenario> scenarios;
-  for (int k = 0; k < 48; ++k) {
+  for (int k = 0; k < 96; ++k) {
     std::vector<std::string> changes{"run.solver=taylor", "run.duration_s=0.7", "metrics.from_s=0"};
     const std::vector<std::string> none{"run.relative_tolerance=1e-8"};
     for (const std::vector<std::string>& choices : std::vector<std::vector<std::string>>{
@@ -184,6 +184,10 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
              {none.front(), "effect.torque_saturation.limit_Nm=0.02"},
              {none.front(), "effect.worm_coulomb.torque_Nm=1e-4"},
              {none.front(), "controller.nominal.load_angle_offset_deg=3"},
+             {none.front(), none.front(), "sensor.counts=20000", "sensor.counts=600", "sensor.counts=1e17"},
+             {none.front(), "sensor.noise_deg=0.002"},
+             {none.front(), "sensor.zero_error_deg=-0.7"},
+             {none.front(), "disturbance.deviation_Nm=2e-4", "disturbance={deviation_Nm=1e-4,time_constant_s=0.01}"},
              {none.front(), "controller.delay_samples=1"}})
       changes.push_back(one_of(choices));
     scenarios.push_back(
@@ -195,6 +199,20 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
   require_the_same(scenarios);
 }
 
+TEST_CASE("lanes: the same where only some of the trials are noisy, count or are disturbed") {
+  std::mt19937_64 random(18);
+  std::vector<Scenario> scenarios;
+  for (int k = 0; k < 16; ++k) {
+    scenarios.push_back(varied(figure_10({"metrics.from_s=0", fmt::format("sensor.seed={}", k)}), random, 0.2));
+    ControlScenario& control = *scenarios.back().control;
+    if (k % 3 == 1) control.sensor.noise = 1e-4;
+    if (k % 4 == 1) control.sensor.counts = 4000;
+    if (k % 5 == 2) control.disturbance = {.deviation = 2e-4, .seed = 1.0 + k};
+    if (k % 7 == 3) control.sensor.zero_error = 1e-3;
+  }
+  require_the_same(scenarios);
+}
+
 TEST_CASE("lanes: scenarios that do not fit into a lane, or not with the others, run all the same") {
   std::mt19937_64 random(13);
   std::vector<Scenario> scenarios;
@@ -202,6 +220,7 @@ TEST_CASE("lanes: scenarios that do not fit into a lane, or not with the others,
        std::vector<std::vector<std::string>>{{},
                                              {"reference.frequency_Hz=2.1"},
                                              {"sensor.counts=10000"},
+                                             {"sensor.zero_error_deg=0.1", "sensor.index_mark_deg=0.5"},
                                              {"effect.worm_viscous.coefficient_Nms_per_rad=1e-6"},
                                              {"effect.worm_coulomb.torque_Nm=1e-4"},
                                              {"effect.torque_saturation.limit_Nm=0.03"},

@@ -53,6 +53,11 @@ path = "sensor.counts"
 distribution = "discrete"
 values = [0, 20000]
 weights = [9, 1]
+[[parameter]]
+path = "effect.encoder_delay.delay_s"
+distribution = "discrete"
+values = [0, 2e-4]
+weights = [9, 1]
 )";
 
 /// How many rows have a status in a file that another program may be writing; 0 while there is no such file.
