@@ -93,7 +93,7 @@ class LaneGroup {
                            alone ? std::numeric_limits<double>::quiet_NaN() : next - t, counts,
                            control.reference.at(t)});
       }
-      draw(samples.front().number, k, static_cast<std::size_t>(batch.registers * width_));
+      draw(samples.front().number, k, static_cast<std::size_t>(batch.registers) * static_cast<std::size_t>(width_));
       take_samples(kind_, batch, samples);
     }
     return counted;

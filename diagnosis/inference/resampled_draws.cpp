@@ -5,7 +5,9 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/normal_equations.hpp"
+#include "diagnosis/fitting/stepwise.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/sandwich.hpp"
 #include "diagnosis/rules/evidence.hpp"

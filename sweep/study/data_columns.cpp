@@ -26,6 +26,10 @@ std::string quoted_key(const std::string& key) {
 
 }  // namespace
 
+std::string same_for_one_file(const std::string& name) {
+  return std::filesystem::path(name).lexically_normal().string();
+}
+
 std::vector<double> DataColumns::read(TableReader& table, const std::string& key, const std::string& file,
                                       const std::string& column) {
   std::vector<double> values;
@@ -38,7 +42,8 @@ std::vector<double> DataColumns::read(TableReader& table, const std::string& key
     if (values.empty()) return {};
     read_[file][column] = values;
   }
-  if (const std::size_t rows = rows_.try_emplace(file, values.size()).first->second; rows != values.size())
+  if (const std::size_t rows = rows_.try_emplace(same_for_one_file(file), values.size()).first->second;
+      rows != values.size())
     table.fault(key,
                 fmt::format("{} = \"{}\": column '{}' has {} rows but another one has {}; remove [data] to have the "
                             "file read again",

@@ -9,6 +9,9 @@
 
 namespace wormdrive {
 
+/// The name of a file whichever way it is written: "./draws.csv" is "draws.csv".
+std::string same_for_one_file(const std::string& name);
+
 /// Columns of CSV files that a study names. Once read they stand in the text of the study, as [data."FILE.csv"] with a
 /// list for each column, so that a sweep can be understood, replayed and repeated without the file.
 class DataColumns {

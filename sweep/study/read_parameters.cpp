@@ -38,7 +38,7 @@ void read_distribution(TableReader& table, RowOfFile& distribution, DataColumns&
   const auto file = table.required_text("file", "a CSV file, relative to the folder of the study");
   const auto column = table.text("column");
   if (!file) return;
-  distribution.file = *file;
+  distribution.file = same_for_one_file(*file);
   distribution.values = data.read(table, "file", *file, column.value_or(table.text("path").value_or("")));
 }
 

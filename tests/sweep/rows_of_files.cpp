@@ -32,14 +32,14 @@ high = 0.3
 [[parameter]]
 path = "effect.worm_coulomb.torque_Nm"
 distribution = "row"
-file = "draws.csv"
+file = "./draws.csv"
 column = "bearing"
 [[threshold]]
 metric = "final_gear_angle"
 above_rad = 0
 )";
-const std::string rows_alone = edited(
-    study, "[[parameter]]\npath = \"load.torque_Nm\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.3\n", "");
+const std::string rows_alone =
+    edited(study, "[[parameter]]\npath = \"load.torque_Nm\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.3\n", "");
 const std::string draws = "bearing,mesh.friction\n0.001,0.3\n0.004,0.25\n0.002,0.2\n0.003,0.3\n";
 
 using Pair = std::pair<double, double>;
@@ -110,12 +110,13 @@ TEST_CASE("what rows of a file cannot be asked for is rejected", "[sweep]") {
        "study.toml:24:11: error: correlation[0].between names 'mesh.friction', which is drawn by rows of a file; the "
        "rows have its correlations\n"},
       {"column = \"bearing\"", "column = \"bearings\"",
-       "draws.csv:1: error: no column 'bearings'; the header line names bearing, mesh.friction (parameter[2].file at "
+       "./draws.csv:1: error: no column 'bearings'; the header line names bearing, mesh.friction (parameter[2].file at "
        "study.toml:21:8)\n"},
-      {"file = \"draws.csv\"\ncolumn", "column",
+      {"file = \"./draws.csv\"\ncolumn", "column",
        "study.toml:18:1: error: parameter[2] lacks 'file' (a CSV file, relative to the folder of the study)\n"},
-      {"[[threshold]]", "[data.\"draws.csv\"]\nbearing = [0.001, 0.002]\n[[threshold]]",
-       "study.toml:21:8: error: parameter[2].file = \"draws.csv\": column 'bearing' has 2 rows but another one has 4; "
+      {"[[threshold]]", "[data.\"./draws.csv\"]\nbearing = [0.001, 0.002]\n[[threshold]]",
+       "study.toml:21:8: error: parameter[2].file = \"./draws.csv\": column 'bearing' has 2 rows but another one has "
+       "4; "
        "remove [data] to have the file read again\n"}};
   for (const Bad& bad : cases) {
     const StudyFolder folder(edited(study, bad.part, bad.by));
