@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/normal_equations.hpp"
@@ -19,25 +18,27 @@ namespace wormdrive {
 
 namespace {
 
-using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Change of the whitened innovations by the free coordinates, per scale; of hours of samples, so not in doubles.
+using Slopes = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What all draws have in common.
 struct Common {
-  Slopes J;                 ///< of the whitened innovations, per scale, over steps as long as standard errors
-  Eigen::MatrixXd missing;  ///< factor of the scatter of the slope that weights of blocks do not make, per scale
+  Slopes J;                   ///< at the fit
+  std::vector<double> steps;  ///< of the coordinates for slopes, as long as standard errors, in scales
+  Eigen::MatrixXd missing;    ///< factor of the covariance that weights of blocks do not make, in scales
 };
 
 Common common(const Evaluation& evaluation, const Hypothesis& fit, const Eigen::MatrixXd& covariance) {
   Eigen::VectorXd variances = covariance.diagonal();
   for (Eigen::Index k = 0; k < variances.size(); ++k)
     variances[k] /= std::pow(fit.free[static_cast<std::size_t>(k)].scale, 2);
-  const std::vector<double> steps = steps_over_errors(variances);
-  const std::vector<std::vector<double>> columns = central_sensitivities(evaluation, fit, steps);
-  Common c{Slopes(static_cast<Eigen::Index>(evaluation.layout().size), variances.size()), {}};
-  Eigen::MatrixXd missing = sandwich(evaluation, fit, steps).missing;
+  Common c{
+      Slopes(static_cast<Eigen::Index>(evaluation.layout().size), variances.size()), steps_over_errors(variances), {}};
+  const std::vector<std::vector<double>> columns = central_sensitivities(evaluation, fit, c.steps);
+  Eigen::MatrixXd missing = sandwich(evaluation, fit, c.steps).missing;
   for (Eigen::Index k = 0; k < c.J.cols(); ++k) {
     const auto q = static_cast<std::size_t>(k);
-    c.J.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[q].data(), c.J.rows());
+    c.J.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[q].data(), c.J.rows()).cast<float>();
     if (has_slope(fit.free[q])) continue;
     missing.row(k).setZero();
     missing.col(k).setZero();
@@ -62,20 +63,16 @@ class Numbers {
 class Resampled {
  public:
   Resampled(const Evaluation& evaluation, const Common& all, const Hypothesis& fit, const Numbers& numbers)
-      : evaluation_(evaluation), J_(all.J), fit_(fit), h_(fit) {
+      : evaluation_(evaluation), all_(all), fit_(fit), h_(fit) {
     for (std::size_t b = 0; b < evaluation.layout().blocks; ++b) weights_.push_back(numbers.exponential(b));
     const double mean = std::accumulate(weights_.begin(), weights_.end(), 0.0) / static_cast<double>(weights_.size());
     for (double& w : weights_) w /= mean;
-    Eigen::VectorXd z(all.missing.cols());
-    for (std::size_t k = 0; k < h_.free.size(); ++k) {
-      h_.free[k].centre += h_.free[k].tolerance * numbers.normal(k);
-      z[static_cast<Eigen::Index>(k)] = numbers.normal(h_.free.size() + k);
-    }
-    tilt_ = all.missing * z;
+    for (std::size_t k = 0; k < h_.free.size(); ++k) h_.free[k].centre += h_.free[k].tolerance * numbers.normal(k);
     h_.objective = objective(h_);
   }
 
-  /// The free coordinates that suit these weights best, by Gauss and Newton with the slopes at the fit.
+  /// The free coordinates that suit these weights best, by Gauss and Newton with the slopes at the fit: those over a
+  /// standard error, for slopes found on the way would follow every event that passes a sample.
   std::vector<double> fitted() {
     for (int round = 0; round < rules::most_draw_rounds; ++round) {
       const auto [step, gain] = newton_step();
@@ -88,26 +85,25 @@ class Resampled {
   double objective(const Hypothesis& h) const {
     const std::vector<double> blocks = misfit(evaluation_.layout(), h.residuals, h.noise_model).blocks;
     double sum = std::inner_product(blocks.begin(), blocks.end(), weights_.begin(), 0.0);
-    for (std::size_t k = 0; k < h.free.size(); ++k) {
-      const Coordinate& c = h.free[k];
-      sum += tilt_[static_cast<Eigen::Index>(k)] * (h.values[k] - fit_.values[k]) / c.scale;
-      if (c.tolerance > 0.0) sum += 0.5 * std::pow((h.values[k] - c.centre) / c.tolerance, 2);
-    }
+    for (std::size_t k = 0; k < h.free.size(); ++k)
+      if (const Coordinate& c = h.free[k]; c.tolerance > 0.0)
+        sum += 0.5 * std::pow((h.values[k] - c.centre) / c.tolerance, 2);
     return sum;
   }
 
   /// In scales, and what it promises in nats. A coordinate at a bound that pulls beyond it rests.
   std::pair<Eigen::VectorXd, double> newton_step() const {
     const InnovationLayout& layout = evaluation_.layout();
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(J_.cols(), J_.cols());
-    Eigen::VectorXd b = -tilt_;
+    const Slopes& J = all_.J;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(J.cols(), J.cols());
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(J.cols()), row(J.cols());
     const std::vector<double> curvature = fit_weights(layout, h_.residuals, h_.noise_model);
     for (std::size_t r = 0; r < layout.size; ++r) {
       const double weight = weights_[layout.block[r]] * curvature[r];
       if (!(weight > 0.0)) continue;
-      const auto row = J_.row(static_cast<Eigen::Index>(r));
-      A.noalias() += weight * row.transpose() * row;
-      b.noalias() -= weight * h_.residuals[r] * row.transpose();
+      row = J.row(static_cast<Eigen::Index>(r)).transpose().cast<double>();
+      A.noalias() += (weight * row) * row.transpose();
+      b.noalias() -= weight * h_.residuals[r] * row;
     }
     add_tolerances(h_, A, b);
     for (Eigen::Index k = 0; k < b.size(); ++k) {
@@ -133,6 +129,7 @@ class Resampled {
       }
       const auto e = evaluation_.innovations(extended(trial), trial.noise);
       if (!e) continue;
+      trial.innovations = *e;
       trial.residuals = whitened(evaluation_.layout(), *e, trial.noise_model);
       trial.objective = objective(trial);
       if (!(trial.objective < h_.objective)) continue;
@@ -143,21 +140,25 @@ class Resampled {
   }
 
   const Evaluation& evaluation_;
-  const Slopes& J_;
+  const Common& all_;
   const Hypothesis& fit_;
   Hypothesis h_;
   std::vector<double> weights_;  ///< of every block
-  Eigen::VectorXd tilt_;         ///< slope that is added, per scale
 };
 
-/// Adds what no fit can tell: the errors of the predictor itself, and of coordinates that have no slope.
-void add_errors(const Hypothesis& fit, const Eigen::MatrixXd& covariance, const Numbers& numbers,
+/// Adds what weights do not tell: of the scatter what intervals have beyond it, the errors of the predictor itself, and
+/// those of coordinates that have no slope.
+void add_errors(const Common& all, const Hypothesis& fit, const Eigen::MatrixXd& covariance, const Numbers& numbers,
                 std::vector<double>& values) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  const std::size_t n = values.size();
+  Eigen::VectorXd z(all.missing.cols());
+  for (std::size_t k = 0; k < n; ++k) z[static_cast<Eigen::Index>(k)] = numbers.normal(n + k);
+  const Eigen::VectorXd beyond_weights = all.missing * z;
+  for (std::size_t k = 0; k < n; ++k) {
     const Coordinate& c = fit.free[k];
     const auto q = static_cast<Eigen::Index>(k);
     const double error = std::hypot(structural_error(fit, k), has_slope(c) ? 0.0 : std::sqrt(covariance(q, q)));
-    values[k] = std::clamp(values[k] + error * numbers.normal(2 * values.size() + k), c.low, c.high);
+    values[k] = std::clamp(values[k] + c.scale * beyond_weights[q] + error * numbers.normal(2 * n + k), c.low, c.high);
   }
 }
 
@@ -173,7 +174,7 @@ std::vector<std::vector<double>> resampled_draws(const Evaluation& evaluation, c
     const Numbers numbers(seed, k);
     Hypothesis drawn = fit;
     drawn.values = Resampled(evaluation, all, fit, numbers).fitted();
-    add_errors(fit, covariance, numbers, drawn.values);
+    add_errors(all, fit, covariance, numbers, drawn.values);
     const RecordedDrive drive = extended(drawn);
     for (std::size_t q = 0; q < of.numbers.size(); ++q)
       rows[k].push_back(field_of(drive, of.effects[q], of.numbers[q].field).value);

@@ -11,8 +11,8 @@ namespace wormdrive {
 
 /// Draws of the numbers of a joint estimate from what the data leave open, without taking it for normal: a weighted
 /// likelihood bootstrap [Newton and Raftery 1994]. Each draw is a fit to the same data, in which blocks of time have
-/// exponential weights and tolerances lie about random centres, with the noise of the given fit. A random slope makes
-/// up for what covariance() adds to the scatter of blocks; then come the predictor's own errors. Of an evaluated fit,
+/// exponential weights and tolerances lie about random centres, with the noise of the given fit. What
+/// covariance() has beyond the scatter of blocks is added, and the predictor's own errors. Of an evaluated fit,
 /// with its covariance(); the draws depend on the seed and on nothing else.
 std::vector<std::vector<double>> resampled_draws(const Evaluation& evaluation, const Hypothesis& fit,
                                                  const Eigen::MatrixXd& covariance, const JointEstimate& of, int draws,

@@ -102,10 +102,8 @@ Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::
   const SymmetricEigen of_scatter = symmetric_eigen(scatter);
   const Eigen::MatrixXd U = W * of_scatter.vectors;
   const Eigen::VectorXd least_scatter = of_scatter.values.cwiseMax(1.0);
-  const Eigen::MatrixXd missing =
-      of_scatter.vectors * least_scatter.asDiagonal() * of_scatter.vectors.transpose() - by_weights;
-  const Eigen::MatrixXd back = of_curvature.vectors * of_curvature.values.cwiseMax(flat).cwiseSqrt().asDiagonal();
-  return {U * least_scatter.asDiagonal() * U.transpose(), back * missing * back.transpose()};
+  const Eigen::MatrixXd spread = U * least_scatter.asDiagonal() * U.transpose();
+  return {spread, spread - W * by_weights * W.transpose()};
 }
 
 }  // namespace wormdrive

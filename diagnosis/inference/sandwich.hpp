@@ -17,7 +17,7 @@ std::vector<double> steps_over_errors(const Eigen::VectorXd& variances);
 /// What a fit's likelihood and the scatter of its slopes over blocks of time say, in scales of the free coordinates.
 struct Sandwich {
   Eigen::MatrixXd spread;   ///< covariance of the coordinates
-  Eigen::MatrixXd missing;  ///< scatter of the slope behind it that random weights of the blocks do not make
+  Eigen::MatrixXd missing;  ///< what of it random weights of the blocks do not make
 };
 
 /// Of an evaluated hypothesis. steps: of the free coordinates for their derivatives, in scales.

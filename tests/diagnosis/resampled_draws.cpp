@@ -12,6 +12,7 @@
 #include "cli/program.hpp"
 #include "diagnosis/data/read_recording.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/recordings.hpp"
 #include "simulation/load_scenario.hpp"
 
 namespace wormdrive::test::diagnosis_resampled_draws {
@@ -53,6 +54,30 @@ TEST_CASE("draws of resampled data have the errors and correlations that are sta
       CHECK(std::abs(covariance(a, b) - u.correlation[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]) <
             5.0 / std::sqrt(400.0));
     }
+  }
+}
+
+TEST_CASE("draws of a law that bends stay where the data leave them", "[slow]") {
+  Scenario drive = nominal_arm();
+  std::get<std::optional<Stribeck<double>>>(drive.effects.list) = Stribeck<double>{.drop = 0.25, .speed = 0.04};
+  const Diagnosis d = diagnose(nominal_arm(), {record(drive)}, {.draws = 40, .threads = 2});
+  const JointEstimate& u = d.uncertainty;
+  REQUIRE(std::find(u.effects.begin(), u.effects.end(), "stribeck") != u.effects.end());
+  for (std::size_t k = 0; k < u.numbers.size(); ++k) {
+    double mean = 0.0, squares = 0.0;
+    for (const std::vector<double>& draw : u.draws) mean += draw[k] / 40.0;
+    for (const std::vector<double>& draw : u.draws) {
+      const double z = (draw[k] - mean) / u.numbers[k].standard_error;
+      CAPTURE(u.effects[k], u.numbers[k].field, z);
+      CHECK(std::abs(z) < 5.0);
+      squares += z * z;
+    }
+    CAPTURE(u.effects[k], squares, mean, u.numbers[k].value);
+    if (u.effects[k] == "stribeck" || u.effects[k] == "mesh_friction") {  // the others are known by tolerances
+      CHECK(squares / 40.0 > 0.4);
+      CHECK(squares / 40.0 < 2.0);
+    }
+    CHECK(std::abs(mean - u.numbers[k].value) < 3.0 * u.numbers[k].standard_error);
   }
 }
 
