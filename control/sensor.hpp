@@ -61,7 +61,8 @@ class Encoder {
     if (exact_) return angle;
     if (settings_.noise > 0.0) angle += noise(k);
     if (settings_.counts <= 0.0) return angle;
-    return count() * std::floor(angle / count() + 0.5);
+    const double step = count();
+    return step * std::floor(angle / step + 0.5);
   }
   /// The noise of the k-th sample [rad].
   double noise(std::uint64_t k) const {

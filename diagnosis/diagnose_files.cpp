@@ -152,11 +152,10 @@ Diagnosis diagnose_files(const Scenario& scenario, DataKind kind, const std::vec
 Diagnosis diagnose_since(const Scenario& scenario, const std::vector<std::string>& earlier, DataKind kind,
                          const std::vector<std::string>& later, const DiagnosisSettings& settings,
                          const std::map<std::string, LoadParameters>& loads) {
-  DiagnosisSettings known = settings;
-  known.draws = 0;
-  const Diagnosis then = diagnose_files(scenario, kind_of_data(earlier, scenario), earlier, known, loads);
+  DiagnosisSettings without_draws = settings, known = settings;
+  without_draws.draws = 0;
+  const Diagnosis then = diagnose_files(scenario, kind_of_data(earlier, scenario), earlier, without_draws, loads);
   const Scenario fitted = as_fitted(scenario, then);
-  known = settings;
   known.tolerances = known_tolerances(then);
   Diagnosis now = diagnose_files(fitted, kind, later, known, loads);
   tell_changes(then, fitted, now);

@@ -36,7 +36,7 @@ class LaneGroup {
     bool aligned = true, rough = false, noisy = false, disturbed = false;
     LaneVariant variant = runs_.front()->variant();
     for (int lane = 0; lane < lanes(); ++lane) {
-      alive_[lane / width_] |= 1U << lane % width_;
+      alive_[lane / width_] |= bit(lane);
       aligned = aligned && runs_[lane]->estimate_is_aligned();
       rough = rough || runs_[lane]->is_rough();
       noisy = noisy || runs_[lane]->is_noisy();
@@ -102,22 +102,22 @@ class LaneGroup {
   void draw(long first, long end, std::size_t stride) {
     if (noise_.empty() && disturbance_.empty()) return;
     for (int lane = 0; lane < lanes(); ++lane)
-      if ((alive_[lane / width_] >> lane % width_ & 1U) != 0U)
+      if (is_alive(lane))
         runs_[lane]->draw(first, end, stride, noise_.empty() ? nullptr : noise_.data() + lane,
                           disturbance_.empty() ? nullptr : disturbance_.data() + lane);
   }
 
   int lanes() const { return static_cast<int>(runs_.size()); }
+  unsigned bit(int lane) const { return 1U << lane % width_; }
+  bool is_alive(int lane) const { return (alive_[lane / width_] & bit(lane)) != 0U; }
   Lane place(int lane) { return {memory_.data() + lane / width_ * width_ * lane_fields, width_, lane % width_}; }
   /// What stops one run stops no other.
   template <class Action>
   void attempt(int lane, Action&& action) {
-    unsigned& alive = alive_[lane / width_];
-    const unsigned bit = 1U << lane % width_;
-    if ((alive & bit) == 0U) return;
+    if (!is_alive(lane)) return;
     if (auto fault = fault_of(action)) {
       results_[lane] = *fault;
-      alive &= ~bit;
+      alive_[lane / width_] &= ~bit(lane);
     }
   }
   static void go_on(void* owner, int lane, const LaneSample& sample, double torque, double disturbance) {

@@ -15,6 +15,14 @@ struct EachLane {
   explicit EachLane(const Lanes<Width>& v) { __builtin_memcpy(of, &v, sizeof of); }
 };
 
+/// The numbers of a register as they stand in memory.
+template <class Width>
+[[gnu::always_inline]] inline Lanes<Width> lanes_from(const double* memory) {
+  Lanes<Width> v;
+  __builtin_memcpy(&v, memory, sizeof v);
+  return v;
+}
+
 /// Sine and cosine of any angle, as a trial alone has them.
 using SineAndCosineAlone = SineAndCosine (*)(double angle);
 

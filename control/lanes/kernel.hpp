@@ -57,7 +57,7 @@ class LaneKernel {
       applied = within_limits<V>(decided.torque, -x.limit, x.limit);
       if (batch.is_delayed) std::swap(applied, x.left);
     }
-    const V disturbance = !variant.ideal && batch.disturbance ? from(batch.disturbance + at) : V(0.0);
+    const V disturbance = !variant.ideal && batch.disturbance ? lanes_from<Width>(batch.disturbance + at) : V(0.0);
     const ControlRecordOf<V> record{theta_now, m, decided, applied, disturbance};
     if (sample.counts) x.sums.add(record);
     if (const unsigned loud = set_bits(!x.quiet(record)) & batch.alive[r]) [[unlikely]]
@@ -82,14 +82,9 @@ class LaneKernel {
     }
   }
 
-  [[gnu::always_inline]] static V from(const double* memory) {
-    V v;
-    __builtin_memcpy(&v, memory, sizeof v);
-    return v;
-  }
   /// What encoders show of angles: with noise, then rounded to counts.
   [[gnu::always_inline]] static V counted(const LaneBatch& batch, int r, std::size_t at, V angle, const V& count) {
-    if (batch.noise) angle = angle + from(batch.noise + at);
+    if (batch.noise) angle = angle + lanes_from<Width>(batch.noise + at);
     const V counts = angle / count + 0.5;
     constexpr double whole = 0x1.8p52;  // numbers of this size have no fraction
     const V nearest = (counts + whole) - whole;
@@ -105,7 +100,7 @@ class LaneKernel {
       const int k = __builtin_ctz(lanes);
       below.of[k] = __builtin_floor(each.of[k]);
     }
-    return from(below.of);
+    return lanes_from<Width>(below.of);
   }
 
   using Each = EachLane<Width>;

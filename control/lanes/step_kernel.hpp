@@ -20,15 +20,10 @@ class StepKernel {
  private:
   static_assert(sizeof(LaneDrive<V>) == Width::lanes * sizeof(LaneDrive<double>));
 
-  [[gnu::always_inline]] static V load(const double* from) {
-    V v;
-    __builtin_memcpy(&v, from, sizeof v);
-    return v;
-  }
   [[gnu::always_inline]] static void take(const StepBatch& batch, int r, const LaneDrive<V>& x) {
     const int first = r * Width::lanes;
-    const V theta_now = load(batch.theta + first), omega_now = load(batch.omega + first);
-    const V torque = load(batch.torque + first);
+    const V theta_now = lanes_from<Width>(batch.theta + first), omega_now = lanes_from<Width>(batch.omega + first);
+    const V torque = lanes_from<Width>(batch.torque + first);
     V theta = theta_now, omega = omega_now;
     const SineAndCosineOf<V> gear = sine_and_cosine<Width>(theta_now, batch.alive[r], batch.sine_and_cosine);
     const HeldTorquesOf<V> held = x.driven.template under<false>(torque + 0.0);  // the motor adds its signal, none

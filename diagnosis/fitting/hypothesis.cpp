@@ -32,6 +32,13 @@ Hypothesis without_noise_model(Hypothesis h) {
   return h;
 }
 
+double with_tolerances(double misfit, const Hypothesis& h) {
+  for (std::size_t k = 0; k < h.free.size(); ++k)
+    if (const Coordinate& c = h.free[k]; c.tolerance > 0.0)
+      misfit += 0.5 * std::pow((h.values[k] - c.centre) / c.tolerance, 2);
+  return misfit;
+}
+
 bool evaluate(const Evaluation& evaluation, Hypothesis& h) {
   constexpr double never = std::numeric_limits<double>::infinity();
   h.objective = h.bic = never;
@@ -42,16 +49,11 @@ bool evaluate(const Evaluation& evaluation, Hypothesis& h) {
   h.noise_model = estimate_noise(evaluation.layout(), h.innovations, h.whitens);
   h.residuals = whitened(evaluation.layout(), h.innovations, h.noise_model);
   h.misfit = misfit(evaluation.layout(), h.residuals, h.noise_model);
-  h.objective = h.misfit.fitted;
-  int unknown = 0;
-  for (std::size_t k = 0; k < h.free.size(); ++k) {
-    const Coordinate& c = h.free[k];
-    if (c.tolerance > 0.0)
-      h.objective += 0.5 * std::pow((h.values[k] - c.centre) / c.tolerance, 2);
-    else
-      ++unknown;
-  }
-  h.bic = 2.0 * h.objective + unknown * std::log(static_cast<double>(evaluation.layout().fitted())) + h.choices;
+  h.objective = with_tolerances(h.misfit.fitted, h);
+  const auto unknown =
+      std::count_if(h.free.begin(), h.free.end(), [](const Coordinate& c) { return !(c.tolerance > 0.0); });
+  h.bic = 2.0 * h.objective +
+          static_cast<double>(unknown) * std::log(static_cast<double>(evaluation.layout().fitted())) + h.choices;
   return std::isfinite(h.objective);
 }
 

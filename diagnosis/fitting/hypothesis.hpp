@@ -36,6 +36,9 @@ RecordedDrive extended(const Hypothesis& h);
 /// The same with white noise alone, which takes no slow structure for its own. To be evaluated.
 Hypothesis without_noise_model(Hypothesis h);
 
+/// A misfit with what the free coordinates are off, by their tolerances [nats].
+double with_tolerances(double misfit, const Hypothesis& h);
+
 /// Predicts the data by a hypothesis and judges it; false where the model cannot move so (the objective is infinite).
 bool evaluate(const Evaluation& evaluation, Hypothesis& h);
 

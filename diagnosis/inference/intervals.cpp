@@ -14,9 +14,11 @@ namespace wormdrive {
 Eigen::MatrixXd covariance(const Evaluation& evaluation, const Hypothesis& h, int rounds) {
   if (h.free.empty()) return {};
   const auto n = static_cast<Eigen::Index>(h.free.size());
-  Eigen::MatrixXd spread = sandwich(evaluation, h, std::vector<double>(h.free.size(), derivative_step)).spread;
-  for (int round = 0; round < rounds; ++round)
-    spread = sandwich(evaluation, h, steps_over_errors(spread.diagonal())).spread;
+  const auto spread_over = [&](const std::vector<double>& steps) {
+    return sandwich(evaluation, h, central_sensitivities(evaluation, h, steps)).spread;
+  };
+  Eigen::MatrixXd spread = spread_over(std::vector<double>(h.free.size(), derivative_step));
+  for (int round = 0; round < rounds; ++round) spread = spread_over(steps_over_errors(spread.diagonal()));
   Eigen::VectorXd scales(n);
   for (Eigen::Index k = 0; k < n; ++k) scales[k] = h.free[static_cast<std::size_t>(k)].scale;
   spread = scales.asDiagonal() * spread * scales.asDiagonal();

@@ -23,23 +23,24 @@ using Slopes = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 
 /// What all draws have in common.
 struct Common {
-  Slopes J;                   ///< at the fit
-  std::vector<double> steps;  ///< of the coordinates for slopes, as long as standard errors, in scales
-  Eigen::MatrixXd missing;    ///< factor of the covariance that weights of blocks do not make, in scales
+  Slopes J;                    ///< at the fit, over steps as long as standard errors
+  Eigen::MatrixXd missing;     ///< factor of the covariance that weights of blocks do not make, in scales
+  std::vector<double> errors;  ///< of coordinates in SI: of the predictor, and of those that have no slope
 };
 
 Common common(const Evaluation& evaluation, const Hypothesis& fit, const Eigen::MatrixXd& covariance) {
   Eigen::VectorXd variances = covariance.diagonal();
   for (Eigen::Index k = 0; k < variances.size(); ++k)
     variances[k] /= std::pow(fit.free[static_cast<std::size_t>(k)].scale, 2);
-  Common c{
-      Slopes(static_cast<Eigen::Index>(evaluation.layout().size), variances.size()), steps_over_errors(variances), {}};
-  const std::vector<std::vector<double>> columns = central_sensitivities(evaluation, fit, c.steps);
-  Eigen::MatrixXd missing = sandwich(evaluation, fit, c.steps).missing;
+  const std::vector<std::vector<double>> columns = central_sensitivities(evaluation, fit, steps_over_errors(variances));
+  Common c{Slopes(static_cast<Eigen::Index>(evaluation.layout().size), variances.size()), {}, {}};
+  Eigen::MatrixXd missing = sandwich(evaluation, fit, columns).missing;
   for (Eigen::Index k = 0; k < c.J.cols(); ++k) {
     const auto q = static_cast<std::size_t>(k);
     c.J.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[q].data(), c.J.rows()).cast<float>();
-    if (has_slope(fit.free[q])) continue;
+    const bool slopes = has_slope(fit.free[q]);
+    c.errors.push_back(std::hypot(structural_error(fit, q), slopes ? 0.0 : std::sqrt(covariance(k, k))));
+    if (slopes) continue;
     missing.row(k).setZero();
     missing.col(k).setZero();
   }
@@ -63,7 +64,7 @@ class Numbers {
 class Resampled {
  public:
   Resampled(const Evaluation& evaluation, const Common& all, const Hypothesis& fit, const Numbers& numbers)
-      : evaluation_(evaluation), all_(all), fit_(fit), h_(fit) {
+      : evaluation_(evaluation), J_(all.J), h_(fit) {
     for (std::size_t b = 0; b < evaluation.layout().blocks; ++b) weights_.push_back(numbers.exponential(b));
     const double mean = std::accumulate(weights_.begin(), weights_.end(), 0.0) / static_cast<double>(weights_.size());
     for (double& w : weights_) w /= mean;
@@ -84,24 +85,19 @@ class Resampled {
  private:
   double objective(const Hypothesis& h) const {
     const std::vector<double> blocks = misfit(evaluation_.layout(), h.residuals, h.noise_model).blocks;
-    double sum = std::inner_product(blocks.begin(), blocks.end(), weights_.begin(), 0.0);
-    for (std::size_t k = 0; k < h.free.size(); ++k)
-      if (const Coordinate& c = h.free[k]; c.tolerance > 0.0)
-        sum += 0.5 * std::pow((h.values[k] - c.centre) / c.tolerance, 2);
-    return sum;
+    return with_tolerances(std::inner_product(blocks.begin(), blocks.end(), weights_.begin(), 0.0), h);
   }
 
   /// In scales, and what it promises in nats. A coordinate at a bound that pulls beyond it rests.
   std::pair<Eigen::VectorXd, double> newton_step() const {
     const InnovationLayout& layout = evaluation_.layout();
-    const Slopes& J = all_.J;
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(J.cols(), J.cols());
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(J.cols()), row(J.cols());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(J_.cols(), J_.cols());
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(J_.cols()), row(J_.cols());
     const std::vector<double> curvature = fit_weights(layout, h_.residuals, h_.noise_model);
     for (std::size_t r = 0; r < layout.size; ++r) {
       const double weight = weights_[layout.block[r]] * curvature[r];
       if (!(weight > 0.0)) continue;
-      row = J.row(static_cast<Eigen::Index>(r)).transpose().cast<double>();
+      row = J_.row(static_cast<Eigen::Index>(r)).transpose().cast<double>();
       A.noalias() += (weight * row) * row.transpose();
       b.noalias() -= weight * h_.residuals[r] * row;
     }
@@ -129,7 +125,6 @@ class Resampled {
       }
       const auto e = evaluation_.innovations(extended(trial), trial.noise);
       if (!e) continue;
-      trial.innovations = *e;
       trial.residuals = whitened(evaluation_.layout(), *e, trial.noise_model);
       trial.objective = objective(trial);
       if (!(trial.objective < h_.objective)) continue;
@@ -140,26 +135,22 @@ class Resampled {
   }
 
   const Evaluation& evaluation_;
-  const Common& all_;
-  const Hypothesis& fit_;
+  const Slopes& J_;
   Hypothesis h_;
   std::vector<double> weights_;  ///< of every block
 };
 
-/// Adds what weights do not tell: of the scatter what intervals have beyond it, the errors of the predictor itself, and
-/// those of coordinates that have no slope.
-void add_errors(const Common& all, const Hypothesis& fit, const Eigen::MatrixXd& covariance, const Numbers& numbers,
+/// Adds what weights do not tell: of the scatter what intervals have beyond it, and the errors.
+void add_errors(const Common& all, const std::vector<Coordinate>& free, const Numbers& numbers,
                 std::vector<double>& values) {
   const std::size_t n = values.size();
   Eigen::VectorXd z(all.missing.cols());
   for (std::size_t k = 0; k < n; ++k) z[static_cast<Eigen::Index>(k)] = numbers.normal(n + k);
   const Eigen::VectorXd beyond_weights = all.missing * z;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Coordinate& c = fit.free[k];
-    const auto q = static_cast<Eigen::Index>(k);
-    const double error = std::hypot(structural_error(fit, k), has_slope(c) ? 0.0 : std::sqrt(covariance(q, q)));
-    values[k] = std::clamp(values[k] + c.scale * beyond_weights[q] + error * numbers.normal(2 * n + k), c.low, c.high);
-  }
+  for (std::size_t k = 0; k < n; ++k)
+    values[k] = std::clamp(values[k] + free[k].scale * beyond_weights[static_cast<Eigen::Index>(k)] +
+                               all.errors[k] * numbers.normal(2 * n + k),
+                           free[k].low, free[k].high);
 }
 
 }  // namespace
@@ -174,7 +165,7 @@ std::vector<std::vector<double>> resampled_draws(const Evaluation& evaluation, c
     const Numbers numbers(seed, k);
     Hypothesis drawn = fit;
     drawn.values = Resampled(evaluation, all, fit, numbers).fitted();
-    add_errors(all, fit, covariance, numbers, drawn.values);
+    add_errors(all, fit.free, numbers, drawn.values);
     const RecordedDrive drive = extended(drawn);
     for (std::size_t q = 0; q < of.numbers.size(); ++q)
       rows[k].push_back(field_of(drive, of.effects[q], of.numbers[q].field).value);

@@ -21,12 +21,11 @@ struct BlockSlopes {
   Eigen::VectorXd slope;
 };
 
-/// Of the blocks that are fitted. steps: of the free coordinates for their derivatives, in scales.
+/// Of the blocks that are fitted. J: change of the whitened innovations by each free coordinate, per scale.
 std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hypothesis& h,
-                                         const std::vector<double>& steps) {
+                                         const std::vector<std::vector<double>>& J) {
   const InnovationLayout& layout = evaluation.layout();
   const auto n = static_cast<Eigen::Index>(h.free.size());
-  const std::vector<std::vector<double>> J = central_sensitivities(evaluation, h, steps);
   constexpr double nu = rules::tail_freedom;
   std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
   std::vector<std::uint8_t> used(layout.blocks, 0);
@@ -70,8 +69,8 @@ std::vector<double> steps_over_errors(const Eigen::VectorXd& variances) {
   return steps;
 }
 
-Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps) {
-  const std::vector<BlockSlopes> blocks = slopes_by_block(evaluation, h, steps);
+Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<std::vector<double>>& J) {
+  const std::vector<BlockSlopes> blocks = slopes_by_block(evaluation, h, J);
   const auto n = static_cast<Eigen::Index>(h.free.size());
   Eigen::MatrixXd tolerances = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), pull = Eigen::VectorXd::Zero(n);

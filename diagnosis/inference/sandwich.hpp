@@ -20,7 +20,7 @@ struct Sandwich {
   Eigen::MatrixXd missing;  ///< what of it random weights of the blocks do not make
 };
 
-/// Of an evaluated hypothesis. steps: of the free coordinates for their derivatives, in scales.
-Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps);
+/// Of an evaluated hypothesis. J: its central_sensitivities().
+Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<std::vector<double>>& J);
 
 }  // namespace wormdrive

@@ -10,14 +10,6 @@
 
 namespace wormdrive::test::sweep_bad_studies {
 
-namespace {
-
-struct BadStudy {
-  std::string part, by, message;
-};
-
-}  // namespace
-
 TEST_CASE("trials with times that their samples or the run forbid are refused, as their scenarios are", "[sweep]") {
   struct Limit {
     std::string key, column, others;  // others: of the scenario
@@ -147,15 +139,7 @@ TEST_CASE("a bad study is rejected with one line for each fault", "[sweep]") {
        "distribution = \"discrete\"\nvalues = [0.2, 0.3]\nlevels = 3",
        "study.toml:5:10: error: sweep.design = \"grid\" takes every value of a discrete parameter once, but "
        "'mesh.friction' has 2 values but states levels = 3; remove them"}};
-  for (const BadStudy& bad : cases) {
-    const StudyFolder folder(study_but(bad.part, bad.by));
-    const std::set<std::string> before = folder.names();
-    const Outcome outcome = folder.sweep({});
-    INFO("case: " << bad.by << "\nexpected:\n" << bad.message << "\nfound:\n" << outcome.err);
-    CHECK(outcome.err == bad.message + "\n");
-    CHECK(outcome.exit == 2);
-    CHECK(folder.names() == before);
-  }
+  check_rejected(good_study, cases);
 }
 
 TEST_CASE("Sobol indices of correlated parameters are rejected", "[sweep]") {

@@ -107,38 +107,28 @@ TEST_CASE("a design that is a table takes every row once, in its order, and has 
 }
 
 TEST_CASE("what a table of points cannot have is rejected", "[sweep]") {
-  struct BadTable {
-    std::string part, by, message;
-  };
-  const std::vector<BadTable> cases{
+  const std::vector<BadStudy> cases{
       {"file = \"points.csv\"\n", "",
        "study.toml:4:1: error: [sweep] lacks 'file' (a CSV file with a column for each parameter, relative to the "
        "folder "
-       "of the study)\n"},
+       "of the study)"},
       {"column = \"bearing\"", "column = \"bearings\"",
        "points.csv:1: error: no column 'bearings'; the header line names mesh.friction, bearing (sweep.file at "
-       "study.toml:6:8)\n"},
+       "study.toml:6:8)"},
       {"\"points.csv\"", "\"point.csv\"",
-       "study.toml:6:8: error: sweep.file = \"point.csv\" cannot be read: No such file or directory\n"},
+       "study.toml:6:8: error: sweep.file = \"point.csv\" cannot be read: No such file or directory"},
       {"column = \"bearing\"", "column = \"bearing\"\ndistribution = \"uniform\"\nlow = 0\nhigh = 1",
        "study.toml:12:16: error: parameter[1].distribution is stated, but sweep.design = \"table\" takes the values of "
        "a "
-       "parameter from its file; remove it\n"},
+       "parameter from its file; remove it"},
       {"column = \"bearing\"", "column = \"bearing\"\nlevels = 3",
-       "study.toml:12:1: error: unknown key 'levels' in parameter[1]; valid keys: path, column\n"},
+       "study.toml:12:1: error: unknown key 'levels' in parameter[1]; valid keys: path, column"},
       {"[[threshold]]",
        "[[correlation]]\nbetween = [\"mesh.friction\", \"effect.worm_coulomb.torque_Nm\"]\ncoefficient = 0.9\n"
        "[[threshold]]",
        "study.toml:5:10: error: sweep.design = \"table\" needs independent parameters, but there is a [[correlation]]; "
-       "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\"\n"}};
-  for (const BadTable& bad : cases) {
-    const StudyFolder folder(edited(table_study, bad.part, bad.by));
-    folder.write("points.csv", "mesh.friction,bearing\n0.3,0.001\n");
-    const Outcome outcome = folder.sweep({});
-    INFO("expected:\n" << bad.message << "\nfound:\n" << outcome.err);
-    CHECK(outcome.err == bad.message);
-    CHECK(outcome.exit == 2);
-  }
+       "remove it or use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""}};
+  check_rejected(table_study, cases, {"points.csv", "mesh.friction,bearing\n0.3,0.001\n"});
 }
 
 }  // namespace wormdrive::test::sweep_data_files

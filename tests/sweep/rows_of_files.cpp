@@ -93,39 +93,29 @@ TEST_CASE("what is drawn beside the rows of a file is independent of them", "[sw
 }
 
 TEST_CASE("what rows of a file cannot be asked for is rejected", "[sweep]") {
-  struct Bad {
-    std::string part, by, message;
-  };
-  const std::vector<Bad> cases{
+  const std::vector<BadStudy> cases{
       {"\"latin_hypercube\"\ntrials = 8", "\"grid\"",
        "study.toml:6:10: error: sweep.design = \"grid\" needs parameters that can change one by one, but "
        "'mesh.friction' "
-       "is drawn by rows of a file; use \"monte_carlo\", \"latin_hypercube\" or \"sobol\"\n"},
+       "is drawn by rows of a file; use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""},
       {"\"latin_hypercube\"\ntrials = 8", "\"shapley\"\npermutations = 8",
        "study.toml:6:10: error: sweep.design = \"shapley\" needs parameters that can change one by one, but "
-       "'mesh.friction' is drawn by rows of a file; use \"monte_carlo\", \"latin_hypercube\" or \"sobol\"\n"},
+       "'mesh.friction' is drawn by rows of a file; use \"monte_carlo\", \"latin_hypercube\" or \"sobol\""},
       {"[[threshold]]",
        "[[correlation]]\nbetween = [\"mesh.friction\", \"load.torque_Nm\"]\ncoefficient = 0.5\n"
        "[[threshold]]",
        "study.toml:24:11: error: correlation[0].between names 'mesh.friction', which is drawn by rows of a file; the "
-       "rows have its correlations\n"},
+       "rows have its correlations"},
       {"column = \"bearing\"", "column = \"bearings\"",
        "./draws.csv:1: error: no column 'bearings'; the header line names bearing, mesh.friction (parameter[2].file at "
-       "study.toml:21:8)\n"},
+       "study.toml:21:8)"},
       {"file = \"./draws.csv\"\ncolumn", "column",
-       "study.toml:18:1: error: parameter[2] lacks 'file' (a CSV file, relative to the folder of the study)\n"},
+       "study.toml:18:1: error: parameter[2] lacks 'file' (a CSV file, relative to the folder of the study)"},
       {"[[threshold]]", "[data.\"./draws.csv\"]\nbearing = [0.001, 0.002]\n[[threshold]]",
        "study.toml:21:8: error: parameter[2].file = \"./draws.csv\": column 'bearing' has 2 rows but another one has "
        "4; "
-       "remove [data] to have the file read again\n"}};
-  for (const Bad& bad : cases) {
-    const StudyFolder folder(edited(study, bad.part, bad.by));
-    folder.write("draws.csv", draws);
-    const Outcome outcome = folder.sweep({"-o", "o.h5"});
-    INFO("expected:\n" << bad.message << "\nfound:\n" << outcome.err);
-    CHECK(outcome.err == bad.message);
-    CHECK(outcome.exit == 2);
-  }
+       "remove [data] to have the file read again"}};
+  check_rejected(study, cases, {"draws.csv", draws});
 
   const StudyFolder folder(rows_alone);
   folder.write("draws.csv", draws);

@@ -113,4 +113,25 @@ struct StudyFolder : Folder {
   }
 };
 
+/// What is wrong with a study, and all of stderr about it without its last line break.
+struct BadStudy {
+  std::string part, by, message;
+};
+
+/// Sweeps a study with one part after the other replaced and checks message, exit code, and that no file came or went.
+/// data: a CSV file that stands beside it, by name; none if empty.
+inline void check_rejected(const std::string& study, const std::vector<BadStudy>& cases,
+                           const std::pair<std::string, std::string>& data = {}) {
+  for (const BadStudy& bad : cases) {
+    const StudyFolder folder(edited(study, bad.part, bad.by));
+    if (!data.first.empty()) folder.write(data.first, data.second);
+    const std::set<std::string> before = folder.names();
+    const Outcome outcome = folder.sweep({});
+    INFO("case: " << bad.by << "\nexpected:\n" << bad.message << "\nfound:\n" << outcome.err);
+    CHECK(outcome.err == bad.message + "\n");
+    CHECK(outcome.exit == 2);
+    CHECK(folder.names() == before);
+  }
+}
+
 }  // namespace wormdrive::test
