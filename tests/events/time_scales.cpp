@@ -143,7 +143,8 @@ TEST_CASE("a motion that asks for no short step does not blur the events of a lo
         CAPTURE(share, frequency, tolerance);
         REQUIRE(r.events.size() == 20);
         for (std::size_t k = 0; k < r.events.size(); ++k) {
-          const double turn = std::acos(share) / (2.0 * std::numbers::pi), whole = std::floor(0.5 * static_cast<double>(k));
+          const double turn = std::acos(share) / (2.0 * std::numbers::pi),
+                       whole = std::floor(0.5 * static_cast<double>(k));
           const double exact = (k % 2 == 0 ? whole + turn : whole + 1.0 - turn) / frequency;
           REQUIRE(std::abs(r.events[k].after.t - exact) <= 1e-12 * end);
         }
