@@ -29,6 +29,35 @@ void with_field(Catalogue& effects, std::string_view effect, std::string_view fi
 
 constexpr std::string_view phase = "phase";
 
+/// Where a catalogue keeps a field; an effect that is off is switched on, with zeros in its other fields.
+template <class Catalogue>
+double* field_at(Catalogue& effects, std::string_view effect, std::string_view field) {
+  double* place = nullptr;
+  with_field(effects, effect, field, [&](auto& optional, const auto& f) {
+    if (!optional) optional.emplace();
+    place = &((*optional).*f.member);
+  });
+  return place;
+}
+
+template <class Catalogue>
+double* phase_at(Catalogue& effects, const Coordinate& c) {
+  return c.form == CoordinateForm::in_phase ? field_at(effects, c.effect, phase) : nullptr;
+}
+
+/// Gives a field, and its phase, the first of the values, or the first two.
+void move(CoordinateForm form, double* field, double* phase_of_it, std::span<const double> values) {
+  switch (form) {
+    case CoordinateForm::plain: *field = values[0]; break;
+    case CoordinateForm::inverse: *field = 1.0 / values[0]; break;
+    case CoordinateForm::in_phase:
+      *field = std::hypot(values[0], values[1]);
+      *phase_of_it = std::atan2(values[1], values[0]);
+      break;
+    case CoordinateForm::in_quadrature: break;  // done with its neighbour
+  }
+}
+
 }  // namespace
 
 template <class Catalogue>
@@ -42,10 +71,7 @@ FieldOfEffect field_of(const Catalogue& effects, std::string_view effect, std::s
 
 template <class Catalogue>
 void set_field(Catalogue& effects, const FieldValue& to) {
-  with_field(effects, to.effect, to.field, [&](auto& optional, const auto& f) {
-    if (!optional) optional.emplace();
-    (*optional).*f.member = to.value;
-  });
+  *field_at(effects, to.effect, to.field) = to.value;
 }
 
 template <class Catalogue>
@@ -59,16 +85,19 @@ template <class Catalogue>
 void apply(Catalogue& effects, std::span<const Coordinate> coordinates, std::span<const double> values) {
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const Coordinate& c = coordinates[k];
-    switch (c.form) {
-      case CoordinateForm::plain: set_field(effects, {c.effect, c.field, values[k]}); break;
-      case CoordinateForm::inverse: set_field(effects, {c.effect, c.field, 1.0 / values[k]}); break;
-      case CoordinateForm::in_phase:
-        set_field(effects, {c.effect, c.field, std::hypot(values[k], values[k + 1])});
-        set_field(effects, {c.effect, phase, std::atan2(values[k + 1], values[k])});
-        break;
-      case CoordinateForm::in_quadrature: break;  // done with its neighbour
-    }
+    move(c.form, field_at(effects, c.effect, c.field), phase_at(effects, c), values.subspan(k));
   }
+}
+
+MovedEffects::MovedEffects(const Effects<double>& start, std::span<const Coordinate> coordinates) : effects_(start) {
+  for (const Coordinate& c : coordinates)
+    places_.push_back({c.form, field_at(effects_, c.effect, c.field), phase_at(effects_, c)});
+}
+
+const Effects<double>& MovedEffects::operator()(std::span<const double> values) {
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    move(places_[k].form, places_[k].field, places_[k].phase, values.subspan(k));
+  return effects_;
 }
 
 template FieldOfEffect field_of(const Effects<double>&, std::string_view, std::string_view);

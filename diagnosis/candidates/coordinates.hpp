@@ -78,6 +78,24 @@ void switch_off(Catalogue& effects, std::string_view effect);
 template <class Catalogue>
 void apply(Catalogue& effects, std::span<const Coordinate> coordinates, std::span<const double> values);
 
+/// Effects of which the fields of some coordinates move: they are looked up once, however often they move.
+class MovedEffects {
+ public:
+  MovedEffects(const Effects<double>& start, std::span<const Coordinate> coordinates);
+  MovedEffects(const MovedEffects&) = delete;  // what it has looked up are its own fields
+  MovedEffects& operator=(const MovedEffects&) = delete;
+
+  const Effects<double>& operator()(std::span<const double> values);
+
+ private:
+  struct Place {
+    CoordinateForm form;
+    double *field, *phase;  ///< the phase of one in_phase, else none
+  };
+  Effects<double> effects_;
+  std::vector<Place> places_;
+};
+
 /// What a coordinate of an effect that is on amounts to.
 double coordinate_value(const Effects<double>& effects, const Coordinate& coordinate);
 

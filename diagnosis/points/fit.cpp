@@ -26,10 +26,11 @@ bool fitted(Part part, int half) {
 
 /// Residuals whose half squares are the negative log likelihood at a given scale.
 struct Residuals {
-  const PointFitter& fitter;
+  const TorquePoints& points;
   const PointModel& model;
   const std::vector<std::size_t>& rows;
   const double& scale;
+  MovedEffects& effects;
 
   bool operator()(double const* const* x, double* r) const {
     std::vector<double> values(model.coordinates.size());
@@ -38,8 +39,7 @@ struct Residuals {
       values[k] = std::clamp(x[0][k] * c.scale, c.low, c.high);  // differences may step over a bound
       *r++ = c.tolerance > 0.0 ? (values[k] - c.centre) / c.tolerance : 0.0;
     }
-    const TorquePoints& points = fitter.points();
-    const std::vector<double> torques = points.predict(fitter.with(model, values));
+    const std::vector<double> torques = points.predict(effects(values));
     if (torques.empty()) return false;
     for (const std::size_t k : rows)
       *r++ = torque_law.as_normal((points.torque[k] - torques[k]) / points.deviation[k], scale);
@@ -116,10 +116,11 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
   for (std::size_t k = 0; k < n; ++k) x[k] = values[k] / model.coordinates[k].scale;
 
   PointFit fit;
+  MovedEffects effects(scenario_.effects, model.coordinates);
   const auto evaluate = [&] {
     for (std::size_t k = 0; k < n; ++k)
       values[k] = std::clamp(x[k] * model.coordinates[k].scale, model.coordinates[k].low, model.coordinates[k].high);
-    fit.torques = points_.predict(with(model, values));
+    fit.torques = points_.predict(effects(values));
     ++passes_;
     if (fit.torques.empty()) return false;
     std::vector<double> errors;
@@ -143,7 +144,8 @@ std::optional<PointFit> PointFitter::fit_once(const PointModel& model, std::vect
 
   if (n > 0) {
     const auto cost_by = [&]<ceres::NumericDiffMethodType way>() -> ceres::DynamicCostFunction* {
-      return new ceres::DynamicNumericDiffCostFunction<Residuals, way>(new Residuals{*this, model, rows, fit.scale});
+      return new ceres::DynamicNumericDiffCostFunction<Residuals, way>(
+          new Residuals{points_, model, rows, fit.scale, effects});
     };
     ceres::DynamicCostFunction* const cost =
         effort.central ? cost_by.operator()<ceres::CENTRAL>() : cost_by.operator()<ceres::FORWARD>();

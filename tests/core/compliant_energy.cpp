@@ -43,10 +43,12 @@ double stored(const Observation& seen, const MeshParameters<double>& p, double J
 }
 
 /// Adds the works between two changes of the mode, integrated along with the state in steps of their own, which end
-/// where a limited damper reaches its limit.
+/// where a formula bends: where a limited damper reaches its limit, and where teeth that have parted are in shape
+/// again.
 template <class Drive>
 void add_works(Works& sum, Drive d, const typename Drive::Instant& now, double end, double k, double backlash) {
-  const int steps = std::max(20, static_cast<int>((end - now.t) / 2e-6));
+  const bool apart = now.mode.contact == Flank::none;
+  const int steps = std::max(20, static_cast<int>((end - now.t) / (apart ? 4e-5 : 4e-6)));
   const double h = (end - now.t) / steps;
   d.enter(now.t);
   using Extended = std::array<double, 7>;
@@ -59,16 +61,17 @@ void add_works(Works& sum, Drive d, const typename Drive::Instant& now, double e
     const Works w = rates(d, instant, k, backlash);
     return Extended{x[0], x[1], x[2], x[3], w.in, w.lost, w.damping};
   };
-  const auto limited = [&](const Extended& y) {
+  const auto beyond_the_bend = [&](const Extended& y) {
+    if (apart) return std::abs(y[2] - y[0] / closed().i) > backlash / 2;
     const auto* const law = std::get_if<LimitedDamper<double>>(&d.contact().law);
-    if (!law || now.mode.contact == Flank::none) return false;
+    if (!law) return false;
     const auto [depth, approach] = d.penetration(d.moment(at(now.t, y)), now.mode.contact);
     return law->damping * approach > law->stiffness * depth;
   };
   Extended y{now.x[0], now.x[1], now.x[2], now.x[3], sum.in, sum.lost, sum.damping};
   for (int n = 0; n < steps; ++n)
     piecewise_step(
-        rate, limited, [](double, const Extended&) {}, now.t + n * h, y, h);
+        rate, beyond_the_bend, [](double, const Extended&) {}, now.t + n * h, y, h);
   sum = {y[4], y[5], y[6]};
 }
 

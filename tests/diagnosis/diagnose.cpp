@@ -114,7 +114,11 @@ TEST_CASE("a delay is named together with its twin", "[slow]") {
 }
 
 TEST_CASE("a diagnosis does not depend on the number of threads", "[slow]") {
-  const Diagnosis one = of({{"worm_coulomb", "torque", 4e-3}}, 1), three = of({{"worm_coulomb", "torque", 4e-3}}, 3);
+  Scenario drive = nominal_arm();
+  set_field(drive.effects, {"worm_coulomb", "torque", 4e-3});
+  const std::vector<Recording> seen{record(drive, {.duration = 4.0})};
+  const Diagnosis one = diagnose(nominal_arm(), seen, {.threads = 1}),
+                  three = diagnose(nominal_arm(), seen, {.threads = 3});
   REQUIRE(one.causes.at(0).effect == "worm_coulomb");
   REQUIRE(value_of(one, "torque") == value_of(three, "torque"));
   REQUIRE(one.passes == three.passes);

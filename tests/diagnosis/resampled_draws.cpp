@@ -82,8 +82,10 @@ TEST_CASE("draws of a law that bends stay where the data leave them", "[slow]") 
 }
 
 TEST_CASE("draws depend on the seed and on nothing else", "[slow]") {
-  const Diagnosis one = diagnosed({.draws = 10, .threads = 1}), two = diagnosed({.draws = 20, .threads = 2}),
-                  other = diagnosed({.seed = 2, .draws = 10, .threads = 2});
+  const std::vector<Recording> seen{record(nominal_arm(), {.duration = 6.0})};
+  const auto drawn = [&](const DiagnosisSettings& settings) { return diagnose(nominal_arm(), seen, settings); };
+  const Diagnosis one = drawn({.draws = 10, .threads = 1}), two = drawn({.draws = 20, .threads = 2}),
+                  other = drawn({.seed = 2, .draws = 10, .threads = 2});
   REQUIRE(one.uncertainty.draws.size() == 10);
   CHECK(std::equal(one.uncertainty.draws.begin(), one.uncertainty.draws.end(), two.uncertainty.draws.begin()));
   CHECK(one.uncertainty.draws.front() != other.uncertainty.draws.front());

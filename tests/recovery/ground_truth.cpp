@@ -126,24 +126,28 @@ TEST_CASE("the ground truth breaks in at the torques of the paper") {
 }
 
 TEST_CASE("every hidden effect changes the recording, the more the larger it is", "[slow]") {
-  truth::RecordingSettings settings;
-  const auto nominal = truth::record({}, follow(3, settings.duration), settings);
-  const auto change = [&](const truth::Secret& secret, truth::Size size) {
-    truth::Drive drive;
-    truth::Generator generator(11);
-    secret.hide(drive, secret.amount(size), generator);
-    const auto r = truth::record(drive, follow(3, settings.duration), settings);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < r.time.size(); ++k) sum += std::pow(r.motor_torque[k] - nominal.motor_torque[k], 2);
-    return std::sqrt(sum / static_cast<double>(r.time.size()));
+  const auto torques = [](const truth::Drive& drive, double duration) {
+    return truth::record(drive, follow(3, duration), {.duration = duration}).motor_torque;
   };
-  for (const auto list : {truth::catalogue(), truth::outside()})
+  // a mass is lost in the middle of the usual time
+  for (const auto& [list, duration] : {std::pair{truth::catalogue(), 8.0}, {truth::outside(), 24.0}}) {
+    const std::vector<double> nominal = torques({}, duration);
+    const auto change = [&, &time = duration](const truth::Secret& secret, truth::Size size) {
+      truth::Drive drive;
+      truth::Generator generator(11);
+      secret.hide(drive, secret.amount(size), generator);
+      const std::vector<double> torque = torques(drive, time);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < torque.size(); ++k) sum += std::pow(torque[k] - nominal[k], 2);
+      return std::sqrt(sum / static_cast<double>(torque.size()));
+    };
     for (const truth::Secret& secret : list) {
       const double small = change(secret, truth::Size::small), large = change(secret, truth::Size::large);
       INFO(secret.effect << ": " << small << " and " << large << " N m of torque");
       CHECK(small > 1e-6);
       if (secret.small != secret.large) CHECK(large > small);
     }
+  }
 }
 
 TEST_CASE("the same seed gives the same recording, another one another") {
