@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/arguments/command_set.hpp"
+#include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/shell_words.hpp"
 #include "description/keys.hpp"
@@ -56,6 +57,20 @@ int told(const CLI::App& app, const CLI::ParseError& error) {
   return bad_input;
 }
 
+/// All commands, in the order and under the headings of the help.
+void add_all(CommandSet& commands) {
+  commands.begin_group("Describe a drive");
+  for (const auto add : {add_new, add_list, add_check, add_schema}) add(commands);
+  commands.begin_group("Simulate it");
+  for (const auto add : {add_run, add_view, add_statics, add_steady, add_efficiency, add_fmu}) add(commands);
+  commands.begin_group("Look at results");
+  for (const auto add : {add_plot, add_report, add_diff, add_export}) add(commands);
+  commands.begin_group("Vary uncertain parameters");
+  for (const auto add : {add_sweep, add_summary, add_worst, add_rare, add_replay, add_merge}) add(commands);
+  commands.begin_group("Explain measured data");
+  for (const auto add : {add_diagnose}) add(commands);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,10 +85,7 @@ int main(int argc, char** argv) {
   app.footer("wormdrive COMMAND --help explains a command. To start: wormdrive new my_drive.toml, or read\n" +
              first_page(""));
   CommandSet commands(app, command_line(argc, argv));
-  add_drive_commands(commands);
-  add_result_commands(commands);
-  add_sweep_commands(commands);
-  add_data_commands(commands);
+  add_all(commands);
 
   if (const auto fault = no_command(commands.names(), argc, argv)) {
     std::cerr << *fault << '\n';

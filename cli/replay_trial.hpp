@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/commands.hpp"
+#include "cli/run_and_write.hpp"
 #include "sweep/file/sweep_file.hpp"
 
 namespace wormdrive {

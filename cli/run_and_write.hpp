@@ -1,11 +1,19 @@
 #pragma once
 #include <string>
 
-#include "cli/commands.hpp"
+#include "cli/scenario_options.hpp"
+#include "output/replacing.hpp"
 #include "output/run_file.hpp"
 #include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
+
+struct RunOptions {
+  ScenarioOptions scenario;
+  std::string output;  ///< empty: named after the scenario
+  bool audit = false;
+  Replace replace = Replace::same_kind;
+};
 
 /// Runs a scenario into a result file, to its end; listeners may look on. Throws SimulationFailure or OutputFault.
 RunSummary run_into(RunFile& file, const Scenario& scenario, RunListeners listeners);

@@ -33,10 +33,10 @@ else
     read -r folder together checks <<<"$pass"
     cmake --preset release -B "build/lint/$folder" -DWORMDRIVE_TOGETHER="$together" >/dev/null
     cmake --build "build/lint/$folder" --target wormdrive_commit >/dev/null  # a header that a file includes
-    # Not what the build itself generated. GCC's own options mean nothing to clang, quadmath.h is GCC's own, and to clang
-    # a name also shadows one of another file that is compiled with it.
+    # Not what the build itself generated. GCC's own options and pragmas mean nothing to clang, quadmath.h is GCC's own,
+    # and to clang a name also shadows one of another file that is compiled with it.
     run-clang-tidy -quiet -p "build/lint/$folder" -checks="$checks" -extra-arg=-Wno-unused-command-line-argument \
-      -extra-arg=-Wno-shadow \
+      -extra-arg=-Wno-unknown-pragmas -extra-arg=-Wno-shadow \
       -extra-arg="-idirafter$(g++ -print-file-name=include)" "^$PWD/(?!build/.*/generated/)" |
       tee "build/lint/$folder/findings" || status=1
   done

@@ -8,8 +8,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/commands.hpp"
-
 namespace wormdrive {
 
 /// The commands of the program: what each is called, what it takes, and what runs if it was typed.
@@ -53,11 +51,5 @@ class CommandSet {
   std::string typed_, heading_;
   std::vector<std::pair<CLI::App*, std::function<int()>>> commands_;
 };
-
-/// The commands on scenarios, on results, on sweeps and on measured data, each with its options.
-void add_drive_commands(CommandSet& commands);
-void add_result_commands(CommandSet& commands);
-void add_sweep_commands(CommandSet& commands);
-void add_data_commands(CommandSet& commands);
 
 }  // namespace wormdrive

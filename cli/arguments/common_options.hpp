@@ -1,11 +1,13 @@
 #pragma once
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/scenario_options.hpp"
+#include "output/replacing.hpp"
 
 namespace wormdrive {
 
@@ -48,6 +50,18 @@ inline void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
                "motor.torque[1].amplitude_Nm=0.06; may be repeated");
   add_quiet(command, options.quiet);
   add_json(command, options.json);
+}
+
+/// Of a command that prints what it finds.
+inline void add_optional_output(CLI::App& command, std::string& output) {
+  command.add_option("-o,--output", output, "result file; default: none is written");
+}
+
+inline void add_max_load(CLI::App& command, std::optional<double>& max_load) {
+  command
+      .add_option("--max-load", max_load,
+                  "largest load torque [N m]; default: 1.5 times that of the gravity arm or of the scenario's run")
+      ->check(finite_number(false));
 }
 
 }  // namespace wormdrive

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/control.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/teeth.hpp"
@@ -24,8 +25,6 @@ nlohmann::json as_json(const std::vector<Quantity>& list) {
   for (const Quantity& q : list) result[q.name] = {{"value", q.value}, {"unit", q.unit}, {"meaning", q.meaning}};
   return result;
 }
-
-}  // namespace
 
 int check_command(const ScenarioOptions& options) {
   const Scenario scenario = load_scenario(options.file, options.overrides, Purpose::look);
@@ -52,6 +51,14 @@ int check_command(const ScenarioOptions& options) {
   print_design(scenario);
   for (const std::string& warning : warnings(scenario)) print_item("warning", warning);
   return 0;
+}
+
+}  // namespace
+
+void add_check(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("check", "print the parameters of a scenario, derived quantities and warnings", check_command);
+  add_scenario_options(command, options);
 }
 
 }  // namespace wormdrive

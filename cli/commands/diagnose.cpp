@@ -8,8 +8,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
+#include "cli/pictures.hpp"
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
@@ -22,6 +24,19 @@
 
 namespace wormdrive {
 namespace {
+
+struct DiagnoseOptions {
+  ScenarioOptions scenario;
+  std::vector<std::string> data;   ///< CSV, or results of run
+  std::vector<std::string> since;  ///< data of the same drive before something changed
+  std::vector<std::string> loads;  ///< "file:key=value"
+  std::string output;              ///< folder
+  double seed = 1;                 ///< of bootstraps
+  unsigned draws = 0;              ///< from what the data leave open; 0: that is taken for normal
+  unsigned threads = 0;            ///< 0: as many as the machine has
+  bool pictures = true;
+  Replace replace = Replace::same_kind;
+};
 
 constexpr std::size_t rows_told = 5;
 
@@ -144,8 +159,6 @@ std::map<std::string, LoadParameters> own_loads(const DiagnoseOptions& options, 
   return loads;
 }
 
-}  // namespace
-
 int diagnose_command(const DiagnoseOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
   std::vector<std::string> inputs = options.data;
@@ -177,6 +190,37 @@ int diagnose_command(const DiagnoseOptions& options) {
     print_item("wrote",
                fmt::format("{}    see it: wormdrive report {}", fmt::join(written, ", "), shell_path(folder.path())));
   return 0;
+}
+
+}  // namespace
+
+void add_diagnose(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("diagnose", "find the effects that a scenario lacks to predict measured data", diagnose_command);
+  add_scenario_options(command, options.scenario);
+  command
+      .add_option(
+          "data", options.data,
+          "recordings over time, records at constant speed or a break-in table (.csv, .mat, .h5), recognised by "
+          "their columns; several files of one kind are diagnosed together")
+      ->required();
+  add_repeated(command, "--since", options.since, "FILE",
+               "data of the same drive from before: what has changed since then; may be repeated");
+  add_repeated(command, "--load", options.loads, "FILE:KEY=VALUE",
+               "load of a recording if it is not that of the scenario: --load heavy.csv:mass_kg=0.9; may be repeated");
+  command.add_option("-o,--output", options.output, "folder for the results")->required();
+  command.add_option("--seed", options.seed, "seed of the bootstrap")
+      ->check(CLI::Range(0.0, 9007199254740992.0, "NOT NEGATIVE"))
+      ->capture_default_str();
+  command
+      .add_option("--draws", options.draws,
+                  "fit a recording anew so many times, with its blocks weighted at random, so that uncertainty.toml "
+                  "draws these fits instead of a normal distribution")
+      ->check(CLI::Range(10U, 1000000U, "10 TO 1000000"));
+  add_threads(command, options.threads);
+  command.add_flag_callback(
+      "--no-pictures", [&chosen = options] { chosen.pictures = false; }, "do not draw pictures");
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/commands/sweep/diff_sweeps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/result_file.hpp"
@@ -172,8 +173,6 @@ nlohmann::json as_json(const FileComparison& result) {
   return json;
 }
 
-}  // namespace
-
 int diff_command(const DiffOptions& options) {
   if (is_sweep(options.first) && is_sweep(options.second)) return diff_sweeps(options);
   std::vector<std::string> paths{options.first};
@@ -184,6 +183,28 @@ int diff_command(const DiffOptions& options) {
   if (options.json) print_json(as_json(result));
   if (!options.json && !options.quiet) print(result);
   return result.differs() ? differ : agree;
+}
+
+}  // namespace
+
+void add_diff(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("diff", "compare two results; exit code 0 if they agree, 1 if they differ", diff_command);
+  command.add_option("first", options.first, "result (.h5)")->required();
+  command.add_option("second", options.second, "result (.h5)")->required();
+  const CLI::Validator not_negative = finite_number(true);
+  command
+      .add_option("--relative", options.relative, "allowed difference, as a share of the signal's largest magnitude")
+      ->check(not_negative)
+      ->capture_default_str();
+  command.add_option("--absolute", options.absolute, "allowed difference in addition, in the unit of the signal")
+      ->check(not_negative)
+      ->capture_default_str();
+  command.add_option("--time", options.time, "allowed difference of event times [s]")
+      ->check(not_negative)
+      ->capture_default_str();
+  command.add_flag("-q,--quiet", options.quiet, "print nothing; the exit code is the answer");
+  add_json(command, options.json);
 }
 
 }  // namespace wormdrive

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/thinning.hpp"
 #include "cli/shell_words.hpp"
@@ -17,6 +18,15 @@
 
 namespace wormdrive {
 namespace {
+
+struct EfficiencyOptions {
+  ScenarioOptions scenario;
+  std::string output;
+  std::optional<double> max_speed;  ///< worm speed [rad/s]
+  std::optional<double> max_load;   ///< [N m]
+  int points = 20;
+  Replace replace = Replace::same_kind;
+};
 
 /// From -most to most in even steps, without 0: half a step on either side of it.
 std::vector<double> both_ways(double most, int points) {
@@ -107,8 +117,6 @@ void print_best(const Map& map) {
                              : "returns nothing at any of these loads: the motor has to help it along");
 }
 
-}  // namespace
-
 int efficiency_command(const EfficiencyOptions& options) {
   reject_overwriting(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
@@ -133,6 +141,23 @@ int efficiency_command(const EfficiencyOptions& options) {
   if (!options.output.empty())
     print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
+}
+
+}  // namespace
+
+void add_efficiency(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("efficiency", "compute the efficiency over worm speed and load torque", efficiency_command);
+  add_scenario_options(command, options.scenario);
+  add_optional_output(command, options.output);
+  command
+      .add_option("--max-speed", options.max_speed, "largest worm speed [rad/s]; default: that of the scenario's run")
+      ->check(finite_number(false));
+  add_max_load(command, options.max_load);
+  command.add_option("--points", options.points, "number of speeds in each direction, and of loads of each sign")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

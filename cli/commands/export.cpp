@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
+#include "cli/commands/sweep/export_sweep.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/export/exported_table.hpp"
 #include "description/diagnostics.hpp"
@@ -47,8 +49,6 @@ int export_run(const ResultFile& run, const ExportOptions& options) {
   return 0;
 }
 
-}  // namespace
-
 int export_command(const ExportOptions& options) {
   const SweepSoFar so_far(options.file);
   const ResultFile result(so_far.path());
@@ -56,6 +56,29 @@ int export_command(const ExportOptions& options) {
   if (kind == "run") return export_run(result, options);
   if (kind == "sweep") return export_sweep(options);
   reject({options.file}, fmt::format("is a result of '{}'; wormdrive export takes that of a run or of a sweep", kind));
+}
+
+}  // namespace
+
+void add_export(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("export", "write a run as CSV or as a MAT-file, or a sweep as CSV", export_command);
+  command.add_option("file", options.file, "result of a run or of a sweep (.h5)")->required();
+  CLI::Option& csv = *command.add_flag(
+      "--csv", options.csv,
+      "one file per table: NAME.csv has the trajectory, NAME_events.csv the events, NAME_controller.csv the "
+      "samples of a controller; of a sweep one table");
+  command.add_flag("--mat", options.mat, "a run as one file (MAT, version 5) with a struct per table")->excludes(&csv);
+  command.add_option("--what", options.what, "which table of a sweep")
+      ->check(CLI::IsMember({"trials", "summary"}))
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output,
+                     "file; default: the run's name with .csv or .mat, of a sweep standard output");
+  command.add_option("--metric", options.metric,
+                     "metric that ranks the parameters of a summary; default: as in summary");
+  command.add_flag("--done-only", options.done_only, "leave refused and halted trials out of a summary");
+  add_quiet(command, options.quiet);
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -6,7 +6,8 @@
 #include "bindings/fmi/archive/export_fmu.hpp"
 #include "bindings/fmi/plant_parameters.hpp"
 #include "bindings/fmi/variables.hpp"
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/diagnostics.hpp"
@@ -15,6 +16,14 @@
 namespace wormdrive {
 
 namespace {
+
+struct FmuOptions {
+  ScenarioOptions scenario;
+  int version = 2;             ///< of the standard, 2 or 3
+  std::string kind = "plant";  ///< or "loop"
+  std::string output;          ///< empty: named after the scenario
+  Replace replace = Replace::same_kind;
+};
 
 /// The interface types of an FMU, and why it has not both.
 std::string interface_types(const FmuModel& model) {
@@ -25,8 +34,6 @@ std::string interface_types(const FmuModel& model) {
              ? "co-simulation: everything is inside"
              : "co-simulation only: no solver of an importing tool remembers what is delayed or lags";
 }
-
-}  // namespace
 
 int fmu_command(const FmuOptions& options) {
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::run);
@@ -64,6 +71,22 @@ int fmu_command(const FmuOptions& options) {
                               : "none: CVODE, which elastic teeth need, is not in the library there");
   print_item("wrote", output);
   return 0;
+}
+
+}  // namespace
+
+void add_fmu(CommandSet& commands) {
+  auto [command, options] = commands.add(
+      "fmu", "export the drive of a scenario as an FMU, a model for Simulink, Modelica and others", fmu_command);
+  add_scenario_options(command, options.scenario);
+  command.add_option("--fmi", options.version, "version of the standard FMI: 2 (default) or 3")
+      ->check(CLI::IsMember({2, 3}));
+  command
+      .add_option("--kind", options.kind,
+                  "plant: the motor torque is an input (default); loop: motor torque or controller are inside")
+      ->check(CLI::IsMember({"plant", "loop"}));
+  command.add_option("-o,--output", options.output, "FMU; default: the scenario's name with .fmu");
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "core/table_columns.hpp"
 #include "description/keys.hpp"
 #include "description/toml/table_reader.hpp"
@@ -14,6 +15,10 @@
 
 namespace wormdrive {
 namespace {
+
+struct ListOptions {
+  std::string topic;
+};
 
 /// How a field is written, and its default in that unit if it has one to show.
 template <class Parameters, class Field>
@@ -182,8 +187,6 @@ void list_scenarios() {
     fmt::print("  {:<36} {}\n", file.filename().string(), load_scenario(file.string(), {}, Purpose::look).title);
 }
 
-}  // namespace
-
 int list_command(const ListOptions& options) {
   const std::string& what = options.topic;
   if (what == "effects") list_effects();
@@ -194,6 +197,16 @@ int list_command(const ListOptions& options) {
   if (what == "references") list_references();
   if (what == "scenarios") list_scenarios();
   return 0;
+}
+
+}  // namespace
+
+void add_list(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("list", "list effects, loads, torques, controllers, references or scenarios", list_command);
+  command.add_option("topic", options.topic, "what to list; effects.md prints the effects as a Markdown page")
+      ->required()
+      ->check(CLI::IsMember({"effects", "effects.md", "loads", "torques", "controllers", "references", "scenarios"}));
 }
 
 }  // namespace wormdrive

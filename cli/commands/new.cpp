@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "description/diagnostics.hpp"
 #include "output/hdf5/hdf5.hpp"
@@ -15,6 +16,11 @@
 
 namespace wormdrive {
 namespace {
+
+struct NewOptions {
+  std::string file;
+  std::string kind;  ///< one of new_kinds()
+};
 
 constexpr std::string_view mesh_lines =
     R"([mesh]                                # worm and gear, as a data sheet states them
@@ -59,7 +65,7 @@ frequency_Hz = 1.5
 phase_deg = 90                        # 90: starts at its largest value
 )";
 
-constexpr std::string_view run = R"(
+constexpr std::string_view run_lines = R"(
 [run]
 duration_s = 2
 # report_interval_s = 0.002           # a thousandth of the duration if not stated
@@ -158,12 +164,12 @@ const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
       {"open_loop",
        "A worm drive under a motor torque over time",
-       {mesh_lines, motor, arm, effects_lines, initial, run}},
+       {mesh_lines, motor, arm, effects_lines, initial, run_lines}},
       {"controlled",
        "A worm drive under a sampled controller",
-       {mesh_lines, control, arm, effects_lines, initial, run}},
-      {"elastic_teeth", "A worm drive with backlash", {mesh_lines, motor, arm, teeth, initial, run}},
-      {"linear_axis", "A linear axis with dry friction", {axis_lines, run}},
+       {mesh_lines, control, arm, effects_lines, initial, run_lines}},
+      {"elastic_teeth", "A worm drive with backlash", {mesh_lines, motor, arm, teeth, initial, run_lines}},
+      {"linear_axis", "A linear axis with dry friction", {axis_lines, run_lines}},
       {"study",
        "A worm drive whose friction, load and bearings are uncertain",
        {study_lines},
@@ -172,8 +178,7 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-}  // namespace
-
+/// What `wormdrive new --kind` may be.
 std::vector<std::string> new_kinds() {
   std::vector<std::string> names;
   for (const Kind& kind : kinds()) names.emplace_back(kind.name);
@@ -199,6 +204,17 @@ int new_command(const NewOptions& options) {
   }
   print_item("wrote", fmt::format("{}    run it: wormdrive {} {}", options.file, kind->command, options.file));
   return 0;
+}
+
+}  // namespace
+
+void add_new(CommandSet& commands) {
+  auto [command, options] = commands.add("new", "write a commented scenario or study to start from", new_command);
+  command.add_option("file", options.file, "scenario or study to write (.toml)")->required();
+  options.kind = new_kinds().front();
+  command.add_option("--kind", options.kind, "what the file describes")
+      ->check(CLI::IsMember(new_kinds()))
+      ->capture_default_str();
 }
 
 }  // namespace wormdrive

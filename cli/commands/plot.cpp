@@ -1,19 +1,23 @@
-#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
+#include "cli/pictures.hpp"
 #include "cli/report/result_file.hpp"
-#include "output/resource.hpp"
-
-extern char** environ;
 
 namespace wormdrive {
 namespace {
+
+struct PlotOptions {
+  std::vector<std::string> files;  ///< one, or several that share a picture
+  std::string output;              ///< empty: named after the first file
+  std::string over;                ///< what runs are drawn over instead of time
+  std::string part = {};           ///< which picture of a diagnosis
+  Replace replace = Replace::same_kind;
+};
 
 /// The picture that is written.
 std::string picture(const PlotOptions& options) {
@@ -21,23 +25,16 @@ std::string picture(const PlotOptions& options) {
                                 : options.output;
 }
 
-/// Runs the script that draws; its exit code.
-int run_script(const std::vector<std::string>& arguments) {
-  // -B: no __pycache__ beside the scripts, which a package would leave behind
-  std::vector<std::string> words{WORMDRIVE_PYTHON, "-B", resource("share/wormdrive/plots/plot.py")};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  if (const int error = posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ); error != 0)
-    throw OutputFault(fmt::format("cannot start {}: {}", words[0], std::strerror(error)));
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+/// Draws files into a picture; the exit code of the program that draws.
+int draw(const PlotOptions& options) {
+  std::vector<std::string> words{"--output=" + picture(options)};
+  if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
+  if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
+  if (options.replace == Replace::anything) words.emplace_back("--force");
+  words.emplace_back("--");  // a file may be called like an option
+  words.insert(words.end(), options.files.begin(), options.files.end());
+  return run_plots(words);
 }
-
-}  // namespace
 
 int plot_command(const PlotOptions& options) {
   open_results(options.files);  // refuses what is no result, or a damaged one
@@ -46,21 +43,22 @@ int plot_command(const PlotOptions& options) {
   return code;
 }
 
-int draw(const PlotOptions& options) {
-  std::vector<std::string> words{"--output=" + picture(options)};
-  if (!options.part.empty()) words.insert(words.end(), {"--part", options.part});
-  if (!options.over.empty()) words.insert(words.end(), {"--over", options.over});
-  if (options.replace == Replace::anything) words.emplace_back("--force");
-  words.emplace_back("--");  // a file may be called like an option
-  words.insert(words.end(), options.files.begin(), options.files.end());
-  return run_script(words);
-}
+}  // namespace
 
-int draw_all(const std::string& file, const std::string& folder, int at_a_time, Replace replace) {
-  std::vector<std::string> words{"--output=" + folder, "--part", "all", "--at-a-time", fmt::format("{}", at_a_time)};
-  if (replace == Replace::anything) words.emplace_back("--force");
-  words.insert(words.end(), {"--", file});
-  return run_script(words);
+void add_plot(CommandSet& commands) {
+  auto [command, options] = commands.add("plot", "draw a result as a picture (PNG)", plot_command);
+  command
+      .add_option(
+          "files", options.files,
+          "results (.h5); one picture shows a statics result with the break-aways of runs, a sweep with runs of "
+          "its trials, or several runs over the motor torque")
+      ->required();
+  command.add_option("--over", options.over, "draw runs over the motor torque instead of time")
+      ->check(CLI::IsMember({"motor_torque"}));
+  command.add_option("--part", options.part, "which picture of a diagnosis; default: prediction")
+      ->check(CLI::IsMember({"prediction", "residual", "ranking", "certificate"}));
+  command.add_option("-o,--output", options.output, "picture; default: the result's name with .png");
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/report/kinds.hpp"
 #include "description/diagnostics.hpp"
@@ -13,10 +14,14 @@
 namespace wormdrive {
 namespace {
 
+struct ReportOptions {
+  std::string file;
+  std::string output;  ///< empty: named after the file
+  Replace replace = Replace::same_kind;
+};
+
 /// What tells a page of this program, in cli/report/page.html.
 constexpr std::string_view page_mark = R"(<meta name="generator" content="wormdrive">)";
-
-}  // namespace
 
 int report_command(const ReportOptions& options) {
   const bool folder = std::filesystem::is_directory(options.file);
@@ -35,6 +40,15 @@ int report_command(const ReportOptions& options) {
   write_text_file(output, to_html(whole_page(file)));
   print_item("wrote", fmt::format("{}    open it in a browser", output));
   return 0;
+}
+
+}  // namespace
+
+void add_report(CommandSet& commands) {
+  auto [command, options] = commands.add("report", "write a result as one HTML page", report_command);
+  command.add_option("file", options.file, "result (.h5), or the folder of a diagnosis")->required();
+  command.add_option("-o,--output", options.output, "page; default: the result's name with .html");
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/schema_table.hpp"
 #include "cli/describe/study_schema.hpp"
 #include "core/data_sheet.hpp"
@@ -11,6 +12,10 @@
 
 namespace wormdrive {
 namespace {
+
+struct SchemaOptions {
+  std::string kind = "scenario";  ///< or "study"
+};
 
 /// One kind of torque, load, reference or controller.
 template <class Kind>
@@ -135,8 +140,6 @@ Json tables(Axis axis) {
   return root.json();
 }
 
-}  // namespace
-
 int schema_command(const SchemaOptions& options) {
   if (options.kind == "study") {
     fmt::print("{}\n", study_schema().dump(1));
@@ -154,6 +157,16 @@ int schema_command(const SchemaOptions& options) {
                     {"else", tables(Axis::rotary)}};
   fmt::print("{}\n", schema.dump(1));
   return 0;
+}
+
+}  // namespace
+
+void add_schema(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("schema", "print the JSON schema of scenarios or studies, for editors", schema_command);
+  command.add_option("--kind", options.kind, "what the schema is of")
+      ->check(CLI::IsMember({"scenario", "study"}))
+      ->capture_default_str();
 }
 
 }  // namespace wormdrive

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/shell_words.hpp"
 #include "description/build.hpp"
@@ -18,6 +19,14 @@
 
 namespace wormdrive {
 namespace {
+
+struct StaticsOptions {
+  ScenarioOptions scenario;
+  std::string output;
+  std::optional<double> max_load;  ///< [N m]
+  int points = 41;
+  Replace replace = Replace::same_kind;
+};
 
 /// The break-in map: stick region and static surface over the load torque [N m].
 struct StaticsMap {
@@ -78,8 +87,6 @@ void print_table(const StaticsMap& map, bool outside) {
     fmt::print("  {:>14.6g} {:>18.6g} {:>18.6g} {:>16.6g}\n", map.load[k], map.low[k], map.high[k], map.surface[k]);
 }
 
-}  // namespace
-
 int statics_command(const StaticsOptions& options) {
   reject_overwriting(options.output, options.scenario.file);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
@@ -114,6 +121,19 @@ int statics_command(const StaticsOptions& options) {
   if (!options.output.empty())
     print_item("\n  wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
+}
+
+}  // namespace
+
+void add_statics(CommandSet& commands) {
+  auto [command, options] = commands.add("statics", "compute the locking regime and break-in torques", statics_command);
+  add_scenario_options(command, options.scenario);
+  add_optional_output(command, options.output);
+  add_max_load(command, options.max_load);
+  command.add_option("--points", options.points, "number of load torques from -max to +max")
+      ->check(CLI::Range(3, 100000))
+      ->capture_default_str();
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/shell_words.hpp"
 #include "description/diagnostics.hpp"
@@ -20,6 +21,15 @@
 
 namespace wormdrive {
 namespace {
+
+struct SteadyOptions {
+  ScenarioOptions scenario;
+  std::string output;
+  std::string data;                 ///< CSV of records at constant speed
+  std::optional<double> max_speed;  ///< worm speed [rad/s]
+  int points = 41;
+  Replace replace = Replace::same_kind;
+};
 
 /// Model torques beside measured ones.
 struct Comparison {
@@ -149,8 +159,6 @@ void print_comparison(const Comparison& comparison, const std::string& data, con
                          comparison.records.size(), 1e3 * comparison.rms_torque));
 }
 
-}  // namespace
-
 int steady_command(const SteadyOptions& options) {
   for (const std::string& input : {options.scenario.file, options.data}) reject_overwriting(options.output, input);
   const Scenario scenario = load_scenario(options.scenario.file, options.scenario.overrides, Purpose::look);
@@ -185,6 +193,25 @@ int steady_command(const SteadyOptions& options) {
   if (!options.output.empty())
     print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
+}
+
+}  // namespace
+
+void add_steady(CommandSet& commands) {
+  auto [command, options] = commands.add("steady", "compute the motor torque at constant speed", steady_command);
+  add_scenario_options(command, options.scenario);
+  add_optional_output(command, options.output);
+  command.add_option("--data", options.data,
+                     "records to compare with the model: a file (.csv, .mat, .h5) with the columns record, "
+                     "worm_speed_rad_per_s, motor_torque_Nm");
+  command
+      .add_option("--max-speed", options.max_speed,
+                  "largest worm speed [rad/s]; default: that of the data, or of the scenario's run")
+      ->check(finite_number(false));
+  command.add_option("--points", options.points, "number of speeds in each direction")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

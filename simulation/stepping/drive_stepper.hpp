@@ -114,7 +114,7 @@ class DriveStepper final : public SteppedDrive {
     NumberReader next(from);
     const std::optional<Instant> then = read_instant<Drive>(next);
     if (!then) return false;
-    const Instant now = *then;
+    const Instant& now = *then;
     double knot = 0.0;
     InputMemory past = read_inputs(next, knot);
     for (long& count : earlier_) count = static_cast<long>(next());

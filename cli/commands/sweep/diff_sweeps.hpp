@@ -1,7 +1,16 @@
 #pragma once
-#include "cli/commands.hpp"
+#include <string>
 
 namespace wormdrive {
+
+struct DiffOptions {
+  std::string first, second;
+  double relative = 1e-6;  ///< difference allowed, as a share of the signal's largest magnitude
+  double absolute = 0.0;   ///< difference allowed, in the signal's units
+  double time = 1e-6;      ///< difference of event times allowed [s]
+  bool quiet = false;
+  bool json = false;
+};
 
 /// Whether a file holds trials of a sweep, finished or not.
 bool is_sweep(const std::string& path);

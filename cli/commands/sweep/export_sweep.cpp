@@ -1,8 +1,9 @@
+#include "cli/commands/sweep/export_sweep.hpp"
+
 #include <cstdio>
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
 #include "cli/describe/drive.hpp"
 #include "description/diagnostics.hpp"
 #include "output/replacing.hpp"

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/commands/sweep/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
@@ -16,6 +17,19 @@
 
 namespace wormdrive {
 namespace {
+
+struct RareOptions {
+  std::string study;
+  std::string metric;              ///< of the limit; empty: of the first one
+  std::uint64_t per_level = 2000;  ///< points of a level of the subset simulation
+  std::uint64_t samples = 2000;    ///< around the design point
+  std::string output;              ///< empty: none
+  std::string command_line;        ///< as typed
+  unsigned threads = 0;
+  bool json = false;
+  bool resume = false;
+  Replace replace = Replace::same_kind;
+};
 
 std::string words_of(const RareEstimate& p) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}] (95 % interval)", p.probability, p.low, p.high);
@@ -77,8 +91,6 @@ std::string verdict_on(const RareEvent& event) {
          "not see; the subset simulation stands";
 }
 
-}  // namespace
-
 int rare_command(const RareOptions& options) {
   const Study study = load_study(options.study);
   RareSettings settings{limit_of(study, options.study, options.metric).metric, options.per_level, options.samples,
@@ -127,6 +139,26 @@ int rare_command(const RareOptions& options) {
   }
   if (file && !file->was_complete()) print_item("wrote", options.output);
   return 0;
+}
+
+}  // namespace
+
+void add_rare(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("rare", "estimate how rarely the drives of a study miss a limit, down to 1e-9", rare_command);
+  command.add_option("study", options.study, "study (.toml); its design does not matter")->required();
+  command.add_option("--metric", options.metric, "metric of the limit; default: that of the first [[threshold]]");
+  command.add_option("--per-level", options.per_level, "runs of each level of the subset simulation")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  command.add_option("--samples", options.samples, "runs around the design point")
+      ->check(CLI::Range(100, 10000000))
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output, "result file; without it nothing is kept");
+  command.add_flag("--resume", options.resume, "continue an interrupted estimate: only the missing runs are made");
+  add_force(command, options.replace);
+  add_threads(command, options.threads);
+  add_json(command, options.json);
 }
 
 }  // namespace wormdrive

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/replay_trial.hpp"
 #include "cli/run_and_write.hpp"
@@ -14,6 +15,15 @@
 
 namespace wormdrive {
 namespace {
+
+struct ReplayOptions {
+  std::string sweep;
+  std::uint64_t trial = 0;
+  std::string output;
+  Replace replace = Replace::same_kind;
+  bool quiet = false;
+  std::string command_line;
+};
 
 Trial stored(const SweepReader& sweep, std::uint64_t index) {
   if (!sweep.has(index)) {
@@ -53,6 +63,8 @@ void replay_trial(const SweepReader& sweep, std::uint64_t index, const std::stri
         other, sweep.path()));
 }
 
+namespace {
+
 int replay_command(const ReplayOptions& options) {
   reject_overwriting(options.output, options.sweep);
   RunOptions run;
@@ -63,6 +75,18 @@ int replay_command(const ReplayOptions& options) {
   replay_trial(SweepReader(so_far.path()), options.trial, options.output, run);
   if (!options.quiet) print_item("replay", "every metric equals that of the sweep to the last bit");
   return 0;
+}
+
+}  // namespace
+
+void add_replay(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("replay", "run one trial of a sweep again and write its trajectory", replay_command);
+  command.add_option("sweep", options.sweep, "result of a sweep (.h5)")->required();
+  command.add_option("--trial", options.trial, "index of the trial, counted from 0")->required();
+  command.add_option("-o,--output", options.output, "result file of the run")->required();
+  add_quiet(command, options.quiet);
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "cli/shell_words.hpp"
@@ -14,6 +15,14 @@
 
 namespace wormdrive {
 namespace {
+
+struct SummaryOptions {
+  std::string sweep;
+  std::string metric;  ///< by which trials are ranked; empty: that of the first threshold, else the first with a unit
+  unsigned worst = 5;  ///< trials shown
+  bool done_only = false;  ///< leave out refused and halted trials
+  bool json = false;
+};
 
 using Chosen = std::vector<const MetricSummary*>;
 
@@ -163,8 +172,6 @@ void print_worst(const SweepReader& sweep, const SweepSummary& summary, const st
     fmt::print("  see a trial: wormdrive replay {} --trial {} -o worst.h5\n", shell_path(path), ran->index);
 }
 
-}  // namespace
-
 int summary_command(const SummaryOptions& options) {
   const SweepSoFar so_far(options.sweep);
   const SweepReader sweep(so_far.path());
@@ -198,6 +205,21 @@ int summary_command(const SummaryOptions& options) {
   if (!sweep.verdicts().empty()) fmt::print("\n");
   print_verdicts(sweep.verdicts(), sweep.study());
   return 0;
+}
+
+}  // namespace
+
+void add_summary(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("summary", "print what a sweep shows: limits missed, quantiles, influences", summary_command);
+  command.add_option("sweep", options.sweep, "result of a sweep (.h5)")->required();
+  command.add_option("--metric", options.metric,
+                     "metric that ranks parameters and trials; default: that of the first threshold, or the first one "
+                     "with a unit");
+  command.add_option("--worst", options.worst, "number of worst trials to list")->capture_default_str();
+  command.add_flag("--done-only", options.done_only,
+                   "leave out refused and halted trials, which otherwise count as the worst");
+  add_json(command, options.json);
 }
 
 }  // namespace wormdrive

@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/commands/sweep/sweep_ranks.hpp"
 #include "cli/commands/sweep/sweep_steps.hpp"
 #include "cli/describe/drive.hpp"
@@ -154,14 +155,31 @@ int sweep_together(Ranks& ranks, const SweepOptions& options) {
   return sweep_alone(options, study, output);
 }
 
-}  // namespace
-
 int sweep_command(const SweepOptions& options) {
   std::optional<Ranks> ranks;
   return guarded([&] {  // mpirun may lose what is said behind the ranks' common end
     ranks.emplace(!options.shard.empty());
     return sweep_together(*ranks, options);
   });
+}
+
+}  // namespace
+
+void add_sweep(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("sweep", "run the trials of a study, each with its own parameters", sweep_command);
+  command.add_option("study", options.study, "study (.toml)")->required();
+  command.add_option("-o,--output", options.output, "result file; default: the study's name with .h5");
+  add_threads(command, options.threads);
+  command.add_option("--shard", options.shard, "run only part I of N; wormdrive merge combines the parts")
+      ->type_name("I/N");
+  command.add_option("--max-failures", options.max_failures, "stop when more trials than this have failed");
+  command.add_option("--referee", options.referee,
+                     "number of trials that cvode repeats under the recorded torque; default: as many as fit into 5 % "
+                     "of the time, at least 8");
+  command.add_flag("--resume", options.resume, "continue an interrupted sweep: run only the missing trials");
+  add_quiet(command, options.quiet);
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive

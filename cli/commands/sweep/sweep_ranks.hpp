@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "cli/commands.hpp"
+#include "cli/commands/sweep/sweep_steps.hpp"
 #include "sweep/ranks/ranks.hpp"
 #include "sweep/study/study.hpp"
 

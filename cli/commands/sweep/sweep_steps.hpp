@@ -1,15 +1,30 @@
 #pragma once
 #include <csignal>
+#include <cstdint>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/commands.hpp"
+#include "output/replacing.hpp"
 #include "sweep/ensemble.hpp"
 #include "sweep/file/sweep_file.hpp"
 #include "sweep/stopping_rule.hpp"
 
 namespace wormdrive {
+
+struct SweepOptions {
+  std::string study;
+  std::string output;    ///< empty: named after the study
+  unsigned threads = 0;  ///< 0: as many as the machine has
+  std::string shard;     ///< "i/n"; empty: all trials
+  std::optional<std::uint64_t> max_failures;
+  std::optional<std::uint64_t> referee;  ///< trials that CVODE judges; else what fits into 5 % of the time
+  bool resume = false;
+  bool quiet = false;
+  Replace replace = Replace::same_kind;
+  std::string command_line;
+};
 
 /// While it lives, SIGINT, SIGTERM and SIGUSR1 ask for an end instead of being one; a second one ends at once. mpirun
 /// passes SIGUSR1 on and lets the ranks live; after SIGTERM it kills them.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
+#include "cli/arguments/command_set.hpp"
+#include "cli/arguments/common_options.hpp"
 #include "cli/describe/drive.hpp"
 #include "cli/describe/sweep.hpp"
 #include "cli/run_and_write.hpp"
@@ -15,6 +16,19 @@
 namespace wormdrive {
 namespace {
 
+struct WorstOptions {
+  std::string sweep;
+  std::string metric;  ///< empty: the one by which trials are ranked
+  std::uint64_t evaluations = 400;
+  double tail = 1e-3;      ///< probability left out at either end of each parameter
+  bool done_only = false;  ///< look among drives alone that run to the end
+  Replace replace = Replace::same_kind;
+  unsigned threads = 0;
+  std::string output;
+  bool quiet = false;
+  std::string command_line;
+};
+
 /// What CVODE says of the worst drive: with its own controller, and under the torque of the fast path.
 std::string second_opinion_on(const Scenario& scenario, const Study& study, const std::string& metric) {
   Scenario again = scenario;
@@ -28,8 +42,6 @@ std::string second_opinion_on(const Scenario& scenario, const Study& study, cons
   return said + fmt::format("; under the same {}, {} agree within {:.2g} {}", in_words_of(scenario.axis, "torque"),
                             angles_on(scenario.axis), found.angle, units_on(scenario.axis, "rad"));
 }
-
-}  // namespace
 
 int worst_command(const WorstOptions& options) {
   reject_overwriting(options.output, options.sweep);
@@ -65,6 +77,26 @@ int worst_command(const WorstOptions& options) {
   print_item("referee", second_opinion_on(scenario, study, worst.metric));
   print_item("wrote", fmt::format("{}    see it: wormdrive plot {}", options.output, shell_path(options.output)));
   return 0;
+}
+
+}  // namespace
+
+void add_worst(CommandSet& commands) {
+  auto [command, options] =
+      commands.add("worst", "search the uncertain parameters of a sweep for the worst drive", worst_command);
+  command.add_option("sweep", options.sweep, "result of a sweep (.h5)")->required();
+  command.add_option("-o,--output", options.output, "result file of the worst run")->required();
+  command.add_option("--metric", options.metric, "metric whose worst value is sought; default: as in summary");
+  command.add_option("--evaluations", options.evaluations, "largest number of runs")
+      ->check(CLI::Range(4, 1000000))
+      ->capture_default_str();
+  command.add_option("--tail", options.tail, "probability left out at either end of each parameter")
+      ->check(CLI::Range(1e-12, 0.49))
+      ->capture_default_str();
+  command.add_flag("--done-only", options.done_only, "search only among drives that run to the end");
+  add_threads(command, options.threads);
+  add_quiet(command, options.quiet);
+  add_force(command, options.replace);
 }
 
 }  // namespace wormdrive
