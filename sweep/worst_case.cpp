@@ -12,6 +12,7 @@
 #include <nlopt.h>
 
 #include "description/diagnostics.hpp"
+#include "sweep/study/reject_without_distributions.hpp"
 #include "sweep/summary/summary.hpp"
 
 namespace wormdrive {
@@ -96,14 +97,7 @@ WorstCase find_worst(const SweepReader& sweep, const WorstCaseSettings& settings
   const SweepSummary summary =
       summarise(sweep, {.ranked_by = settings.metric, .worst = starts, .done_only = settings.done_only});
   const Study& study = sweep.study();
-  if (std::holds_alternative<TableOfPoints>(study.design))
-    reject({sweep.path()},
-           "comes from a table of points, which states no distributions to search; sweep a study that "
-           "has some");
-  if (const UncertainParameter* const drawn = study.drawn_by_rows())
-    reject({sweep.path()}, fmt::format("draws '{}' by rows of a file, between which there is nothing to search; sweep "
-                                       "a study with distributions",
-                                       drawn->path));
+  reject_without_distributions(study, sweep.path(), "sweep a study with distributions");
   if (summary.worst.empty())
     reject({sweep.path()},
            fmt::format("has no trial to start a search from{}", settings.done_only ? ": none ran to the end" : ""));

@@ -6,14 +6,12 @@
 
 #include "description/diagnostics.hpp"
 #include "sweep/rare/importance_sampling.hpp"
+#include "sweep/study/reject_without_distributions.hpp"
 
 namespace wormdrive {
 
 const Threshold& limit_of(const Study& study, const std::string& path, const std::string& metric) {
-  if (const UncertainParameter* const drawn = study.drawn_by_rows())
-    reject({path}, fmt::format("draws '{}' by rows of a file, between which there is nothing to search; an estimate of "
-                               "rare misses needs distributions",
-                               drawn->path));
+  reject_without_distributions(study, path, "an estimate of rare misses needs distributions");
   if (study.thresholds.empty())
     reject({path}, "states no limit; a [[threshold]] names the metric, and above_UNIT or below_UNIT the limit");
   if (metric.empty()) return study.thresholds.front();
@@ -44,8 +42,10 @@ RareEvent estimate_rare_event(const Study& study, const std::string& path, const
   try {
     event.subset = subset_simulation(state, dimensions, {.per_level = settings.per_level, .seed = study.seed});
   } catch (const PlateauFault& fault) {
-    reject({path}, fmt::format("{} {}; subset simulation needs a metric that changes with every parameter",
-                               event.threshold.metric, fault.what()));
+    reject({path},
+           fmt::format("{} {}: none misses it, or the metric jumps to it; subset simulation needs one that gradually "
+                       "approaches its limit",
+                       event.threshold.metric, fault.what()));
   }
   const std::uint64_t next = event.subset.estimate.evaluations;
   const NormalPoint median(dimensions, 0.0);

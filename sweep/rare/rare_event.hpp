@@ -32,7 +32,8 @@ struct RareEvent {
   double plain_trials() const;
 };
 
-/// The limit of a study by its metric, the first one if empty. Throws InputFault where there is none; path: its file.
+/// The limit of a study by its metric, the first one if empty. Throws InputFault where there is none, or where no
+/// distributions say what is rare; path: its file.
 const Threshold& limit_of(const Study& study, const std::string& path, const std::string& metric);
 
 /// How many runs an estimate takes at most.

@@ -74,8 +74,12 @@ class Subsets {
     const bool stands = !levels.empty() && ended.threshold >= levels.back().threshold;
     levels.push_back(ended);
     if (ended.threshold == 0.0) return true;
-    if (stands)
-      throw PlateauFault(fmt::format("has no values between {:.6g} from the limit and the limit", ended.threshold));
+    if (stands) {
+      double reached = 1.0;
+      for (const SubsetLevel& level : levels) reached *= level.share;
+      throw PlateauFault(fmt::format("comes no nearer to its limit than {:.6g} (a share of {:.1g} of the drives)",
+                                     ended.threshold, reached));
+    }
     return false;
   }
 

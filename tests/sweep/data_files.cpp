@@ -96,8 +96,11 @@ TEST_CASE("a design that is a table takes every row once, in its order, and has 
   CHECK(summary.out.find("interval") == std::string::npos);
   CHECK(folder.sweep({"--shard", "2/2", "-o", "part.h5"}).exit == 0);
   CHECK(folder.run({"worst", "o.h5", "-o", "w.h5"}).err ==
-        "o.h5: error: comes from a table of points, which states no distributions to search; sweep a study that has "
-        "some\n");
+        "o.h5: error: comes from a table of points, which states no distributions to search; sweep a study with "
+        "distributions\n");
+  CHECK(folder.run({"rare", "study.toml"}).err ==
+        "study.toml: error: comes from a table of points, which states no distributions to search; an estimate of rare "
+        "misses needs distributions\n");
 
   // an exported sweep is a table of points
   CHECK(folder.run({"export", "o.h5", "-o", "points.csv", "--force"}).exit == 0);

@@ -126,7 +126,14 @@ TEST_CASE("rare events: of many intervals 95 % hold the truth") {
 
 TEST_CASE("rare events: a limit state without values between here and the limit is told") {
   const LimitState stairs = each([](const NormalPoint& u) { return u[0] > 9.0 ? -1.0 : 1.0; });
-  REQUIRE_THROWS_AS(subset_simulation(stairs, 2, {}), PlateauFault);
+  REQUIRE_THROWS_WITH(subset_simulation(stairs, 2, {}),
+                      "comes no nearer to its limit than 1 (a share of 1 of the drives)");
+}
+
+TEST_CASE("rare events: how near drives come to a limit that none reaches is told, and how many do") {
+  const LimitState bounded = each([](const NormalPoint& u) { return 5.0 - std::min(u[0], 4.0); });
+  REQUIRE_THROWS_WITH(subset_simulation(bounded, 2, {}),  // beyond 4 deviations lie 3.2e-5
+                      "comes no nearer to its limit than 1 (a share of 3e-05 of the drives)");
 }
 
 }  // namespace wormdrive::test::sweep_rare_events

@@ -154,4 +154,16 @@ TEST_CASE("an estimate is no other result: it is not resumed without its file, n
   CHECK(other.err == "sweep.h5: error: cannot be resumed: it is not the result of an estimate\n");
 }
 
+TEST_CASE("a limit to which a metric only jumps is told in one line, and nothing is left") {
+  const StudyFolder folder(
+      study_but("metric = \"final_gear_speed\"\nbelow_rad_per_s = -2.5", "metric = \"stop_events\"\nabove = 5"));
+  const Outcome outcome = folder.run({"rare", "study.toml", "--per-level", "100", "-o", "r.h5"});
+  CHECK(outcome.exit == 2);
+  CHECK(outcome.err ==
+        "study.toml: error: stop_events comes no nearer to its limit than 5 (a share of 1 of the drives): none misses "
+        "it, "
+        "or the metric jumps to it; subset simulation needs one that gradually approaches its limit\n");
+  CHECK_FALSE(std::filesystem::exists(folder / "r.h5"));
+}
+
 }  // namespace wormdrive::test::sweep_rare_file
