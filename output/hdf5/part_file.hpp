@@ -37,6 +37,8 @@ class PartFile {
   void give_way_to(const std::string& other);
   /// Makes the part readable and lets it stay although it is not complete.
   void keep();
+  /// Lets a part that was there before go, too, unless it is finished.
+  void give_up() { stays_ = false; }
 
  private:
   struct Left {};

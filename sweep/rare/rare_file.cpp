@@ -250,6 +250,12 @@ void RareFile::finish(const RareEvent& event) {
   file_->give_way_to(path);
 }
 
+void RareFile::give_up() {
+  keeper_ = {};
+  table_.reset();
+  if (file_ && from_before_ == 0) file_->give_up();
+}
+
 void RareFile::keep_safe(const std::stop_token& stop) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // every thread has its own: faults are told once, by the exception
   std::unique_lock lock(mutex_);

@@ -34,6 +34,8 @@ class RareFile {
   bool was_complete() const { return !file_; }
   /// Writes what came of the runs and gives the file its final name.
   void finish(const RareEvent& event);
+  /// Where the study allows no estimate: leaves nothing behind but runs that were there before.
+  void give_up();
 
  private:
   void keep(Trial trial);

@@ -108,6 +108,9 @@ int rare_command(const RareOptions& options) {
       return made;
     } catch (const ReadFault&) {  // which room on the disk would not mend
       throw;
+    } catch (const InputFault&) {
+      if (file) file->give_up();
+      throw;
     } catch (const OutputFault& fault) {
       throw OutputFault(fmt::format("{}; runs older than a second are safe; free some space, then {}", fault.what(),
                                     how_to_resume(options.command_line, options.resume)));
