@@ -4,7 +4,7 @@ namespace wormdrive {
 
 class CommandSet;
 
-// Every command of the program adds itself, with its options, from its file in commands/.
+// Every command of the program adds itself, with its options, from its file in commands/. main.cpp lists them.
 
 void add_new(CommandSet& commands);
 void add_list(CommandSet& commands);

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "cli/arguments/command_set.hpp"
-#include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/shell_words.hpp"
 #include "description/keys.hpp"

@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/commands.hpp"
+
 namespace wormdrive {
 
 /// The commands of the program: what each is called, what it takes, and what runs if it was typed.

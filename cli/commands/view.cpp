@@ -9,7 +9,6 @@
 #include "cli/view/server.hpp"
 
 namespace wormdrive {
-
 namespace {
 
 struct ViewOptions {

@@ -180,7 +180,7 @@ TEST_CASE("faults of a recording on a linear axis are reported in its units") {
 TEST_CASE("[data] also gives the column names of records at constant speed and of break-in tables", "[slow]") {
   const Folder folder;
   std::string usual = "record,worm_speed_rad_per_s,motor_torque_Nm\n", own = "run,w,u\n";
-  for (int k = 1; k <= 3; ++k)
+  for (int k = 1; k <= 4; ++k)
     for (const int way : {-1, 1})
       for (const double more : {0.0, 1e-5}) {
         const std::string row = fmt::format("r{}{},{},{}\n", k, way, 3.0 * k * way, way * (0.004 + 2e-4 * k) + more);

@@ -9,7 +9,6 @@
 #include "cli/shell_words.hpp"
 
 namespace wormdrive {
-
 namespace {
 
 struct MergeOptions {
