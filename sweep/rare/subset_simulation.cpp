@@ -50,6 +50,13 @@ NormalPoint spread(const std::vector<NormalPoint>& points) {
   return spread;
 }
 
+/// The probability of a point within all levels.
+double share_within(const std::vector<SubsetLevel>& levels) {
+  double share = 1.0;
+  for (const SubsetLevel& level : levels) share *= level.share;
+  return share;
+}
+
 class Subsets {
  public:
   Subsets(const LimitState& limit_state, std::size_t dimensions, const SubsetSettings& settings)
@@ -74,12 +81,9 @@ class Subsets {
     const bool stands = !levels.empty() && ended.threshold >= levels.back().threshold;
     levels.push_back(ended);
     if (ended.threshold == 0.0) return true;
-    if (stands) {
-      double reached = 1.0;
-      for (const SubsetLevel& level : levels) reached *= level.share;
+    if (stands)
       throw PlateauFault(fmt::format("comes no nearer to its limit than {:.6g} (a share of {:.1g} of the drives)",
-                                     ended.threshold, reached));
-    }
+                                     ended.threshold, share_within(levels)));
     return false;
   }
 
@@ -149,12 +153,9 @@ SubsetResult subset_simulation(const LimitState& limit_state, std::size_t dimens
     if (result.levels.size() == settings.most_levels) break;
     subsets.next_level(result.levels.back().threshold);
   }
-  p.probability = 1.0;
+  p.probability = share_within(result.levels);
   double square = 0.0;
-  for (const SubsetLevel& level : result.levels) {
-    p.probability *= level.share;
-    square += level.variation * level.variation;
-  }
+  for (const SubsetLevel& level : result.levels) square += level.variation * level.variation;
   // of a product the logarithm is normal
   constexpr double quantile = 1.959963984540054;
   p.variation = std::sqrt(square);
