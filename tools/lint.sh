@@ -26,24 +26,21 @@ fi
 if ! command -v run-clang-tidy >/dev/null; then
   echo "lint: no clang-tidy, no static analysis"
 else
-  # The rules of .clang-tidy look at what is written: the files of a folder together, as the build compiles them, so that
-  # headers are read once. The analyzer follows what may happen, in the file that it is given only: one at a time.
+  # The files of a folder together, as the build compiles them, so that headers are read once. The analyzer follows paths
+  # into a file that another one includes only where the name of that other one has "UnifiedSource" in it.
+  build=build/lint/UnifiedSources
+  cmake --preset release -B "$build" -DWORMDRIVE_TOGETHER=ON >/dev/null
+  # what the build generates and files include: the build itself would make the libraries first
+  cmake --build "$build" --target wormdrive_commit >/dev/null
+  touch "$build/generated/report_assets.cpp"
+  # Not what the build itself generated, and no file twice. GCC's own options and pragmas mean nothing to clang,
+  # quadmath.h is GCC's own, and to clang a name also shadows one of another file that is compiled with it.
   analyzer=clang-analyzer-core*,clang-analyzer-cplusplus*,-clang-analyzer-cplusplus.NewDeleteLeaks
-  for pass in "together ON " "alone OFF -*,$analyzer"; do
-    read -r folder together checks <<<"$pass"
-    cmake --preset release -B "build/lint/$folder" -DWORMDRIVE_TOGETHER="$together" >/dev/null
-    # what the build generates and files include: the build itself would make the libraries first
-    cmake --build "build/lint/$folder" --target wormdrive_commit >/dev/null
-    touch "build/lint/$folder/generated/report_assets.cpp"
-    # Not what the build itself generated. GCC's own options and pragmas mean nothing to clang, quadmath.h is GCC's own,
-    # and to clang a name also shadows one of another file that is compiled with it.
-    run-clang-tidy -quiet -p "build/lint/$folder" -checks="$checks" -extra-arg=-Wno-unused-command-line-argument \
-      -extra-arg=-Wno-unknown-pragmas -extra-arg=-Wno-shadow \
-      -extra-arg="-idirafter$(g++ -print-file-name=include)" "^$PWD/(?!build/.*/generated/)" |
-      tee "build/lint/$folder/findings" || status=1
-  done
+  run-clang-tidy -quiet -p "$build" -checks="$analyzer" -extra-arg=-Wno-unused-command-line-argument \
+    -extra-arg=-Wno-unknown-pragmas -extra-arg=-Wno-shadow -extra-arg="-idirafter$(g++ -print-file-name=include)" \
+    "^$PWD/(?!build/.*/(generated|wormdrive_fmu_asan.dir)/)" | tee "$build/findings" || status=1
   # paths through Eigen that no argument takes end in what the analyzer cannot know
-  if sed $'s/\e\\[[0-9;]*m//g' build/lint/alone/findings | grep -q "^$PWD/.*\[clang-analyzer"; then status=1; fi
+  if sed $'s/\e\\[[0-9;]*m//g' "$build/findings" | grep "^$PWD/.*\[clang-analyzer" >/dev/null; then status=1; fi
 fi
 
 if ((status == 0)); then echo "lint: ${#sources[@]} files, no findings"; fi
