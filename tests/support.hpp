@@ -2,6 +2,7 @@
 // What the tests share: the paper's drive, one way to run a drive that keeps everything, and the reference data.
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -143,9 +144,29 @@ inline SolverSettings tight(By by = bdf, double relative = 1e-13) {
       .solver = by.solver, .method = by.method, .relative_tolerance = relative, .absolute_tolerance = 0.01 * relative};
 }
 
-template <class System, class Controller>
-Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
-                const SolverSettings& settings, Controller& controller) {
+/// Whatever samples, behind functions, so that the runs of a drive are compiled once.
+template <class System>
+struct AnySampler {
+  using Instant = typename System::Instant;
+  std::function<double(System&, const Instant&)> answer;
+  std::function<void(System&, const Instant&)> hold;  ///< at a latch
+
+  template <class Controller>
+  static AnySampler of(Controller& controller) {
+    AnySampler any{[&](System& s, const Instant& now) { return controller.sample(s, now); }, {}};
+    if constexpr (requires(System & s, const Instant& now) { controller.latch(s, now); })
+      any.hold = [&](System& s, const Instant& now) { controller.latch(s, now); };
+    return any;
+  }
+  double sample(System& s, const Instant& now) { return answer(s, now); }
+  void latch(System& s, const Instant& now) {
+    if (hold) hold(s, now);
+  }
+};
+
+template <class System>
+Run<System> run_any(System system, const Timetable& timetable, typename System::Instant from,
+                    const SolverSettings& settings, AnySampler<System> controller) {
   Run<System> result;
   with_solver(system, settings, [&](auto& solver) {
     const auto record = [&](const System& s, const typename System::Instant& now) {
@@ -160,6 +181,11 @@ Run<System> run(System system, const Timetable& timetable, typename System::Inst
   });
   return result;
 }
+template <class System, class Controller>
+Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
+                const SolverSettings& settings, Controller& controller) {
+  return run_any(std::move(system), timetable, from, settings, AnySampler<System>::of(controller));
+}
 template <class System>
 Run<System> run(System system, const Timetable& timetable, typename System::Instant from,
                 const SolverSettings& settings = tight()) {
@@ -168,14 +194,21 @@ Run<System> run(System system, const Timetable& timetable, typename System::Inst
 }
 
 // The runs of most tests are compiled once, in support.cpp.
-#define WORMDRIVE_TEST_RUN(Drive) \
-  template Run<Drive> run(Drive, const Timetable&, typename Drive::Instant, const SolverSettings&, NoController&)
+#define WORMDRIVE_TEST_RUN(Drive)                                                                      \
+  template Run<Drive> run_any(Drive, const Timetable&, typename Drive::Instant, const SolverSettings&, \
+                              AnySampler<Drive>)
 using TimedDrive = WormDrive<double, TimedLoad>;
 using ArmDrive = WormDrive<double, GravityLoad>;
 using SumDrive = WormDrive<double, SummedLoad>;
+using TimedDriveWithStates = WormDrive<double, TimedLoad, true>;
+using ArmDriveWithStates = WormDrive<double, GravityLoad, true>;
+using SumDriveWithStates = WormDrive<double, SummedLoad, true>;
 extern WORMDRIVE_TEST_RUN(TimedDrive);
 extern WORMDRIVE_TEST_RUN(ArmDrive);
 extern WORMDRIVE_TEST_RUN(SumDrive);
+extern WORMDRIVE_TEST_RUN(TimedDriveWithStates);
+extern WORMDRIVE_TEST_RUN(ArmDriveWithStates);
+extern WORMDRIVE_TEST_RUN(SumDriveWithStates);
 
 // ---- reference data ---------------------------------------------------------------------------------------------
 

@@ -8,8 +8,8 @@ Eigenvalues eigenvalues(const SmallMatrix& matrix) {
   return Eigen::EigenSolver<SmallMatrix>(matrix, false).eigenvalues();
 }
 
-Eigenpairs eigenpairs(const Eigen::Matrix<double, 6, 6>& matrix) {
-  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> solved(matrix);
+Eigenpairs eigenpairs(const SmallMatrix& matrix) {
+  const Eigen::EigenSolver<SmallMatrix> solved(matrix);
   return {solved.eigenvalues(), solved.eigenvectors()};
 }
 

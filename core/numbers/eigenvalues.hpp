@@ -16,9 +16,9 @@ Eigenvalues eigenvalues(const SmallMatrix& matrix);
 
 /// Eigenvalues of a real matrix, and a column of length one for each of them.
 struct Eigenpairs {
-  Eigen::Matrix<std::complex<double>, 6, 1> values;
-  Eigen::Matrix<std::complex<double>, 6, 6> vectors;
+  Eigenvalues values;
+  Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_rows, most_rows> vectors;
 };
-Eigenpairs eigenpairs(const Eigen::Matrix<double, 6, 6>& matrix);
+Eigenpairs eigenpairs(const SmallMatrix& matrix);
 
 }  // namespace wormdrive

@@ -16,12 +16,12 @@ namespace wormdrive {
 namespace {
 
 /// A field of an effect as a study names it, and the unit of its numbers.
-struct Path {
+struct ParameterPath {
   std::string text;
   double unit;
 };
 
-Path path_of(std::string_view effect, std::string_view field, const Unit& unit, Axis axis) {
+ParameterPath path_of(std::string_view effect, std::string_view field, const Unit& unit, Axis axis) {
   const Spelling s = spellings(field, unit, axis).front();
   return {fmt::format("effect.{}.{}", effect, s.key), s.unit.si};
 }
@@ -37,7 +37,7 @@ std::vector<std::string> certain_fields(const Diagnosis& d) {
         if (u.effects[k] == E::id && u.numbers[k].field == field.name) return;
       const std::optional<double> value = (*effect).*field.member;
       if (!value || !std::isfinite(*value)) return;
-      const Path path = path_of(E::id, field.name, field.unit, d.extended.axis);
+      const ParameterPath path = path_of(E::id, field.name, field.unit, d.extended.axis);
       list.push_back(fmt::format("\"{}={}\"", path.text, *value / path.unit));
     });
   });
@@ -63,8 +63,8 @@ JointEstimate of_drive(const JointEstimate& all) {
   return u;
 }
 
-std::vector<Path> paths_of(const JointEstimate& u, Axis axis) {
-  std::vector<Path> paths;
+std::vector<ParameterPath> paths_of(const JointEstimate& u, Axis axis) {
+  std::vector<ParameterPath> paths;
   for (std::size_t k = 0; k < u.numbers.size(); ++k) {
     const std::string& field = u.numbers[k].field;
     paths.push_back(path_of(u.effects[k], field, field_of({}, u.effects[k], field).unit, axis));
@@ -73,7 +73,7 @@ std::vector<Path> paths_of(const JointEstimate& u, Axis axis) {
 }
 
 /// Normal, cut off where a draw would lie beyond what the number may be.
-std::string normal_parameter(const Path& path, const std::string& effect, const Estimate& e) {
+std::string normal_parameter(const ParameterPath& path, const std::string& effect, const Estimate& e) {
   const Bounds& bounds = field_of({}, effect, e.field).bounds;
   constexpr double far = 6.0;  // deviations beyond which no draw lies
   const bool low = e.value - far * e.standard_error<bounds.low, high = e.value + far * e.standard_error> bounds.high;
@@ -85,7 +85,7 @@ std::string normal_parameter(const Path& path, const std::string& effect, const 
   return text;
 }
 
-std::string correlations(const JointEstimate& u, const std::vector<Path>& paths) {
+std::string correlations(const JointEstimate& u, const std::vector<ParameterPath>& paths) {
   std::string text;
   for (std::size_t a = 0; a < paths.size(); ++a)
     for (std::size_t b = a + 1; b < paths.size(); ++b) {
@@ -111,7 +111,7 @@ std::string uncertainty_study(const Diagnosis& d) {
       "scenario = \"extended.toml\"\n";
   if (const std::vector<std::string> certain = certain_fields(d); !certain.empty())
     text += fmt::format("set = [{}]\n", fmt::join(certain, ", "));
-  const std::vector<Path> paths = paths_of(u, d.extended.axis);
+  const std::vector<ParameterPath> paths = paths_of(u, d.extended.axis);
   text += fmt::format("\n[sweep]\ndesign = \"latin_hypercube\"\ntrials = {}\nseed = 1\n",
                       u.draws.empty() ? 1000 : u.draws.size());
   for (std::size_t k = 0; k < paths.size(); ++k)
@@ -124,7 +124,7 @@ std::string uncertainty_study(const Diagnosis& d) {
 std::string uncertainty_draws(const Diagnosis& d) {
   const JointEstimate u = of_drive(d.uncertainty);
   if (u.draws.empty() || u.numbers.empty()) return "";
-  const std::vector<Path> paths = paths_of(u, d.extended.axis);
+  const std::vector<ParameterPath> paths = paths_of(u, d.extended.axis);
   std::string text;
   for (std::size_t k = 0; k < paths.size(); ++k) text += (k == 0 ? "" : ",") + paths[k].text;
   for (const std::vector<double>& draw : u.draws)

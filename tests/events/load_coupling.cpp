@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "catch.hpp"
 #include "core/loads/gravity_arm.hpp"
@@ -53,11 +52,26 @@ struct Case {
   }
 };
 
+/// e^A by its series, of a matrix that is halved until its norm is below 1/2, and squared as often.
+using Matrix = Eigen::Matrix<double, 7, 7>;
+Matrix exponential(const Matrix& A) {
+  int halvings = 0;
+  std::frexp(2.0 * A.norm(), &halvings);
+  halvings = std::max(0, halvings);
+  const Matrix small = A / std::exp2(halvings);
+  Matrix term = Matrix::Identity(), sum = term;
+  for (double k = 1.0; k <= 16.0; ++k) {  // 0.5^17 / 17! is below the rounding of 1
+    term = term * small / k;
+    sum += term;
+  }
+  for (int k = 0; k < halvings; ++k) sum = (sum * sum).eval();
+  return sum;
+}
+
 /// Its motion: gear angle and speed, twist, speed of the load, cosine and sine of the motor's torque, and 1.
 class Judge {
  public:
   using State = Eigen::Matrix<double, 7, 1>;
-  using Matrix = Eigen::Matrix<double, 7, 7>;
   struct Event {
     double t;
     Mode before, after;
@@ -78,7 +92,7 @@ class Judge {
     for (double t = 0.0; t < duration;) {
       const double h = std::min(step, duration - t);
       const int key = sign(mode.motion) * 2 + sign(mode.flank);
-      if (!of_a_step.contains(key)) of_a_step[key] = (rates(mode) * step).exp();
+      if (!of_a_step.contains(key)) of_a_step[key] = exponential(rates(mode) * step);
       const State then = h == step ? State(of_a_step[key] * y) : moved(h);
       if (holds(then)) {
         y = then;
@@ -123,7 +137,7 @@ class Judge {
     A(5, 4) = w;
     return A;
   }
-  State moved(double t) const { return (rates(mode) * t).exp() * y; }
+  State moved(double t) const { return exponential(rates(mode) * t) * y; }
 
   Case c_;
 };
