@@ -64,9 +64,20 @@ void check_rare(hid_t file) {
   check_table(estimates, numbers({"index", "probability", "low", "high", "variation", "runs"}), Range::finite,
               Range::any);
   estimates.check_texts("method");
+  const Hdf5Handle estimated = open_object(file, "estimates");
+  read_text_attribute(estimated, "metric");
+  read_number_attribute(estimated, "limit");
+  read_integer_attribute(estimated, "above");
   check_table(levels, numbers({"index", "distance", "share", "variation", "acceptance"}), Range::finite, Range::any);
-  if (!has_member(file, "design_point")) return;
+  const bool has_design_point = has_member(file, "design_point");
+  if (const std::size_t due = has_design_point ? 2 : 1; estimates.rows() != due)
+    estimates.column("index").reject(fmt::format("has {} rows, not {}", estimates.rows(), due));
+  if (levels.rows() == 0) levels.column("index").reject("has no rows");
+  if (!has_design_point) return;
   const StoredTable design(file, "design_point");
+  const Hdf5Handle designed = open_object(file, "design_point");
+  read_number_attribute(designed, "beta");
+  read_integer_attribute(designed, "converged");
   check_table(design, numbers({"index", "value", "importance"}), Range::finite, Range::any);
   for (const char* const name : {"parameter", "unit"}) design.check_texts(name);
 }

@@ -11,6 +11,7 @@ ReportPage report_of_statics(const ResultFile& file);
 ReportPage report_of_steady(const ResultFile& file);
 ReportPage report_of_efficiency(const ResultFile& file);
 ReportPage report_of_sweep(const ResultFile& file);
+ReportPage report_of_rare(const ResultFile& file);
 /// diagnosis.json is looked for beside the file.
 ReportPage report_of_diagnosis(const ResultFile& file);
 

@@ -13,9 +13,13 @@ struct KindOfPage {
   std::string_view name;
   ReportPage (*page)(const ResultFile&);
 };
-constexpr KindOfPage pages[] = {{"run", report_of_run},       {"statics", report_of_statics},
-                                {"steady", report_of_steady}, {"efficiency", report_of_efficiency},
-                                {"sweep", report_of_sweep},   {"diagnosis", report_of_diagnosis}};
+constexpr KindOfPage pages[] = {{"run", report_of_run},
+                                {"statics", report_of_statics},
+                                {"steady", report_of_steady},
+                                {"efficiency", report_of_efficiency},
+                                {"sweep", report_of_sweep},
+                                {"rare", report_of_rare},
+                                {"diagnosis", report_of_diagnosis}};
 
 ReportPage page_of(const ResultFile& file) {
   const std::string kind = file.attribute("/", "kind");

@@ -51,7 +51,7 @@ NormalPoint spread(const std::vector<NormalPoint>& points) {
 }
 
 /// The probability of a point within all levels.
-double share_within(const std::vector<SubsetLevel>& levels) {
+double share_within(std::span<const SubsetLevel> levels) {
   double share = 1.0;
   for (const SubsetLevel& level : levels) share *= level.share;
   return share;
@@ -145,24 +145,29 @@ std::uint64_t most_evaluations(const SubsetSettings& settings) {
   return settings.per_level + (settings.most_levels - 1) * (chain_length - 1) * (settings.per_level / chain_length);
 }
 
-SubsetResult subset_simulation(const LimitState& limit_state, std::size_t dimensions, const SubsetSettings& settings) {
-  Subsets subsets(limit_state, dimensions, settings);
-  SubsetResult result;
-  RareEstimate& p = result.estimate;
-  while (!subsets.end_level(result.levels)) {
-    if (result.levels.size() == settings.most_levels) break;
-    subsets.next_level(result.levels.back().threshold);
-  }
-  p.probability = share_within(result.levels);
+RareEstimate estimate_within(std::span<const SubsetLevel> levels) {
+  RareEstimate p;
+  p.probability = share_within(levels);
   double square = 0.0;
-  for (const SubsetLevel& level : result.levels) square += level.variation * level.variation;
+  for (const SubsetLevel& level : levels) square += level.variation * level.variation;
   // of a product the logarithm is normal
   constexpr double quantile = 1.959963984540054;
   p.variation = std::sqrt(square);
   p.low = p.probability * std::exp(-quantile * p.variation);
   p.high = std::min(1.0, p.probability * std::exp(quantile * p.variation));
-  if (result.levels.back().threshold > 0.0) p.low = 0.0;  // rarer than all levels
-  p.evaluations = subsets.evaluations;
+  return p;
+}
+
+SubsetResult subset_simulation(const LimitState& limit_state, std::size_t dimensions, const SubsetSettings& settings) {
+  Subsets subsets(limit_state, dimensions, settings);
+  SubsetResult result;
+  while (!subsets.end_level(result.levels)) {
+    if (result.levels.size() == settings.most_levels) break;
+    subsets.next_level(result.levels.back().threshold);
+  }
+  result.estimate = estimate_within(result.levels);
+  if (result.levels.back().threshold > 0.0) result.estimate.low = 0.0;  // rarer than all levels
+  result.estimate.evaluations = subsets.evaluations;
   return result;
 }
 

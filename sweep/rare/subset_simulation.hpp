@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct SubsetResult {
   RareEstimate estimate;
   std::vector<SubsetLevel> levels;
 };
+
+/// The probability to come nearer to the limit than the last of some levels, from the first on; without evaluations.
+RareEstimate estimate_within(std::span<const SubsetLevel> levels);
 
 /// How often it evaluates the limit state at most.
 std::uint64_t most_evaluations(const SubsetSettings& settings);

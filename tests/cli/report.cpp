@@ -1,5 +1,6 @@
 // The page that `wormdrive report` writes, without a browser.
 #include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -26,6 +27,17 @@ nlohmann::json table_in(const nlohmann::json& data, const std::string& title) {
   FAIL("no table '" << title << "'");
   return {};
 }
+
+/// Of s.toml, with a lower limit of the speed at the end [rad/s].
+std::string study_of_friction(const std::string& limit) {
+  return "title = \"Friction\"\nscenario = \"s.toml\"\n[sweep]\ndesign = \"monte_carlo\"\ntrials = 60\nseed = 1\n"
+         "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.3\n"
+         "[[threshold]]\nmetric = \"final_gear_speed\"\nbelow_rad_per_s = " +
+         limit + "\n";
+}
+
+/// To the digits that a page has.
+bool is_near(double shown, double value) { return std::abs(shown - value) <= 1e-6 * std::abs(value); }
 
 }  // namespace
 
@@ -140,10 +152,7 @@ TEST_CASE("a report of a run with many events says how many it leaves out") {
 TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
   const Folder folder;
   folder.write("s.toml", good_scenario);
-  folder.write("study.toml",
-               "title = \"Friction\"\nscenario = \"s.toml\"\n[sweep]\ndesign = \"monte_carlo\"\ntrials = 60\nseed = 1\n"
-               "[[parameter]]\npath = \"mesh.friction\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.3\n"
-               "[[threshold]]\nmetric = \"final_gear_speed\"\nbelow_rad_per_s = -0.1\n");
+  folder.write("study.toml", study_of_friction("-0.1"));
   const Outcome sweep = folder.run({"sweep", "study.toml", "-q", "-o", "sweep.h5"});
   INFO(sweep.err);
   REQUIRE(sweep.exit == 0);
@@ -162,6 +171,42 @@ TEST_CASE("a report of a sweep shows spread, influence and the worst drives") {
   CHECK(table_in(data, "Worst drives").at("rows").size() == 10);
   CHECK(data.at("verdict").get<std::string>().find(" of 60 drives have final gear speed below -0.1 rad/s (") !=
         std::string::npos);
+}
+
+TEST_CASE("a report of an estimate of rare misses shows both estimates, the levels and the likely drive") {
+  const Folder folder;
+  folder.write("s.toml", good_scenario);
+  folder.write("study.toml", study_of_friction("-0.3165"));
+  const Outcome rare =
+      folder.run({"rare", "study.toml", "-o", "rare.h5", "--per-level", "200", "--samples", "200", "--json"});
+  INFO(rare.err);
+  REQUIRE(rare.exit == 0);
+  const nlohmann::json made = nlohmann::json::parse(rare.out);
+  REQUIRE(folder.run({"report", "rare.h5"}).exit == 0);
+  const nlohmann::json data = data_in(folder.read("rare.html"));
+  CHECK(data.at("verdict").get<std::string>().starts_with(
+      "A drive has final gear speed below -0.3165 rad/s with probability "));
+  const nlohmann::json estimates = table_in(data, "Estimates").at("rows"), panel = data.at("groups")[0].at("panels")[0];
+  REQUIRE(estimates.size() == 2);
+  CHECK(is_near(estimates[0][1], made.at("subset_simulation").at("probability")));
+  CHECK(is_near(estimates[1][1], made.at("importance_sampling").at("probability")));
+  CHECK(table_in(data, "Estimates").at("note") == "Check: the two intervals overlap.");
+  CHECK(made.at("agrees") == true);
+  CHECK(table_in(data, "Levels of the subset simulation").at("rows").size() == made.at("levels").size());
+  CHECK(is_near(table_in(data, "The drive that misses most likely").at("rows")[0][1],
+                made.at("design_point").at("mesh.friction").at("value")));
+  REQUIRE(panel.at("over").size() == made.at("levels").size());
+  const double probability = made.at("subset_simulation").at("probability"),
+               low = made.at("subset_simulation").at("low");
+  CHECK(is_near(panel.at("series")[2].at("values")[0], std::log10(probability)));
+  CHECK(is_near(panel.at("series")[0].at("values")[0], std::log10(low)));
+  {
+    const Hdf5Handle file = reopen_hdf5(folder / "rare.h5");
+    H5Ldelete(file, "estimates", H5P_DEFAULT);
+  }
+  REQUIRE(folder.run({"report", "rare.h5"}).exit == 0);
+  CHECK(data_in(folder.read("rare.html")).at("verdict") ==
+        "The estimate is not complete; continue it with wormdrive rare --resume.");
 }
 
 TEST_CASE("a report of a diagnosis has the verdict and its evidence", "[slow]") {

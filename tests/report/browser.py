@@ -140,6 +140,10 @@ metric = "final_gear_angle"
 above_rad = 1e-4
 """)
     yield made("sweep", "sweep", study, "--referee", "0")
+    rare = Path(folder, "rare.h5")
+    subprocess.run([program, "rare", study, "--per-level", "500", "--samples", "500", "-o", rare], check=True,
+                   stdout=subprocess.DEVNULL)
+    yield "rare", rare
     bench = Path(folder, "bench")
     subprocess.run([program, "diagnose", scenarios / "example_bench.toml", scenarios / "example_bench.csv", "-q", "--no-pictures",
                     "-o", bench], check=True)

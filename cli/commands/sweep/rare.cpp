@@ -1,3 +1,5 @@
+#include "cli/describe/rare.hpp"
+
 #include <optional>
 
 #include <fmt/format.h>
@@ -30,10 +32,6 @@ struct RareOptions {
   bool resume = false;
   Replace replace = Replace::same_kind;
 };
-
-std::string words_of(const RareEstimate& p) {
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}] (95 % interval)", p.probability, p.low, p.high);
-}
 
 nlohmann::ordered_json as_json(const RareEstimate& p) {
   return {{"probability", p.probability},
@@ -82,15 +80,6 @@ void print_design_point(const RareEvent& event, const Study& study) {
                 : fmt::format(", importance {:.0f} %", 100.0 * event.design.direction[k] * event.design.direction[k])));
 }
 
-std::string verdict_on(const RareEvent& event) {
-  if (!event.design.converged)
-    return "there is no design point that samples could be drawn around; the subset simulation stands";
-  if (event.agrees()) return "the two intervals overlap";
-  return "the two intervals do not overlap: drives miss in other ways than at the design point, which samples around "
-         "it do "
-         "not see; the subset simulation stands";
-}
-
 int rare_command(const RareOptions& options) {
   const Study study = load_study(options.study);
   RareSettings settings{limit_of(study, options.study, options.metric).metric, options.per_level, options.samples,
@@ -128,7 +117,7 @@ int rare_command(const RareOptions& options) {
   fmt::print("{}\n", study.title);
   print_item("limit", fmt::format("{} at {} {:g}{}", limit.metric, limit.above ? "most" : "least", limit.limit,
                                   in_unit(study.metric(limit.metric).unit)));
-  print_item("subset", fmt::format("missed with probability {}, {} levels, {} runs", words_of(p),
+  print_item("subset", fmt::format("missed with probability {}, {} levels, {} runs", in_words(p),
                                    event.subset.levels.size(), p.evaluations));
   if (p.variation > 0.0)
     print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
@@ -137,7 +126,7 @@ int rare_command(const RareOptions& options) {
   } else {
     print_design_point(event, study);
     print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
-                                     words_of(event.importance), event.importance.evaluations));
+                                     in_words(event.importance), event.importance.evaluations));
     print_item("check", verdict_on(event));
   }
   if (file && !file->was_complete()) print_item("wrote", options.output);
