@@ -17,8 +17,6 @@
 namespace wormdrive {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t longest_request = 65536;  ///< bytes: some hundred sliders
 constexpr int patience = 5;                     ///< for a request to arrive [s]
 
@@ -29,14 +27,15 @@ std::string random_token() {
   return token;
 }
 
-Json as_json(const Slider& s) {
+nlohmann::ordered_json as_json(const Slider& s) {
   return {
       {"key", s.quantity.name}, {"unit", s.quantity.unit}, {"meaning", s.quantity.meaning}, {"value", s.quantity.value},
       {"low", s.low},           {"high", s.high}};
 }
 
 std::string page_html(Viewer& viewer) {
-  Json view{{"command", "wormdrive run " + shell_path(viewer.file())}, {"sliders", Json::array()}};
+  nlohmann::ordered_json view{{"command", "wormdrive run " + shell_path(viewer.file())},
+                              {"sliders", nlohmann::ordered_json::array()}};
   for (const std::string& one : viewer.overrides())
     view["command"] = view["command"].get<std::string>() + " --set " + shell_word(one);
   for (const Slider& s : viewer.sliders()) view["sliders"].push_back(as_json(s));
@@ -49,7 +48,7 @@ std::string page_html(Viewer& viewer) {
 
 /// The values in a request: numbers of sliders, and of nothing else. Throws InputFault.
 std::map<std::string, double> values_in(const std::string& body, const std::vector<Slider>& sliders) {
-  const Json asked = Json::parse(body, nullptr, false);
+  const nlohmann::ordered_json asked = nlohmann::ordered_json::parse(body, nullptr, false);
   if (!asked.is_object()) reject({"request"}, "is not a JSON object of keys and numbers");
   std::map<std::string, double> values;
   for (const auto& [key, value] : asked.items()) {
@@ -70,7 +69,10 @@ void send(httplib::Response& to, std::string text, const char* type) {
 }
 void answer(httplib::Response& to, int status, const std::string& message) {
   to.status = status;
-  send(to, Json{{"message", message}}.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+  send(to,
+       nlohmann::ordered_json{{"message", message}}.dump(-1, ' ', false,
+                                                         nlohmann::ordered_json::error_handler_t::replace),
+       "application/json");
 }
 
 void answer_run(Viewer& viewer, const httplib::Request& asked, httplib::Response& to) {
