@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,13 @@ void check_rare(hid_t file) {
   if (const std::size_t due = has_design_point ? 2 : 1; estimates.rows() != due)
     estimates.column("index").reject(fmt::format("has {} rows, not {}", estimates.rows(), due));
   if (levels.rows() == 0) levels.column("index").reject("has no rows");
+  const auto check_within = [](const StoredTable& table, const char* name, double most) {
+    for (const double value : table.column(name).values())
+      if (!(value >= 0.0 && value <= most)) table.column(name).reject(fmt::format("contains {}", value));
+  };
+  check_within(estimates, "probability", std::numeric_limits<double>::infinity());  // weighted, it may pass 1
+  check_within(estimates, "runs", 0x1p53);
+  for (const char* const name : {"share", "acceptance"}) check_within(levels, name, 1.0);
   if (!has_design_point) return;
   const StoredTable design(file, "design_point");
   const Hdf5Handle designed = open_object(file, "design_point");

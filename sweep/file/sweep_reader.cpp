@@ -14,7 +14,8 @@ SweepReader::SweepReader(const std::string& path, bool while_written) : path_(pa
   try {
     read_ahead(path, while_written);
     file_ = while_written ? open_hdf5_while_written(path) : open_hdf5(path);
-    if (read_text_attribute(file_, "kind") != "sweep") throw OutputFault("it is not the result of a sweep");
+    if (const std::string kind = read_text_attribute(file_, "kind"); kind != "sweep")
+      throw OutputFault(fmt::format("it is a result of '{}', not of a sweep; wormdrive report shows it", kind));
     const std::string scenario = read_text_attribute(file_, "scenario");
     study_ = parse_study(read_text_attribute(file_, "study"), scenario, path);
     origin_ = {study_.text, scenario, read_text_attribute(file_, "build")};

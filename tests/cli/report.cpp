@@ -202,6 +202,14 @@ TEST_CASE("a report of an estimate of rare misses shows both estimates, the leve
   CHECK(is_near(panel.at("series")[0].at("values")[0], std::log10(low)));
   {
     const Hdf5Handle file = reopen_hdf5(folder / "rare.h5");
+    const double runs[] = {-1.0, 1.0};
+    H5Dwrite(open_object(file, "estimates/runs"), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, runs);
+  }
+  const Outcome damaged = folder.run({"report", "rare.h5"});
+  CHECK(damaged.exit == 2);
+  CHECK(damaged.err == "rare.h5: error: its column 'estimates/runs' contains -1\n");
+  {
+    const Hdf5Handle file = reopen_hdf5(folder / "rare.h5");
     H5Ldelete(file, "estimates", H5P_DEFAULT);
   }
   REQUIRE(folder.run({"report", "rare.h5"}).exit == 0);

@@ -141,7 +141,7 @@ above_rad = 1e-4
 """)
     yield made("sweep", "sweep", study, "--referee", "0")
     rare = Path(folder, "rare.h5")
-    subprocess.run([program, "rare", study, "--per-level", "500", "--samples", "500", "-o", rare], check=True,
+    subprocess.run([program, "rare", scenarios / "studies/fig10_sliding.toml", "--per-level", "100", "-o", rare], check=True,
                    stdout=subprocess.DEVNULL)
     yield "rare", rare
     bench = Path(folder, "bench")

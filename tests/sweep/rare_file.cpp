@@ -148,6 +148,9 @@ TEST_CASE("an estimate is no other result: it is not resumed without its file, n
       "wormdrive: cannot write r.h5: it holds a finished estimate; choose another name, or replace it with --force\n");
   CHECK(folder.run({"rare", "study.toml", "--per-level", "100", "-o", "r.h5", "--force"}).exit == 0);
   CHECK(folder.run({"diff", "r.h5", "r.h5"}).exit == 0);
+  const Outcome summary = folder.run({"summary", "r.h5"});
+  CHECK(summary.exit == 2);
+  CHECK(summary.err == "r.h5: error: it is a result of 'rare', not of a sweep; wormdrive report shows it\n");
   REQUIRE(folder.sweep({"-o", "sweep.h5"}).exit == 0);
   const Outcome other = folder.run({"rare", "study.toml", "-o", "sweep.h5", "--resume"});
   CHECK(other.exit == 2);
