@@ -9,6 +9,7 @@ std::string in_words(const RareEstimate& p) {
 }
 
 std::string verdict_on(const RareEvent& event) {
+  if (event.median_misses) return "the median drive misses the limit: a miss is not rare, and plain sampling serves";
   if (!event.design.converged)
     return "there is no design point that samples could be drawn around; the subset simulation stands";
   if (event.agrees()) return "the two intervals overlap";

@@ -13,11 +13,6 @@ namespace {
 
 /// What came of an estimate that is complete.
 RareEvent read_event(const ResultFile& file) {
-  const auto number = [&](const std::string& table, const std::string& name) {
-    for (const auto& [known, value] : file.numbers(table))
-      if (known == name) return value;
-    return std::nan("");
-  };
   std::vector<std::vector<double>> rows;
   for (const char* const name : {"probability", "variation", "low", "high", "runs"})
     rows.push_back(file.column(std::string("estimates/") + name));
@@ -26,8 +21,8 @@ RareEvent read_event(const ResultFile& file) {
   };
   RareEvent event;
   event.threshold.metric = file.attribute("estimates", "metric");
-  event.threshold.limit = number("estimates", "limit");
-  event.threshold.above = number("estimates", "above") != 0.0;
+  event.threshold.limit = file.number("estimates", "limit");
+  event.threshold.above = file.integer("estimates", "above") != 0;
   event.subset.estimate = estimate(0);
   const std::vector<double> distance = file.column("levels/distance"), share = file.column("levels/share"),
                             variation = file.column("levels/variation"), taken = file.column("levels/acceptance");
@@ -36,8 +31,8 @@ RareEvent read_event(const ResultFile& file) {
   event.median_misses = !file.has("design_point");
   if (event.median_misses) return event;
   event.importance = estimate(1);
-  event.design.beta = number("design_point", "beta");
-  event.design.converged = number("design_point", "converged") != 0.0;
+  event.design.beta = file.number("design_point", "beta");
+  event.design.converged = file.integer("design_point", "converged") != 0;
   return event;
 }
 
@@ -72,11 +67,8 @@ ReportTable estimates_table(const RareEvent& event) {
                           static_cast<double>(p.evaluations)});
   };
   add("subset simulation", event.subset.estimate);
-  if (event.median_misses)
-    table.note = "The median drive misses the limit: a miss is not rare, and plain sampling serves.";
-  else if (event.design.converged)
-    add("samples around the design point", event.importance);
-  if (!event.median_misses) table.note = fmt::format("Check: {}.", verdict_on(event));
+  if (!event.median_misses && event.design.converged) add("samples around the design point", event.importance);
+  table.note = fmt::format("Check: {}.", verdict_on(event));
   return table;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,14 @@ class ResultFile {
   std::vector<std::string> columns(const std::string& table) const;
   /// The attributes of a table that are one number, by their names.
   std::vector<std::pair<std::string, double>> numbers(const std::string& table) const;
-  /// A number of the file itself; throws ReadFault if there is none.
-  double number(const std::string& name) const { return read_number_attribute(file_, name); }
+  /// A number, or a whole number, that is an attribute of an object, "/" for the file itself; throws ReadFault if there
+  /// is none.
+  double number(const std::string& object, const std::string& name) const {
+    return read_number_attribute(open_object(file_, object), name);
+  }
+  std::int64_t integer(const std::string& object, const std::string& name) const {
+    return read_integer_attribute(open_object(file_, object), name);
+  }
   /// A text attribute of an object of the file, "/" for the file itself; empty if there is none.
   std::string attribute(const std::string& object, const std::string& name) const;
 

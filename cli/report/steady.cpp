@@ -120,9 +120,9 @@ ReportPage report_of_steady(const ResultFile& file) {
   } else {
     group.panels = {measured_and_model(file), difference(file)};
     page.tables.push_back(record_table(file));
-    page.verdict =
-        fmt::format("The model differs from the mean torques of {} records ({:.3g} mN m rms) by {:.2g} mN m rms.",
-                    page.tables.front().rows.size(), 1e3 * file.number("rms_torque"), 1e3 * file.number("rms_error"));
+    page.verdict = fmt::format(
+        "The model differs from the mean torques of {} records ({:.3g} mN m rms) by {:.2g} mN m rms.",
+        page.tables.front().rows.size(), 1e3 * file.number("/", "rms_torque"), 1e3 * file.number("/", "rms_error"));
   }
   page.groups.push_back(std::move(group));
   return page;

@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "cli/bad_input.hpp"
 #include "diagnosis/break_in_data.hpp"
+#include "numbers.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace wormdrive::test::cli_report {
@@ -36,8 +37,7 @@ std::string study_of_friction(const std::string& limit) {
          limit + "\n";
 }
 
-/// To the digits that a page has.
-bool is_near(double shown, double value) { return std::abs(shown - value) <= 1e-6 * std::abs(value); }
+constexpr double digits_of_a_page = 1e-6;
 
 }  // namespace
 
@@ -188,18 +188,18 @@ TEST_CASE("a report of an estimate of rare misses shows both estimates, the leve
       "A drive has final gear speed below -0.3165 rad/s with probability "));
   const nlohmann::json estimates = table_in(data, "Estimates").at("rows"), panel = data.at("groups")[0].at("panels")[0];
   REQUIRE(estimates.size() == 2);
-  CHECK(is_near(estimates[0][1], made.at("subset_simulation").at("probability")));
-  CHECK(is_near(estimates[1][1], made.at("importance_sampling").at("probability")));
+  CHECK(close(estimates[0][1], made.at("subset_simulation").at("probability"), digits_of_a_page));
+  CHECK(close(estimates[1][1], made.at("importance_sampling").at("probability"), digits_of_a_page));
   CHECK(table_in(data, "Estimates").at("note") == "Check: the two intervals overlap.");
   CHECK(made.at("agrees") == true);
   CHECK(table_in(data, "Levels of the subset simulation").at("rows").size() == made.at("levels").size());
-  CHECK(is_near(table_in(data, "The drive that misses most likely").at("rows")[0][1],
-                made.at("design_point").at("mesh.friction").at("value")));
+  CHECK(close(table_in(data, "The drive that misses most likely").at("rows")[0][1],
+              made.at("design_point").at("mesh.friction").at("value"), digits_of_a_page));
   REQUIRE(panel.at("over").size() == made.at("levels").size());
   const double probability = made.at("subset_simulation").at("probability"),
                low = made.at("subset_simulation").at("low");
-  CHECK(is_near(panel.at("series")[2].at("values")[0], std::log10(probability)));
-  CHECK(is_near(panel.at("series")[0].at("values")[0], std::log10(low)));
+  CHECK(close(panel.at("series")[2].at("values")[0], std::log10(probability), digits_of_a_page));
+  CHECK(close(panel.at("series")[0].at("values")[0], std::log10(low), digits_of_a_page));
   {
     const Hdf5Handle file = reopen_hdf5(folder / "rare.h5");
     const double runs[] = {-1.0, 1.0};

@@ -122,7 +122,7 @@ int rare_command(const RareOptions& options) {
   if (p.variation > 0.0)
     print_item("plain", fmt::format("sampling would take {:.2g} trials for this interval", event.plain_trials()));
   if (event.median_misses) {
-    print_item("design", "the median drive misses the limit: a miss is not rare, and plain sampling serves");
+    print_item("design", verdict_on(event));
   } else {
     print_design_point(event, study);
     print_item("around", fmt::format("missed with probability {} by {} samples around the design point",
