@@ -18,6 +18,12 @@ std::vector<RunColumn<Source>> joined(std::vector<RunColumn<Source>> columns, bo
 }
 /// Whose speed has the sign of the motion.
 std::string sign_of_speed(bool elastic) { return elastic ? "sign of the worm speed" : "sign of the gear speed"; }
+/// A shaft without dry friction has no mode of its own: it moves as its speed says.
+int sign_of(Motion mode, double speed) {
+  return mode == Motion::stuck || speed == 0.0 ? sign(mode) : speed > 0.0 ? 1 : -1;
+}
+int motion(const Observation& at) { return sign_of(at.mode.motion, at.teeth ? at.teeth->omega_w : at.omega_g); }
+int gear_motion(const Observation& at) { return sign_of(at.teeth->gear, at.omega_g); }
 
 }  // namespace
 
@@ -35,7 +41,7 @@ std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents) {
       {{"motor_torque", "N m", "motor torque tau_m on the worm"}, [](const Row& r) { return r.at.tau_m; }},
       {{"load_torque", "N m", "load torque tau_l on the gear"}, [](const Row& r) { return r.at.tau_l; }},
       {{"normal_force", "N", "normal force Wn between the teeth"}, [](const Row& r) { return r.at.normal_force; }},
-      {{"motion", "", sign_of_speed(elastic), motions, signs}, [](const Row& r) { return sign(r.at.mode.motion); }},
+      {{"motion", "", sign_of_speed(elastic), motions, signs}, [](const Row& r) { return motion(r.at); }},
       {{"flank", "", "flank that carries the load", flanks, signs},
        [](const Row& r) { return sign(r.at.mode.flank); }}};
   columns = joined(columns, elastic,
@@ -47,9 +53,8 @@ std::vector<RunColumn<Row>> trajectory_columns(const RunContents& contents) {
                      [](const Row& r) { return r.at.teeth->deflection; }},
                     {{"friction_force", "N", "friction force Wf between the teeth, positive against forward motion"},
                      [](const Row& r) { return r.at.teeth->friction; }},
-                    {{"gear_motion", "", "sign of the gear speed; forward throughout without dry friction on the gear",
-                      motions, signs},
-                     [](const Row& r) { return sign(r.at.teeth->gear); }}});
+                    {{"gear_motion", "", "sign of the gear speed", motions, signs},
+                     [](const Row& r) { return gear_motion(r.at); }}});
   columns = joined(
       columns, contents.winding,
       {{{"motor_voltage", "V", "voltage U on the motor's winding"}, [](const Row& r) { return r.at.winding->voltage; }},
@@ -83,9 +88,9 @@ std::vector<RunColumn<Event>> make_event_columns(const RunContents& contents) {
       {{"time", "s", "time"}, [](const Event& e) { return e.t; }},
       {kinds_column(contents), [](const Event& e) { return static_cast<double>(e.kind()); }},
       {{"motion_before", "", fmt::format("{} before", sign_of_speed(elastic)), motions, signs},
-       [](const Event& e) { return sign(e.before.mode.motion); }},
+       [](const Event& e) { return motion(e.before); }},
       {{"motion_after", "", fmt::format("{} after", sign_of_speed(elastic)), motions, signs},
-       [](const Event& e) { return sign(e.after.mode.motion); }},
+       [](const Event& e) { return motion(e.after); }},
       {{"flank_before", "", "flank that carried the load before", flanks, signs},
        [](const Event& e) { return sign(e.before.mode.flank); }},
       {{"flank_after", "", "flank that carries the load after", flanks, signs},
@@ -108,9 +113,9 @@ std::vector<RunColumn<Event>> make_event_columns(const RunContents& contents) {
       {{{"worm_angle", "rad", "worm angle theta_w"}, [](const Event& e) { return e.after.teeth->theta_w; }},
        {{"worm_speed", "rad/s", "worm speed theta_w'"}, [](const Event& e) { return e.after.teeth->omega_w; }},
        {{"gear_motion_before", "", "sign of the gear speed before", motions, signs},
-        [](const Event& e) { return sign(e.before.teeth->gear); }},
+        [](const Event& e) { return gear_motion(e.before); }},
        {{"gear_motion_after", "", "sign of the gear speed after", motions, signs},
-        [](const Event& e) { return sign(e.after.teeth->gear); }}});
+        [](const Event& e) { return gear_motion(e.after); }}});
 }
 
 }  // namespace

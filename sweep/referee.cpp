@@ -53,8 +53,7 @@ RefereeVerdict judged(Trials& trials, std::uint64_t trial, std::size_t place) {
 
 }  // namespace
 
-std::vector<RefereeVerdict> referee(const SweepReader& sweep, unsigned threads,
-                                    const std::function<bool(std::size_t)>& enough) {
+std::vector<RefereeVerdict> referee(const SweepReader& sweep, unsigned threads, const std::function<bool()>& enough) {
   Sample sample(sweep);
   std::vector<RefereeVerdict> verdicts;
   std::size_t begun = 0;
@@ -65,9 +64,9 @@ std::vector<RefereeVerdict> referee(const SweepReader& sweep, unsigned threads,
       Trials trials(sweep.study());
       for (;;) {
         std::unique_lock lock(mutex);
-        if (fault || begun == most_verdicts || enough(begun)) return;
+        if (fault || begun == most_verdicts) return;
         const auto trial = sample.next();
-        if (!trial) return;
+        if (!trial || enough()) return;
         const std::size_t place = begun++;
         verdicts.resize(begun);
         lock.unlock();

@@ -97,8 +97,8 @@ PYBIND11_MODULE(_core, m) {
       .def("statistics", &RunResult::statistics)
       .def("write", &RunResult::write, py::arg("path"), py::arg("command_line"), py::arg("force"));
 
-  py::class_<Scenario, std::shared_ptr<Scenario>>(m, "Scenario")
-      .def_static("load", [](const std::string& path, const std::vector<std::string>& overrides,
+  py::class_<Scenario, std::shared_ptr<Scenario>> core(m, "Scenario");
+  core.def_static("load", [](const std::string& path, const std::vector<std::string>& overrides,
                              bool look) { return load_scenario(path, overrides, purpose(look)); })
       .def_static("parse",
                   [](const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
@@ -116,6 +116,7 @@ PYBIND11_MODULE(_core, m) {
                         return std::make_shared<Scenario>(
                             parse_scenario(state[0].cast<std::string>(), "scenario", {}, Purpose::show));
                       }));
+  pickle_by_every_protocol(core);
   add_sweep(m);
   add_diagnosis(m);
   add_stepping(m);

@@ -59,8 +59,8 @@ std::string summary(const std::string& path, const SummarySettings& settings) {
 }  // namespace
 
 void add_sweep(py::module_& m) {
-  py::class_<SweepResult>(m, "Sweep")
-      .def_property_readonly("title", [](const SweepResult& r) { return r.study().title; })
+  py::class_<SweepResult> sweep(m, "Sweep");
+  sweep.def_property_readonly("title", [](const SweepResult& r) { return r.study().title; })
       .def("trials", &trials)
       .def("reasons", &SweepResult::reasons)
       .def(
@@ -72,6 +72,7 @@ void add_sweep(py::module_& m) {
           },
           py::arg("path"), py::arg("command_line"), py::arg("referee"), py::arg("force"))
       .def(py::pickle(&state, &restored));
+  pickle_by_every_protocol(sweep);
   m.def("sweep_file", [](const std::string& path, unsigned threads) { return run(load_study(path), threads); });
   m.def("summary", [](const std::string& path, const std::string& metric, unsigned worst, bool done_only) {
     return summary(path, {.ranked_by = metric, .worst = worst, .done_only = done_only});

@@ -95,7 +95,7 @@ void SweepResult::write(const std::string& name, const std::string& command_line
   if (judged > 0 && study_.scenario.run.solver != SolverKind::cvode) {
     file.flush();
     const SweepReader sweep(file.part_path());
-    file.write(referee(sweep, threads, [&](std::size_t count) { return count >= judged; }));
+    file.write(referee(sweep, threads, [&, count = std::size_t{0}]() mutable { return count++ >= judged; }));
   }
   file.finish();
 }

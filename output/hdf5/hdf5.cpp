@@ -1,5 +1,6 @@
 #include "output/hdf5/hdf5.hpp"
 
+#include <atomic>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
@@ -24,10 +25,12 @@ int system_error() {
   return number;
 }
 
-std::string with_reason(const std::string& action) {
-  const int number = system_error();
+std::string with_reason(const std::string& action, int number = system_error()) {
   return number != 0 ? action + ": " + std::strerror(number) : action;
 }
+
+constexpr int no_loss = -1;
+std::atomic<int> loss{no_loss};  ///< why the latest handle that closed itself could not write
 
 /// Before anything is asked of HDF5. Diagnostics are told once, by the exception. And its clean-up at the end of the
 /// program is not wanted: handles close themselves, and what a full disk left open makes it crash.
@@ -66,6 +69,12 @@ Hdf5Handle::Hdf5Handle(hid_t id, Close closer, const std::string& action) : id_(
 void Hdf5Handle::close(const std::string& action) {
   if (id_ < 0) return;
   check_hdf5(close_(std::exchange(id_, -1)), action);
+}
+
+void Hdf5Handle::note_loss() { loss = system_error(); }
+
+void Hdf5Handle::reject_losses(const std::string& action) {
+  if (const int number = loss.exchange(no_loss); number != no_loss) throw OutputFault(with_reason(action, number));
 }
 
 void check_hdf5(herr_t status, const std::string& action) {

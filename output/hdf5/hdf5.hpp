@@ -36,14 +36,19 @@ class Hdf5Handle {
     return *this;
   }
   ~Hdf5Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0 && close_(id_) < 0) note_loss();
   }
   operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): made to be passed to HDF5
 
   /// Closes now, so that a failure can be told; throws OutputFault naming the action.
   void close(const std::string& action);
 
+  /// Throws OutputFault naming the action if a handle that closed itself lost what it had to write, as on a full disk.
+  static void reject_losses(const std::string& action);
+
  private:
+  static void note_loss();
+
   hid_t id_ = -1;
   Close close_ = nullptr;
 };

@@ -90,7 +90,10 @@ PartFile::~PartFile() {
   if (!stays_) remove_quietly(part_path_);
 }
 
-void PartFile::flush() { check_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "cannot write " + part_path_); }
+void PartFile::flush() {
+  check_hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "cannot write " + part_path_);
+  Hdf5Handle::reject_losses("cannot write " + part_path_);
+}
 
 void PartFile::keep() {
   flush();

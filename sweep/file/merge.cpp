@@ -32,6 +32,8 @@ void reject_unrelated_shards(const Shards& shards) {
   for (const auto& shard : shards)
     if (const std::string why = shard->why_not_of(first); !why.empty())
       faults.add({shard->path()}, fmt::format("is not a shard of the same sweep as {}: {}", first.path(), why));
+  if (const std::string why = first.why_not_of(first.study()); !why.empty())
+    faults.add({first.path()}, fmt::format("cannot be merged: {}", why));
   faults.raise();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "sweep/study/study.hpp"
 
@@ -13,7 +14,7 @@ struct Origin {
 Origin origin_of(const Study& study);
 
 /// Why rows of one origin cannot stand beside those of another one: study, scenario or program differ. Empty if they
-/// can.
-std::string why_not_beside(const Origin& there, const Origin& here);
+/// can. whose_build: what the program of here is said to be.
+std::string why_not_beside(const Origin& there, const Origin& here, std::string_view whose_build = "this program is");
 
 }  // namespace wormdrive

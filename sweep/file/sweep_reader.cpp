@@ -39,7 +39,9 @@ bool SweepReader::has(std::uint64_t trial) const {
 }
 
 std::string SweepReader::why_not_of(const Study& study) const { return why_not_beside(origin_, origin_of(study)); }
-std::string SweepReader::why_not_of(const SweepReader& other) const { return why_not_beside(origin_, other.origin_); }
+std::string SweepReader::why_not_of(const SweepReader& other) const {
+  return why_not_beside(origin_, other.origin_, "that one by");
+}
 
 void SweepReader::for_each_block(const std::vector<std::string>& columns,
                                  const std::function<void(const Block&)>& visit) const {

@@ -67,7 +67,7 @@ void CorrelatedStrata::lay_out() const {
     for (std::uint64_t trial = 0; trial < trials_; ++trial)
       order[trial] = static_cast<std::uint32_t>(permutation(trial));
   }
-  if (trials_ == 1) return;
+  if (trials_ == 1 || orders.empty()) return;
   const std::vector<double> scores = scores_of(trials_);
   const Eigen::MatrixXd mixed = mixing(orders, scores, copula_.factor(correlated));
   std::vector<std::pair<double, std::uint32_t>> wanted(trials_);

@@ -250,16 +250,20 @@ Study load_study(const std::string& path) { return read_study(read_text(path), p
 
 Study read_study(const std::string& text, const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return read(text, path, folder.string(), [&](const std::string& scenario, const std::vector<Setting>& settings) {
+  std::string file;
+  const auto scenario_of = [&](const std::string& scenario, const std::vector<Setting>& settings) {
     std::vector<std::string> overrides;
     for (const Setting& setting : settings) overrides.push_back(setting.assignment);
-    const std::filesystem::path file = folder / scenario;
+    file = (folder / scenario).string();
     try {
-      return load_scenario(file.string(), overrides, Purpose::run);
+      return load_scenario(file, overrides, Purpose::run);
     } catch (const InputFault& fault) {
       throw InputFault(relocated(fault.faults, settings));
     }
-  });
+  };
+  Study study = read(text, path, folder.string(), scenario_of);
+  study.scenario_file = file;
+  return study;
 }
 
 Study parse_study(const std::string& text, const std::string& scenario, const std::string& name) {

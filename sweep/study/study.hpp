@@ -59,7 +59,8 @@ struct Study {
   Kept kept;
   double referee_tolerance = 1e-6;  ///< of the gear angle [rad], beyond which the referee disagrees
 
-  std::string text;  ///< of the study file
+  std::string text;           ///< of the study file
+  std::string scenario_file;  ///< from which the scenario was read; empty: from somewhere else
   bool varies(std::string_view path) const {
     return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.path == path; });
   }

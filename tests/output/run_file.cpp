@@ -205,4 +205,22 @@ TEST_CASE("a part disappears unless it is finished or kept") {
   CHECK(folder.names() == std::set<std::string>{"r.h5"});
 }
 
+TEST_CASE("with elastic teeth motions have the signs of the speeds, without friction as well") {
+  const Folder folder;
+  const Outcome run = folder.run({"run", shipped("fig09_backlash.toml"), "-q", "-o", "a.h5", "--set", "mesh.friction=0",
+                                  "--set", "run.duration_s=0.05"});
+  REQUIRE(run.exit == 0);
+  const Hdf5Handle file = open_hdf5(folder / "a.h5");
+  int turned = 0;
+  for (const auto& [motion, speed] : {std::pair{"motion", "worm_speed"}, std::pair{"gear_motion", "gear_speed"}}) {
+    const auto signs = read_column(file, std::string("trajectory/") + motion),
+               speeds = read_column(file, std::string("trajectory/") + speed);
+    for (std::size_t k = 0; k < signs.size(); ++k) {
+      REQUIRE(signs[k] * speeds[k] >= 0.0);
+      turned += signs[k] < 0.0;
+    }
+  }
+  REQUIRE(turned > 0);
+}
+
 }  // namespace wormdrive::test::output_run_file

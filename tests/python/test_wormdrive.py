@@ -236,8 +236,9 @@ class Shared(unittest.TestCase):
 
         for source in (FIG09, FIG10, SCENARIOS / "fig09_backlash.toml"):
             scenario = wormdrive.Scenario(source, run={"duration_s": 1.1 if source == FIG10 else 0.3})
-            again = pickle.loads(pickle.dumps(scenario))
-            self.assertEqual(again.toml, scenario.toml)
+            for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                again = pickle.loads(pickle.dumps(scenario, protocol))
+                self.assertEqual(again.toml, scenario.toml)
             result = scenario.run()
             for restored in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result),
                              pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))):
@@ -255,7 +256,8 @@ class Shared(unittest.TestCase):
             scenario = Path(folder, "short.toml")
             scenario.write_text(wormdrive.Scenario(SHORT).toml)
             sweep = wormdrive.sweep({**STUDY, "scenario": str(scenario)})
-            restored = pickle.loads(pickle.dumps(sweep))
+            for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                restored = pickle.loads(pickle.dumps(sweep, protocol))
             sweep.write(Path(folder, "a.h5"), referee=0)
             restored.write(Path(folder, "b.h5"), referee=0)
             with h5py.File(Path(folder, "a.h5")) as a, h5py.File(Path(folder, "b.h5")) as b:
@@ -413,6 +415,17 @@ class Studies(unittest.TestCase):
 
 
 class Faults(unittest.TestCase):
+    def test_data_that_are_none_or_do_not_fit_together_are_rejected(self):
+        for data, message in (([], "data: error: no file is given"), ((), "data: error: no file is given"),
+                              ({"time_s": [0.0, 1.0], "gear_angle_rad": [0.0]},
+                               "data: error: its columns differ in length: 'time_s' has 2 values, 'gear_angle_rad' has 1 values"),
+                              ({"time_s": np.array([0.0, 1.0]), "gear_angle_rad": np.array([0.0, 1j])},
+                               "data: error: 'gear_angle_rad' holds complex numbers")):
+            for arguments in ((data, None), ({"time_s": [0.0]}, data)):
+                with self.assertRaises(wormdrive.InputError) as caught:
+                    wormdrive.diagnose(FIG09, arguments[0], since=arguments[1])
+                self.assertEqual(str(caught.exception), message)
+
     def test_errors_are_the_usual_exceptions_too(self):
         with self.assertRaises(ValueError):
             wormdrive.run(SHORT, mesh={"frction": 1})

@@ -315,6 +315,21 @@ TEST_CASE("shards that do not make one sweep are not merged", "[sweep][slow]") {
   REQUIRE(folder.sweep({"-o", "other.h5", "--shard", "2/3"}).exit == 0);
   says({"1.h5", "other.h5", "3.h5"},
        "other.h5: error: is not a shard of the same sweep as 1.h5: the study differs in sweep.seed: 4, then 3");
+  const auto made_by_another = [&](const std::string& shard) {
+    const Hdf5Handle file = reopen_hdf5(folder / shard);
+    H5Adelete(file, "build");
+    write_attribute(file, "build", std::string("wormdrive 0.0.1 (abc)"));
+  };
+  made_by_another("2.h5");
+  says({"1.h5", "2.h5", "3.h5"},
+       fmt::format("2.h5: error: is not a shard of the same sweep as 1.h5: it was made by wormdrive 0.0.1 (abc), but "
+                   "that one by {}",
+                   program_identity()));
+  made_by_another("1.h5");
+  made_by_another("3.h5");
+  says({"1.h5", "2.h5", "3.h5"},
+       fmt::format("1.h5: error: cannot be merged: it was made by wormdrive 0.0.1 (abc), but this program is {}",
+                   program_identity()));
   CHECK(folder.sweep({"--shard", "4/3"}).err == "--shard 4/3: error: must be i/n with 1 <= i <= n, as in 3/7\n");
 }
 

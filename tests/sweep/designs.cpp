@@ -135,6 +135,12 @@ TEST_CASE("a correlated Latin hypercube is the same in every process, and withou
   }
 }
 
+TEST_CASE("a Latin hypercube with correlations of 0 alone is one without", "[sweep]") {
+  const auto strata = std::make_shared<CorrelatedStrata>(20, Copula(Eigen::MatrixXd::Identity(3, 3)), 5);
+  Design stated(LatinHypercube{20}, 3, 5, strata), plain(LatinHypercube{20}, 3, 5);
+  for (std::uint64_t trial = 0; trial < 20; ++trial) REQUIRE(stated.point(trial) == plain.point(trial));
+}
+
 TEST_CASE("the first 2^m points of a shifted Sobol sequence lie one in each interval of 2^-m", "[sweep]") {
   const auto all = points(SobolSequence{256}, 5, 9);
   for (std::size_t k = 0; k < 5; ++k) {

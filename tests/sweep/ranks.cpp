@@ -229,4 +229,26 @@ TEST_CASE("bad input on ranks is reported once", "[sweep]") {
   CHECK(outcome.err.find(message) == outcome.err.rfind(message));
 }
 
+TEST_CASE("a place that may not be written has the exit code of a single process on ranks", "[sweep]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder;
+  folder.write("mine.txt", "somebody's");
+  const std::string message = folder.sweep({"-o", "mine.txt"}).err;
+  const Outcome outcome = Process(on_ranks("2", {"-o", "mine.txt"}), folder.path()).wait();
+  CHECK(outcome.exit == 4);
+  CHECK(outcome.err.find(message) != std::string::npos);
+  CHECK(outcome.err.find(message) == outcome.err.rfind(message));
+}
+
+TEST_CASE("on ranks the referee judges as many trials as it is told, however they are shared", "[sweep]") {
+  if (!has_mpi()) return;
+  const StudyFolder folder;
+  for (const std::size_t wanted : {std::size_t{0}, std::size_t{5}}) {
+    const std::string name = fmt::format("o{}.h5", wanted);
+    const auto words = on_ranks("3", {"-o", name, "--referee", std::to_string(wanted)});
+    REQUIRE(Process(words, folder.path()).wait().exit == 0);
+    CHECK(SweepReader(folder / name).verdicts().size() == wanted);
+  }
+}
+
 }  // namespace wormdrive::test::sweep_ranks

@@ -134,6 +134,9 @@ TEST_CASE("an estimate is no other result: it is not resumed without its file, n
   const StudyFolder folder(rare_study);
   CHECK(folder.run({"rare", "study.toml", "--resume"}).err ==
         "study.toml: error: cannot be resumed without --output\n");
+  for (const std::string input : {"study.toml", "s.toml"})
+    CHECK(folder.run({"rare", "study.toml", "-o", input, "--force"}).err ==
+          fmt::format("{0}: error: the result would overwrite {0}; choose another --output\n", input));
   folder.write("mine.h5", "somebody's");
   const Outcome over = folder.run({"rare", "study.toml", "-o", "mine.h5"});
   CHECK(over.exit == 4);

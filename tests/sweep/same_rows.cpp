@@ -126,6 +126,13 @@ TEST_CASE("SIGTERM ends a sweep, which keeps its trials and prints how to contin
   CHECK(folder.rows("ended.h5") == folder.rows("whole.h5"));
 }
 
+TEST_CASE("a signal that a process gets twice at once, for itself and for its group, is one signal", "[sweep][slow]") {
+  const StudyFolder folder(many);
+  const Outcome ended = folder.interrupted({"-o", "ended.h5"}, SIGTERM, 2);
+  CHECK(ended.exit == 128 + SIGTERM);
+  CHECK(ended.err.starts_with("wormdrive: interrupted after "));
+}
+
 TEST_CASE("a full disk loses no stored row, and the sweep can be resumed", "[sweep][slow]") {
   const StudyFolder folder(many);
   REQUIRE(folder.sweep({"-o", "whole.h5"}).exit == 0);

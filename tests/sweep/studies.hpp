@@ -82,7 +82,7 @@ struct StudyFolder : Folder {
   }
   /// A sweep that gets a signal as soon as it has some trials. What can be caught has to leave some, however slow the
   /// machine is.
-  Outcome interrupted(std::vector<std::string> words, int signal) const {
+  Outcome interrupted(std::vector<std::string> words, int signal, int times = 1) const {
     words.insert(words.begin(), {WORMDRIVE_PROGRAM, "sweep", "study.toml"});
     const auto part = [this] {
       for (const std::string& name : names())
@@ -93,7 +93,7 @@ struct StudyFolder : Folder {
       Process process(words, path());
       while (part().empty()) usleep(1000);
       usleep(wait);
-      process.kill(signal);
+      for (int k = 0; k < times; ++k) process.kill(signal), usleep(100);
       const Outcome outcome = process.wait();
       if (signal == SIGKILL || outcome.exit != 128 + signal || present(part()) > 0) return outcome;
     }

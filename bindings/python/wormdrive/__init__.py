@@ -328,12 +328,22 @@ def diagnose(scenario: Source, data: Any, /, *, since: Any = None, seed: int = 1
 def _files_of(data: Any, scratch: str, name: str) -> list[str]:
     """Paths of data; columns are written to a file of this name."""
     if isinstance(data, Mapping):
+        rows = {column: len(values) for column, values in data.items()}
+        if len(set(rows.values())) > 1:
+            raise InputError("data: error: its columns differ in length: "
+                             + ", ".join(f"'{column}' has {count} values" for column, count in rows.items()))
+        for column, values in data.items():
+            if getattr(getattr(values, "dtype", None), "kind", "") == "c":
+                raise InputError(f"data: error: '{column}' holds complex numbers")
         path = os.path.join(scratch, name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(",".join(data) + "\n")
             file.writelines(",".join(map(repr, map(float, row))) + "\n" for row in zip(*data.values()))
         return [path]
-    return [os.fspath(file) for file in ([data] if isinstance(data, (str, os.PathLike)) else data)]
+    files = [os.fspath(file) for file in ([data] if isinstance(data, (str, os.PathLike)) else data)]
+    if not files:
+        raise InputError("data: error: no file is given")
+    return files
 
 
 def _command_line() -> str:

@@ -12,6 +12,7 @@
 #include "cli/describe/sweep.hpp"
 #include "description/diagnostics.hpp"
 #include "output/replacing.hpp"
+#include "simulation/overwriting.hpp"
 #include "statistics/normal.hpp"
 #include "statistics/threads.hpp"
 #include "sweep/rare/rare_file.hpp"
@@ -87,6 +88,7 @@ int rare_command(const RareOptions& options) {
   std::optional<RareFile> file;
   if (options.resume && options.output.empty()) reject({options.study}, "cannot be resumed without --output");
   if (!options.output.empty()) {
+    for (const std::string& input : {options.study, study.scenario_file}) reject_overwriting(options.output, input);
     file.emplace(followed(options.output), study, settings, options.command_line, options.resume, options.replace);
     settings.kept = file->runs();
   }

@@ -86,7 +86,7 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
     if (has_all() && !too_many()) {
       if (rule.end()) file.end_before(*rule.end());
       const double judge_begin = cpu_time();
-      verdicts = judge(file, study, options, cost.trials, least_judged);
+      verdicts = judge(file, study, options, cost.trials, [count = std::uint64_t{0}]() mutable { return count++; });
       cost.referee = cpu_time() - judge_begin;
       file.finish();
       cost.summary = cpu_time() - judge_begin - cost.referee;
@@ -122,33 +122,21 @@ int sweep_alone(const SweepOptions& options, const Study& study, const std::stri
   return 0;
 }
 
-/// Bad input is told by the first rank alone: it looks at everything before the others do.
-template <class Look>
-bool looks_good(Ranks& ranks, Look&& look) {
-  if (ranks.first()) {
-    try {
-      look();
-    } catch (...) {
-      ranks.told({1});
-      throw;
-    }
-  }
-  return ranks.told({0}).front() == 0;
-}
-
 int sweep_together(Ranks& ranks, const SweepOptions& options) {
   const std::string output = followed(options.output.empty() ? default_output(options.study, ".h5") : options.output);
   std::optional<Study> read;
-  const bool good = looks_good(ranks, [&] {
+  const auto look = [&] {
     read = load_study(options.study);
-    reject_overwriting(output, options.study);
+    for (const std::string& input : {options.study, read->scenario_file}) reject_overwriting(output, input);
     if (ranks.count() > 1 && !options.shard.empty())
       reject({"--shard " + options.shard}, "the ranks share all trials; remove the option");
     if (read->may_end_early() && !options.shard.empty())
       reject({options.study},
              "threshold.until_percent ends a sweep whose processes count together; remove it, or run without --shard");
-  });
-  if (!good) return bad_input;
+    return 0;
+  };
+  // what is wrong is told by the first rank alone: it looks at everything before the others do
+  if (const int code = code_of_all(ranks, look)) return code;
   const Study study = read ? std::move(*read) : load_study(options.study);  // once: it may be a pipe
   const Interruptible interruptible;
   if (ranks.count() > 1 || !rank_parts(output).empty()) return sweep_on_ranks(ranks, options, study, output);

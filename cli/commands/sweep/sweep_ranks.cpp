@@ -52,15 +52,18 @@ struct Counted {
   StoppingRule::Counts counts;
 };
 
-/// Adds to what all ranks have counted, and turns it into what all have counted then. Takes so many portions, and
-/// returns how many were taken before.
-std::uint64_t add_to(Ranks& ranks, std::uint64_t portions, Counted& counted) {
-  Tally told{portions, counted.failures};
+/// Of what ranks share, how much one takes: portions of trials, and trials for the referee.
+struct Taken {
+  std::uint64_t portions = 0, judged = 0;
+};
+/// Adds to what all ranks have counted, and turns it into what all have counted then. Returns what was taken before.
+Taken add_to(Ranks& ranks, Taken more, Counted& counted) {
+  Tally told{more.portions, more.judged, counted.failures};
   told.insert(told.end(), counted.counts.begin(), counted.counts.end());
   const Tally before = ranks.add(std::move(told));
-  counted.failures += before[1];
-  add(counted.counts, std::span(before).subspan(2));
-  return before[0];
+  counted.failures += before[2];
+  add(counted.counts, std::span(before).subspan(3));
+  return {before[0], before[1]};
 }
 
 /// What a rank does of a sweep.
@@ -98,31 +101,29 @@ class RankSweep {
     };
     run_ensemble(
         study_, [this] { return next(); }, threads_for(options_.threads), take, [&] { return is_to_end(file); });
-    const auto ranks = static_cast<std::size_t>(ranks_.count());
     tell();
     if (!too_many() && Interruptible::signal() == 0)
-      judge(file, study_, options_, cpu_time() - begin, (least_judged + ranks - 1) / ranks);
+      judge(file, study_, options_, cpu_time() - begin, [this] { return add({.judged = 1}).judged; });
     file.flush();
   }
   std::uint64_t made() const { return made_; }
   /// Tells the others what was counted here, and hears what they have.
-  void tell() { add(0); }
+  void tell() { add({}); }
   /// Whether more have failed than may, as far as is known here. What was taken by then is made nevertheless, so that
   /// every trial before the last one is there.
   bool too_many() const { return exceeds_failures(options_, rule_, failures_); }
   const StoppingRule& rule() const { return rule_; }
 
  private:
-  /// Tells the others what was counted here, hears what they have, and takes so many portions; returns how many were
-  /// taken before.
-  std::uint64_t add(std::uint64_t portions) {
+  /// Tells the others what was counted here, hears what they have, and takes so much; returns what was taken before.
+  Taken add(Taken more) {
     Counted mine{0, rule_.none()};
     {
       const std::lock_guard lock(counting_);
       std::swap(mine, untold_);
     }
     Counted all = mine;
-    const std::uint64_t before = add_to(ranks_, portions, all);
+    const Taken before = add_to(ranks_, more, all);
     failures_ = all.failures;
     const std::lock_guard lock(counting_);
     rule_.look(all.counts);
@@ -133,7 +134,7 @@ class RankSweep {
   /// The next trials that no rank has taken. What is counted is told with the question, so that it costs no other.
   std::optional<TrialRange> next() {
     if (left_ == 0) {
-      at_ = add(1) * portion_;
+      at_ = add({.portions = 1}).portions * portion_;
       if (too_many() || ends_) return std::nullopt;
       left_ = at_ < missing_.count() ? std::min(portion_, missing_.count() - at_) : 0;
       reached_ = at_;
@@ -169,28 +170,24 @@ class RankSweep {
   std::uint64_t made_ = 0;
 };
 
-/// What the first rank finds of earlier ones, for all of them; nothing for the others if it has a fault to tell.
+/// What the first rank finds of earlier ones, for all of them; nothing if it has a fault to tell, whose exit code is
+/// code.
 std::optional<RankPlan> agreed(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output,
-                               OutputLock& lock) {
-  RankPlan plan;
-  std::vector<std::uint64_t> told{2};  // that something is wrong
-  if (ranks.first()) {
-    try {
-      lock = OutputLock(output);
-      plan = plan_ranks(output, study, options.resume, options.replace);
-      const StoppingRule rule(study);
-      Counted present{plan.failed, counted_in(rank_parts(output), rule)};
-      add_to(ranks, 0, present);
-    } catch (...) {
-      ranks.told(told);
-      throw;
-    }
+                               OutputLock& lock, int& code) {
+  std::vector<std::uint64_t> told;
+  code = code_of_all(ranks, [&] {
+    lock = OutputLock(output);
+    RankPlan plan = plan_ranks(output, study, options.resume, options.replace);
+    const StoppingRule rule(study);
+    Counted present{plan.failed, counted_in(rank_parts(output), rule)};
+    add_to(ranks, {}, present);
     told = {plan.complete ? std::uint64_t{1} : 0, plan.generation};
     for (const TrialRange& range : plan.missing) told.insert(told.end(), {range.first, range.end});
-  }
+    return 0;
+  });
+  if (code != 0) return std::nullopt;
   told = ranks.told(std::move(told));
-  if (told.front() == 2) return std::nullopt;
-  plan = {told[0] == 1, told[1], 0, {}};
+  RankPlan plan{told[0] == 1, told[1], 0, {}};
   for (std::size_t k = 2; k < told.size(); k += 2) plan.missing.push_back({told[k], told[k + 1]});
   return plan;
 }
@@ -226,10 +223,16 @@ std::string shares(const std::string& output, std::uint64_t generation, int rank
 
 }  // namespace
 
+int code_of_all(Ranks& ranks, const std::function<int()>& command) {
+  const int code = ranks.first() ? guarded(command) : 0;
+  return static_cast<int>(ranks.told({static_cast<std::uint64_t>(code)}).front());
+}
+
 int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study, const std::string& output) {
   OutputLock lock;  // the first one holds it for all
-  const std::optional<RankPlan> agreement = agreed(ranks, options, study, output, lock);
-  if (!agreement) return bad_input;
+  int code = 0;
+  const std::optional<RankPlan> agreement = agreed(ranks, options, study, output, lock, code);
+  if (!agreement) return code;
   const RankPlan& plan = *agreement;
   const bool talks = ranks.first() && !options.quiet;
   if (talks) print_study(study, {0, study.trials()});
@@ -259,7 +262,7 @@ int sweep_on_ranks(Ranks& ranks, const SweepOptions& options, const Study& study
     if (ranks.first() && too_many)
       fmt::print(stderr, "wormdrive: {}; {}.rank_* contain all of them\n",
                  ended_early(rank_parts(output), *options.max_failures).told, output);
-    else if (ranks.first())
+    else if (ranks.first() && there > 0)
       fmt::print(stderr, "wormdrive: stopped after {} of {} trials, which are in {}.rank_*; {}\n", there,
                  study.trials(), output, resume);
     return too_many ? cannot_go_on : fault != 0 ? fault : 128 + Interruptible::signal();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <ctime>
 
 #include <fmt/format.h>
 
@@ -16,12 +17,31 @@
 namespace wormdrive {
 namespace {
 volatile std::sig_atomic_t interrupted = 0;
+std::timespec first_signal;
+
+/// timeout and job managers send a signal to a process and to its group: what follows at once is not a second one.
+constexpr double at_once = 0.5;  // [s]
+
+void interrupt(int signal) {
+  std::timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (interrupted == 0) {
+    first_signal = now;
+    interrupted = signal;
+    return;
+  }
+  const double since = static_cast<double>(now.tv_sec - first_signal.tv_sec) +
+                       1e-9 * static_cast<double>(now.tv_nsec - first_signal.tv_nsec);
+  if (since < at_once) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
+
+}  // namespace
 
 Interruptible::Interruptible() {
   struct sigaction action {};
-  action.sa_handler = [](int signal) { interrupted = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = interrupt;
   for (std::size_t k = 0; k < std::size(signals); ++k) sigaction(signals[k], &action, &before_[k]);
 }
 
@@ -89,15 +109,16 @@ void print_end(const Study& study, const StoppingRule& rule) {
 }
 
 std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                                  std::size_t at_least) {
+                                  const std::function<std::uint64_t()>& take) {
   constexpr double share = 0.05;
+  constexpr std::uint64_t least = 8;  // trials that a referee looks at in any case
   if (study.scenario.run.solver == SolverKind::cvode) return {};
   file.flush();
   const double begin = cpu_time();
-  const auto enough = [&](std::size_t count) {
+  const auto enough = [&] {
     if (Interruptible::signal() != 0) return true;
-    if (options.referee) return count >= *options.referee;
-    return count >= at_least && cpu_time() - begin >= share * trials_took;
+    const std::uint64_t before = take();
+    return options.referee ? before >= *options.referee : before >= least && cpu_time() - begin >= share * trials_took;
   };
   std::vector<RefereeVerdict> verdicts = referee(SweepReader(file.part_path()), threads_for(options.threads), enough);
   file.write(verdicts);

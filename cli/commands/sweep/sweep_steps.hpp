@@ -26,8 +26,8 @@ struct SweepOptions {
   std::string command_line;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGUSR1 ask for an end instead of being one; a second one ends at once. mpirun
-/// passes SIGUSR1 on and lets the ranks live; after SIGTERM it kills them.
+/// While it lives, SIGINT, SIGTERM and SIGUSR1 ask for an end instead of being one; a second one, half a second later,
+/// ends at once. mpirun passes SIGUSR1 on and lets the ranks live; after SIGTERM it kills them.
 class Interruptible {
  public:
   Interruptible();
@@ -65,17 +65,15 @@ bool exceeds_failures(const SweepOptions& options, const StoppingRule& rule, std
 /// Prints how many trials were enough, of a study that may end early.
 void print_end(const Study& study, const StoppingRule& rule);
 
-/// Trials of a sweep that a referee looks at in any case.
-inline constexpr std::size_t least_judged = 8;
-
 /// What a sweep spends its CPU time on [s].
 struct SweepCost {
   double trials = 0.0, file = 0.0, referee = 0.0, summary = 0.0;
 };
 
-/// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at_least, and more while
-/// that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself.
+/// Lets CVODE judge trials of a sweep and writes what it finds: so many as are wanted, else at least eight, and more
+/// while that takes less than 5 % of the time [s] that the trials took. Nothing where CVODE has made them itself. take:
+/// counts one more trial of the sweep as judged, and returns how many were before.
 std::vector<RefereeVerdict> judge(SweepFile& file, const Study& study, const SweepOptions& options, double trials_took,
-                                  std::size_t at_least);
+                                  const std::function<std::uint64_t()>& take);
 
 }  // namespace wormdrive
