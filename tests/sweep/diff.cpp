@@ -1,10 +1,11 @@
-// What `diff` says of two sweeps: which trials, which columns, beyond what is allowed.
+// What `diff` says of two sweeps and of two estimates: which trials, which columns, beyond what is allowed.
 #include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "cli/changed_results.hpp"
 #include "sweep/studies.hpp"
 
 namespace wormdrive::test::sweep_diff {
@@ -109,7 +110,60 @@ weights = [60, 20, 20]
   CHECK(line_with(seed.out, "trials/mesh.friction").find("DIFFERS in 200 trials: 0, 1, 2, 3, 4, ...") !=
         std::string::npos);
   REQUIRE(folder.run({"run", "s.toml", "-o", "run.h5"}).exit == 0);
-  CHECK(folder.run({"diff", "whole.h5", "run.h5"}).exit == 1);
+  const Outcome kinds = folder.run({"diff", "whole.h5", "run.h5"});
+  CHECK(kinds.exit == 2);
+  CHECK(kinds.err ==
+        "run.h5: error: it is a result of 'run', but whole.h5 is one of 'sweep'; diff compares results of one kind\n");
+}
+
+TEST_CASE("diff compares all of an estimate of rare misses, and no infinite value allows another one", "[sweep]") {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+  const ResultFolder folder;
+  const std::string study = study_but("below_rad_per_s = -2.5", "below_rad_per_s = -0.31");
+  folder.write("study.toml", study);
+  folder.make({"rare", "study.toml", "-o", "a.h5", "--per-level", "100", "--samples", "100"});
+  folder.write("study.toml", edited(study, "seed = 3", "seed = 4"));
+  folder.make({"rare", "study.toml", "-o", "seed.h5", "--per-level", "100", "--samples", "100"});
+  CHECK(folder.diff("a.h5", "a.h5", {"--relative", "0"}).exit == 0);
+  const Outcome seed = folder.diff("a.h5", "seed.h5");
+  CHECK(seed.exit == 1);
+  CHECK(seed.out.starts_with("  note: the study differs in sweep.seed: 3, then 4\n"));
+  CHECK(line_of(seed.out, "runs/mesh.friction").ends_with("DIFFERS"));
+  check_every_column(folder, "a.h5", {"estimates", "levels", "design_point", "runs"});
+
+  const auto changed = [&](const std::string& object, const std::string& name, auto value) {
+    folder.copy("a.h5", "changed.h5");
+    folder.change_attribute("changed.h5", object, name, value);
+    return folder.diff("a.h5", "changed.h5");
+  };
+  CHECK(line_of(changed("estimates", "limit", -0.3099).out, "limit of estimates").ends_with("DIFFERS"));
+  CHECK(changed("estimates", "above", std::int64_t{1}).exit == 1);
+  CHECK(changed("design_point", "beta", 9.0).exit == 1);
+  CHECK(changed("design_point", "converged", std::int64_t{0}).exit == 1);
+  CHECK(tells(changed("estimates", "metric", std::string("other")),
+              "metric of estimates: 'final_gear_speed' in the first result, 'other' in the second"));
+  const Outcome settings = changed("/", "settings", std::string("others"));
+  CHECK(settings.exit == 0);
+  CHECK(settings.out.find("  note: the settings differ: --metric final_gear_speed --per-level 100 --samples 100, then "
+                          "others\n") != std::string::npos);
+
+  for (const auto& [column, value] : {std::pair{"estimates/probability", infinite}, {"estimates/variation", none}}) {
+    folder.copy("a.h5", "changed.h5");
+    folder.change("changed.h5", column, 0, value);
+    folder.copy("changed.h5", "same.h5");
+    INFO(column);
+    CHECK(folder.diff("a.h5", "changed.h5", {"--relative", "1e300", "--absolute", "1e300"}).exit == 1);
+    CHECK(folder.diff("changed.h5", "a.h5").exit == 1);
+    CHECK(folder.diff("changed.h5", "same.h5", {"--relative", "0"}).exit == 0);
+    // the other estimate counts
+    const nlohmann::json signal = signal_in(folder.diff("changed.h5", "a.h5", {"--json"}), column);
+    CHECK(signal.at("allowed").get<double>() < 1e-5);
+    CHECK(signal.at("largest").is_null());
+  }
+  folder.change("changed.h5", "levels/distance", 0, infinite);
+  folder.copy("changed.h5", "same.h5");
+  folder.change("same.h5", "levels/distance", 0, -infinite);
+  CHECK(folder.diff("changed.h5", "same.h5").exit == 1);
 }
 
 }  // namespace wormdrive::test::sweep_diff
