@@ -109,9 +109,11 @@ PreparedRecording prepared(const Recording& recording, std::size_t first_block, 
     p.used[k] = static_cast<double>(k) * Ts >= rules::burn_in && (p.data.valid.empty() || p.data.valid[k]);
     p.held_out[k] = is_held_out(first_block + k / p.block_length);
   }
-  // a prediction that starts anew has its speed from these samples, and is not to be judged by them
+  // a prediction that starts anew has its speed from these samples, and is not to be judged by them before it is as
+  // good as that of the first start
+  const auto guessed = static_cast<std::size_t>(std::ceil(rules::burn_in / Ts));
   for (const std::size_t restart : recording.restarts)
-    for (std::size_t k = restart; k < std::min(n, restart + 2 * half_width + 1); ++k) p.used[k] = 0;
+    for (std::size_t k = restart; k < std::min(n, restart + std::max(2 * half_width + 1, guessed)); ++k) p.used[k] = 0;
   return p;
 }
 

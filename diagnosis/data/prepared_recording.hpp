@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "diagnosis/data/recording.hpp"
@@ -27,7 +28,11 @@ struct PreparedRecording {
 
   std::size_t samples() const { return data.samples(); }
   std::size_t blocks() const { return (samples() + block_length - 1) / block_length; }
-  /// Of the stretch without a pause in which a sample lies, the sample after its last.
+  /// Of the stretch without a pause in which a sample lies, its first sample, and the sample after its last.
+  std::size_t start_of_stretch(std::size_t k) const {
+    const auto next = std::upper_bound(data.restarts.begin(), data.restarts.end(), k);
+    return next == data.restarts.begin() ? 0 : *std::prev(next);
+  }
   std::size_t end_of_stretch(std::size_t k) const {
     const auto next = std::upper_bound(data.restarts.begin(), data.restarts.end(), k);
     return next == data.restarts.end() ? samples() : *next;

@@ -89,7 +89,7 @@ SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
   const auto [start, period] = whole_line(t);
   const double duration = static_cast<double>(t.size()) * period;
   if (duration < rules::least_duration - 1e-9)
-    reject(table.where(), fmt::format("{} samples of {:.3g} s are {:.3g} s; a diagnosis needs at least {} s", t.size(),
+    reject(table.where(), fmt::format("{} samples of {:.6g} s are {:.6g} s; a diagnosis needs at least {} s", t.size(),
                                       period, duration, rules::least_duration));
 
   SampleTimes found{start, period, {}, {}};

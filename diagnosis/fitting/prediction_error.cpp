@@ -32,7 +32,9 @@ std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::siz
   std::vector<std::size_t> begins;
   const std::size_t between = std::max<std::size_t>(1, std::min(steps, recording.block_length) / 2);
   for (std::size_t k = recording.block_length; k + steps + 1 < recording.samples(); k += between)
-    if (recording.held_out[k] && recording.used[k] && k + steps < recording.end_of_stretch(k)) begins.push_back(k);
+    if (recording.held_out[k] && recording.used[k] && k >= recording.start_of_stretch(k) + recording.block_length &&
+        k + steps < recording.end_of_stretch(k))
+      begins.push_back(k);
   return begins;
 }
 

@@ -79,8 +79,10 @@ ObserverGains observer_gains(const ProcessNoise& stated, double period) {
 std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Recording& recording) {
   if (is_steady(recording)) return {observer_gains(stated, recording.period)};
   const ProcessNoise noise = stated.over(recording.period);
-  // what a line through the next samples tells of angle and speed is about as good as one reading of the sensor
-  const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, 1.0, noise.coloured * noise.coloured).asDiagonal();
+  // The angle is a reading of the sensor. The speed, of a line through samples between which the motion may bend, is as
+  // good as unknown: what follows tells it.
+  constexpr double unknown = 1e8;
+  const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, unknown, noise.coloured * noise.coloured).asDiagonal();
   std::vector<ObserverGains> gains(recording.samples());
   Eigen::Matrix3d P = at_start;
   for (std::size_t k = 1; k < gains.size(); ++k) {

@@ -98,8 +98,8 @@ TEST_CASE("after a pause, whose torque nobody knows, the recording starts anew, 
   const PreparedRecording p = prepared(r, 0);
   CHECK(p.used[1999] == 1);
   CHECK(p.used[2000] == 0);
-  CHECK(p.used[2024] == 0);
-  CHECK(p.used[2025] == 1);
+  CHECK(p.used[2098] == 0);  // 0.1 s, as at the first start
+  CHECK(p.used[2102] == 1);
 }
 
 TEST_CASE("times to which the readings belong are followed, also where the rate changes") {
