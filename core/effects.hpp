@@ -159,10 +159,10 @@ struct Effects {
     });
     return any;
   }
-  /// Highest angular frequency with which friction at rest changes [rad/s].
-  double fastest_at_rest() const {
+  /// Highest angular frequency with which friction still changes after so long at rest [s], in rad/s.
+  double fastest_at_rest(double rest) const {
     return through(list, 0.0,
-                   [](const auto& e, double) -> decltype(e.fastest_at_rest()) { return e.fastest_at_rest(); });
+                   [=](const auto& e, double) -> decltype(e.fastest_at_rest(rest)) { return e.fastest_at_rest(rest); });
   }
   /// Highest number of periods per radian of the gear in what effects do over its angle, for a ratio i.
   double ripple(double i) const {

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mode.hpp"
+#include "core/numbers/jet.hpp"
 #include "core/states/state_rates.hpp"
 
 namespace wormdrive {
@@ -19,6 +21,17 @@ double ripple_rate(const System& system, const typename System::State& x) {
     return system.ripple() * abs(x[1]);
   else
     return 0.0;
+}
+
+/// Highest angular frequency of the present inputs from a moment on, and at rest of what changes with the time there
+/// [rad/s].
+template <class System>
+double fastest_change(const System& system, const typename System::Instant& now) {
+  const double of_inputs = system.fastest_input(now.t);
+  if constexpr (requires { system.effects(), now.since, now.mode.motion; })
+    if (now.mode.motion == Motion::stuck)
+      return std::max(of_inputs, system.effects().fastest_at_rest(now.t - value_of(now.since)));
+  return of_inputs;
 }
 
 }  // namespace wormdrive

@@ -101,7 +101,7 @@ class TorqueBalance {
   }
   /// Highest angular frequency of the present inputs from t on [rad/s].
   double fastest_input(double t = -std::numeric_limits<double>::infinity()) const {
-    return std::max({motor_.fastest(t), load_.fastest(), effects_.fastest_at_rest()});
+    return std::max(motor_.fastest(t), load_.fastest());
   }
 
   /// Highest number of periods per radian of the gear in what depends on its angle.

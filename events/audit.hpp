@@ -133,7 +133,7 @@ class Audit {
     // the drive rests and nothing else tells what happens in between
     const double phase = phase_between_looks(System::at_rest(start.mode));
     const double swing =
-        std::max({system_.fastest_input(start.t), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
+        std::max({fastest_change(system_, start), ripple_rate(system_, start.x), ripple_rate(system_, end.x)});
     steps = std::max(steps, std::lround(finer * swing * span / phase));
     const double h = span / static_cast<double>(steps);
 

@@ -74,7 +74,7 @@ class CvodeSolver {
     first_.reset();
     first_steps_ = 0;
     waited_ = 0.0;
-    if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now);
+    if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now) || creeps<System>(now, settings_);
     if (!leaves_rest_) begin();
   }
 
@@ -191,7 +191,6 @@ class CvodeSolver {
     failures_ = 0;
     rounding_counts_ = false;
     if constexpr (Foresees<System>) friction_changes_ = system_.effects().change_friction();
-    if (!friction_changes_) set_longest_step(longest_step(ahead_));
     limit_ = std::numeric_limits<double>::quiet_NaN();
     floor_.fill(0.0);
     const auto starts = guard_starts(system_, ahead_, guards_at(ahead_));
@@ -202,10 +201,11 @@ class CvodeSolver {
   }
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
-    if constexpr (Foresees<System>)
-      if (friction_changes_)
-        set_longest_step(shortened_by_growth(system_, ahead_, longest_step(ahead_), limit_, total_.jacobians));
     const double from = clock_, before = ripple_rate(system_, ahead_.x);
+    double longest = longest_step(ahead_);
+    if constexpr (Foresees<System>)
+      if (friction_changes_) longest = shortened_by_growth(system_, ahead_, longest, limit_, total_.jacobians);
+    check_cvode(CVodeSetMaxStep(memory(), std::isfinite(longest) ? longest : 0.0));
     const int flag = CVode(memory(), next - origin_, y_.get(), &clock_, CV_ONE_STEP);
     ahead_.t = flag == CV_TSTOP_RETURN ? limit_ : origin_ + clock_;
     if (flag < 0) {
@@ -257,10 +257,9 @@ class CvodeSolver {
 
   /// Within the longest step [s] a guard turns at most once, whatever the tolerance lets pass.
   double longest_step(const Instant& now) const {
-    const double omega = system_.fastest_input(now.t);
+    const double omega = std::max(fastest_change(system_, now), ripple_rate(system_, now.x));
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
-  void set_longest_step(double step) { check_cvode(CVodeSetMaxStep(memory(), std::isfinite(step) ? step : 0.0)); }
   void* memory() const { return memory_.get(); }
   Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
   Eigen::Map<State> state_at(double clock) {

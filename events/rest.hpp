@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers/crossing.hpp"
+#include "core/ripple.hpp"
 #include "events/bend_watch.hpp"
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
@@ -36,7 +37,7 @@ class RestWatch {
     BendWatch<System> bends(system_);
     bends.begin(now_);
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
-    if (system_.fastest_input(now_.t) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
+    if (fastest_change(system_, now_) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
     for (double a = now_.t; a < end;) {
       const double step = step_from(a, end);
       const double b = a + step > a ? std::min(end, a + step) : end;  // within an ulp of a report there is one step
@@ -79,7 +80,7 @@ class RestWatch {
 
   /// Short against the fastest input from a on, so that a guard turns at most once within a step.
   double step_from(double a, double end) const {
-    const double omega = system_.fastest_input(a), span = end - now_.t;
+    const double omega = fastest_change(system_, at(a)), span = end - now_.t;
     return omega > 0.0 ? std::min(phase_between_looks(true) / omega, span) : span / 8.0;
   }
 

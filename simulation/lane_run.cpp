@@ -5,34 +5,20 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/elastic/elastic_teeth.hpp"
 #include "simulation/run_drive.hpp"
 
 namespace wormdrive {
 namespace {
 
-/// Whether lanes may know the drive, whatever loads it and limits its torque.
-bool has_held_torque(const Scenario& scenario) {
-  const Effects<double>& on = scenario.effects;
-  return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
-         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states() && on.delay() <= 0.0 &&
-         on.lag() <= 0.0;
+/// What a load over time consists of.
+template <class Term>
+bool has(const Signal& load) {
+  return std::any_of(load.terms.begin(), load.terms.end(),
+                     [](const SignalTerm& term) { return std::holds_alternative<Term>(term); });
 }
-
-bool has_lane_load(const Scenario& scenario) {
-  const auto* const signal = std::get_if<Signal>(&scenario.load);
-  if (!signal) return std::holds_alternative<GravityArm>(scenario.load);
-  return std::all_of(signal->terms.begin(), signal->terms.end(),
+bool is_constant(const Signal& load) {
+  return std::all_of(load.terms.begin(), load.terms.end(),
                      [](const SignalTerm& term) { return std::holds_alternative<Constant>(term); });
-}
-
-/// Whether lanes know what a controller is told and how it decides.
-bool has_lane_controller(const ControlScenario& control) {
-  const SensorSettings& sensor = control.sensor;
-  return (std::holds_alternative<SlidingParameters>(control.law) ||
-          std::holds_alternative<PidParameters>(control.law)) &&
-         control.anti_windup.method == AntiWindup::none && (sensor.zero_error == 0.0 || !sensor.index_mark) &&
-         !sensor.exact_speed && !sensor.on_worm;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -68,25 +54,37 @@ class LaneRunOf final : public LaneRun {
         watch_(scenario.control->window, scenario.control->law, lemma_),
         encoder_(scenario.control->sensor),
         disturbance_(scenario.control->disturbance, scenario.control->sampling.period),
-        progress_{run_.timetable(*scenario.control), run_.start(), EventLog()} {}
+        progress_{run_.timetable(*scenario.control), run_.start(), EventLog()},
+        taped_(!has_closed_form()) {}
   LaneRunOf(const LaneRunOf&) = delete;  // solver and run point into it
   LaneRunOf& operator=(const LaneRunOf&) = delete;
 
-  /// False for a drive with a mode whose steps have no closed form.
-  bool has_closed_form() const {
-    for (const Motion motion : {Motion::forward, Motion::backward})
-      for (const Flank flank : {Flank::left, Flank::right})
-        if (!solver_.nominal().driven({motion, flank}) || solver_.nominal().rubs({motion, flank}) != rubs())
-          return false;
-    return true;
-  }
+  /// False where the steps of the drive are neither in closed form nor on a tape.
+  bool fits() { return !taped_ || (leaps_by_tape() && tape() != nullptr); }
   LaneVariant variant() const override {
-    return {.ideal = std::isinf(drive_.torque_limit()) && solver_.nominal().response().gain == 1.0 &&
-                     scenario_.control->sampling.delay <= 0.5 && is_encoder_exact() && !is_disturbed(),
-            .pid = std::holds_alternative<PidParameters>(scenario_.control->law),
-            .swings = std::is_same_v<Load, GravityLoad>,
-            .rubs = rubs()};
+    const bool pid = std::holds_alternative<PidParameters>(scenario_.control->law);
+    if constexpr (has_formulas)
+      if (!taped_)
+        return {.ideal = std::isinf(drive_.torque_limit()) && solver_.nominal().response().gain == 1.0 && !falls() &&
+                         scenario_.control->sampling.delay <= 0.5 && is_encoder_exact() && !is_disturbed(),
+                .pid = pid,
+                .swings = std::is_same_v<Load, GravityLoad>,
+                .rubs = rubs() && !falls(),
+                .falls = solver_.nominal().curve().exponent(),
+                .falls_with_tail = solver_.nominal().curve().has_tail()};
+    return {.ideal = false, .pid = pid, .swings = false, .taped = true};
   }
+  const TapeCode* tape() override {
+    if (!taped_) return nullptr;
+    for (const Motion motion : {Motion::forward, Motion::backward})
+      for (const Flank flank : {Flank::left, Flank::right, Flank::none})
+        if (const TapeCode* const code = solver_.taped().code({motion, flank})) return code;
+    return nullptr;
+  }
+  void use_tape(const TapeCode& code, double* numbers, int lanes) override {
+    tape_ = {&code, numbers, static_cast<std::size_t>(lanes)};
+  }
+  SectionOf<double> section(int table, double x) override { return solver_.taped().section(table, x); }
   bool estimate_is_aligned() const override { return nominal_.load_angle_offset == 0.0 && is_encoder_exact(); }
   bool is_rough() const override { return !encoder_.is_exact() || scenario_.control->sensor.zero_error != 0.0; }
   bool is_noisy() const override { return scenario_.control->sensor.noise > 0.0; }
@@ -121,13 +119,18 @@ class LaneRunOf final : public LaneRun {
                             .limit = drive_.torque_limit(),
                             .left = 0.0,
                             .drive = {},
-                            .arm_offset = solver_.nominal().arm_offset(),
+                            .arm_offset = {},
+                            .pull = 0.0,
+                            .bend = 0.0,
+                            .per_speed = 1.0,
+                            .speed_of_fall = 1.0,
                             .theta = 0.0,
                             .omega = 0.0};
     if (const auto* const sliding = std::get_if<SlidingParameters>(&control.law))
       trial.sliding = {*sliding, nominal_, SlidingBounds(*sliding, lemma_)};
     if (const auto* const pid = std::get_if<PidParameters>(&control.law))
       trial.pid = {lqr_gains(*pid, mean_inertia(nominal_)), *pid, nominal_};
+    if constexpr (has_formulas) trial.arm_offset = solver_.nominal().arm_offset();
     leave(trial);
     trial.speed.start(encoder_(drive_.measured_angle(progress_.now), 0));
     lane.write(trial);
@@ -173,7 +176,32 @@ class LaneRunOf final : public LaneRun {
   bool is_encoder_exact() const {
     return !is_rough() && !effect<EncoderScale<double>>() && !effect<EncoderOffset<double>>();
   }
+  using Solver = TaylorSolver<Drive>;
+  static constexpr bool has_formulas = NominalFlow<Drive>::known;
+
   bool rubs() const { return solver_.nominal().rubs({Motion::forward, Flank::left}); }
+  bool falls() const { return solver_.nominal().curve().falls(); }
+  /// Whether steps are in closed form in every mode.
+  bool has_closed_form() const {
+    if constexpr (has_formulas) {
+      if constexpr (std::is_same_v<Load, TimedLoad>)
+        if (!is_constant(drive_.load().signal)) return false;
+      for (const Motion motion : {Motion::forward, Motion::backward})
+        for (const Flank flank : {Flank::left, Flank::right})
+          if (!solver_.nominal().driven({motion, flank}) || solver_.nominal().rubs({motion, flank}) != rubs())
+            return false;
+      return true;
+    }
+    return false;
+  }
+  /// Whether the solver takes no step in closed form.
+  bool leaps_by_tape() const {
+    if constexpr (!has_formulas) return true;
+    if constexpr (has_formulas)
+      if (!solver_.nominal().covers()) return true;
+    if constexpr (std::is_same_v<Load, TimedLoad>) return has<Sinusoid>(drive_.load().signal);
+    return false;
+  }
 
   void advance(HeldTorque torque) {
     wormdrive::go_on(drive_, solver_, torque, progress_,
@@ -184,14 +212,40 @@ class LaneRunOf final : public LaneRun {
   }
 
   /// Leaves state and mode to the lane; at rest, with motion 0, no step is known beforehand.
-  void leave(LaneTrial<double>& trial) const {
+  void leave(LaneTrial<double>& trial) {
     const typename Drive::Instant& now = progress_.now;
     trial.theta = now.x[0];
     trial.omega = now.x[1];
-    trial.drive = Drive::at_rest(now.mode) ? DrivenMotion{} : *solver_.nominal().driven(now.mode);
+    if (taped_) return leave_on_tape();
+    if constexpr (has_formulas) {
+      trial.drive = Drive::at_rest(now.mode) ? DrivenMotion{} : *solver_.nominal().driven(now.mode);
+      if (Drive::at_rest(now.mode) || !falls()) return;
+      const FallOf<double>& fall = solver_.nominal().fall(now.mode);
+      trial.pull = fall.pull;
+      trial.bend = fall.bend;
+      trial.per_speed = fall.per_speed;
+      trial.speed_of_fall = fall.speed;
+    }
   }
-
-  using Solver = TaylorSolver<Drive>;
+  /// The same of one whose equations are on a tape. Its place in memory is that of a TapeSeriesOf<V>.
+  void leave_on_tape() {
+    const typename Drive::Instant& now = progress_.now;
+    const TapeCode* const code = Drive::at_rest(now.mode) ? nullptr : solver_.taped().code(now.mode);
+    if (code != tape_.left) tape_.fits = code != nullptr && *code == *tape_.code;
+    if (!tape_.fits) {
+      tape_.left = code;
+      tape_.numbers[0] = 0.0;  // of TapedMotionOf: it waits
+      return;
+    }
+    solver_.taped().expect_knot(drive_.next_knot(now.t));
+    const double* const numbers = solver_.taped().numbers(now.t);
+    const std::size_t inputs =
+        (sizeof(TapedMotionOf<double>) + static_cast<std::size_t>(code->waves) * sizeof(WaveOf<double>)) /
+        sizeof(double);
+    const std::size_t changed = code == tape_.left ? inputs : TapeSeriesOf<double>::numbers(*code);
+    for (std::size_t k = 0; k < changed; ++k) tape_.numbers[k * tape_.lanes] = numbers[k];
+    tape_.left = code;
+  }
 
   const Scenario& scenario_;
   RunListeners nobody_;
@@ -205,6 +259,14 @@ class LaneRunOf final : public LaneRun {
   TorqueDisturbance disturbance_;
   Progress<Drive> progress_;
   long next_ = 0;  ///< sample up to which it has come alone
+  bool taped_;
+  struct {
+    const TapeCode* code = nullptr;  ///< of the batch
+    double* numbers = nullptr;
+    std::size_t lanes = 0;
+    const TapeCode* left = nullptr;  ///< of the mode in which it was left, which fits the batch's or not
+    bool fits = false;
+  } tape_;
 };
 
 template <class Stated>
@@ -212,35 +274,15 @@ std::unique_ptr<LaneRun> lane_run(const Scenario& scenario, const Stated& load) 
   auto drive = make_drive(scenario, load, scenario.effects, scenario.motor);
   using Load = std::decay_t<decltype(drive.load())>;
   auto run = std::make_unique<LaneRunOf<Load>>(scenario, std::move(drive));
-  if (!run->has_closed_form()) return nullptr;
+  if (!run->fits()) return nullptr;
   return run;
 }
 
 }  // namespace
 
-bool has_lane_plant(const Scenario& scenario) {
-  return has_held_torque(scenario) && std::holds_alternative<GravityArm>(scenario.load) &&
-         std::isinf(scenario.effects.torque_limit());
-}
-
-bool fits_lane(const Scenario& scenario) {
-  return scenario.control && has_lane_controller(*scenario.control) && has_held_torque(scenario) &&
-         has_lane_load(scenario) && scenario.effects.measuring_delay() <= 0.0;
-}
-
-bool share_samples(const Scenario& a, const Scenario& b) {
-  if (!a.control || !b.control) return false;
-  const SolverSettings x = a.run.solver_settings(), y = b.run.solver_settings();
-  return a.control->reference == b.control->reference && a.control->sampling == b.control->sampling &&
-         a.control->window == b.control->window && a.run.duration == b.run.duration &&
-         x.relative_tolerance == y.relative_tolerance && x.absolute_tolerance == y.absolute_tolerance &&
-         x.max_step == y.max_step;
-}
-
 std::unique_ptr<LaneRun> lane_run(const Scenario& scenario) {
   if (!fits_lane(scenario)) return nullptr;
-  if (const auto* const arm = std::get_if<GravityArm>(&scenario.load)) return lane_run(scenario, *arm);
-  return lane_run(scenario, std::get<Signal>(scenario.load));
+  return std::visit([&](const auto& load) { return lane_run(scenario, load); }, scenario.load);
 }
 
 }  // namespace wormdrive

@@ -3,6 +3,7 @@
 
 #include "control/lanes/trial.hpp"
 #include "control/lanes/variant.hpp"
+#include "events/taylor/tape_series.hpp"
 #include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
@@ -10,9 +11,9 @@ namespace wormdrive {
 /// Whether torques that are held reach the mesh of a scenario as they are, and nothing but an arm under gravity loads
 /// it.
 bool has_lane_plant(const Scenario& scenario);
-/// Whether a scenario can run in a lane: between angle and torque an encoder's scale, zero, counts and noise, the
-/// sliding controller or the PID, and a delay of a sample; between torque and angle the mesh, bearings, a motor's
-/// limit, a random torque, and an arm under gravity or a constant load.
+/// Whether a scenario may run in a lane: between angle and torque an encoder's scale, zero, counts and noise, the
+/// sliding controller or the PID, and a delay of a sample; between torque and angle what has no states of its own and
+/// leaves a torque that is held as it is between samples.
 bool fits_lane(const Scenario& scenario);
 /// Whether two scenarios take the same samples of the same reference, equally exact.
 bool share_samples(const Scenario& a, const Scenario& b);
@@ -30,6 +31,13 @@ class LaneRun {
   virtual bool is_rough() const = 0;
   virtual bool is_noisy() const = 0;
   virtual bool is_disturbed() const = 0;
+  /// The operations on its tape; nullptr where its steps have closed forms.
+  virtual const TapeCode* tape() = 0;
+  /// Where the numbers of its tape go, those of a register's trials side by side, the first of its own at numbers; its
+  /// lane takes part while its operations are these.
+  virtual void use_tape(const TapeCode& code, double* numbers, int lanes) = 0;
+  /// The section of a table on its tape for an argument.
+  virtual SectionOf<double> section(int table, double x) = 0;
   /// Puts the noise of its encoder [rad] and what disturbs its shaft [N m] at samples in [first, end) there, where that
   /// is not null; every sample once and in order.
   virtual void draw(long first, long end, std::size_t stride, double* noise, double* disturbance) = 0;

@@ -7,6 +7,7 @@
 
 #include "control/lanes/batch.hpp"
 #include "events/simulation_failure.hpp"
+#include "events/taylor/taped_leap.hpp"
 #include "simulation/lane_run.hpp"
 
 namespace wormdrive {
@@ -35,6 +36,7 @@ class LaneGroup {
   std::vector<BatchResult> run(const Scenario& first) {
     bool aligned = true, rough = false, noisy = false, disturbed = false;
     LaneVariant variant = runs_.front()->variant();
+    const LaneTapes tapes = make_tapes();
     for (int lane = 0; lane < lanes(); ++lane) {
       alive_[lane / width_] |= bit(lane);
       aligned = aligned && runs_[lane]->estimate_is_aligned();
@@ -44,12 +46,11 @@ class LaneGroup {
       variant.ideal = variant.ideal && runs_[lane]->variant().ideal;
       attempt(lane, [&] { runs_[lane]->start(place(lane)); });
     }
-    const int registers = (lanes() + width_ - 1) / width_;
-    const auto numbers = static_cast<std::size_t>(portion * registers * width_);
+    const auto numbers = static_cast<std::size_t>(portion * registers() * width_);
     if (noisy) noise_.assign(numbers, 0.0);
     if (disturbed) disturbance_.assign(numbers, 0.0);
     const LaneBatch batch{.trials = memory_.data(),
-                          .registers = registers,
+                          .registers = registers(),
                           .alive = alive_.data(),
                           .accuracy = TaylorAccuracy(first.run.solver_settings()),
                           .estimate_is_aligned = aligned,
@@ -58,6 +59,7 @@ class LaneGroup {
                           .is_rough = rough,
                           .noise = noisy ? noise_.data() : nullptr,
                           .disturbance = disturbed ? disturbance_.data() : nullptr,
+                          .tapes = tapes,
                           .owner = this,
                           .go_on = go_on,
                           .note = note,
@@ -70,6 +72,21 @@ class LaneGroup {
 
  private:
   static constexpr long portion = 512;  ///< of samples
+
+  /// Memory for the tapes of all registers, and every run's place in it.
+  LaneTapes make_tapes() {
+    const TapeCode* const code = runs_.front()->tape();
+    if (code == nullptr) return {};
+    const std::size_t places = TapeSeriesOf<double>::room(*code, TapedLeapOf<double>::stride);
+    const std::size_t room = places * static_cast<std::size_t>(width_);
+    tapes_.assign(room * static_cast<std::size_t>(registers()) / std::size(Line{}.of) + 1, Line{});
+    double* const memory = tapes_.front().of;
+    for (int lane = 0; lane < lanes(); ++lane)
+      runs_[lane]->use_tape(*code, memory + static_cast<std::size_t>(lane / width_) * room + lane % width_, width_);
+    return {.code = code, .memory = memory, .room = room, .section = section, .exp = [](double x) {
+              return portable::exp(x);
+            }};
+  }
 
   /// Returns how many of them metrics are taken of.
   long take_all_samples(const Scenario& first, const LaneBatch& batch) {
@@ -108,6 +125,7 @@ class LaneGroup {
   }
 
   int lanes() const { return static_cast<int>(runs_.size()); }
+  int registers() const { return (lanes() + width_ - 1) / width_; }
   unsigned bit(int lane) const { return 1U << lane % width_; }
   bool is_alive(int lane) const { return (alive_[lane / width_] & bit(lane)) != 0U; }
   Lane place(int lane) { return {memory_.data() + lane / width_ * width_ * lane_fields, width_, lane % width_}; }
@@ -130,19 +148,30 @@ class LaneGroup {
     group.runs_[lane]->note(group.place(lane), record);
   }
 
+  static SectionOf<double> section(void* owner, int lane, int table, double x) {
+    return static_cast<LaneGroup*>(owner)->runs_[lane]->section(table, x);
+  }
+
+  /// Numbers as a register is aligned.
+  struct alignas(64) Line {
+    double of[8];
+  };
+
   LaneKind kind_;
   int width_;
   std::vector<std::unique_ptr<LaneRun>> runs_;
   std::vector<BatchResult> results_;
   std::array<unsigned, LaneBatch::most> alive_{};
   alignas(64) std::array<double, LaneBatch::most * lane_fields> memory_{};
+  std::vector<Line> tapes_;
   std::vector<double> noise_, disturbance_;  ///< of a portion of samples, of all lanes; empty where there are none
 };
 
 /// Whether one kernel can take both.
-bool share_a_kernel(LaneVariant a, const LaneVariant& b) {
-  a.ideal = b.ideal;
-  return a == b;
+bool share_a_kernel(LaneRun& a, LaneRun& b) {
+  LaneVariant of_a = a.variant();
+  of_a.ideal = b.variant().ideal;
+  return of_a == b.variant() && (!of_a.taped || *a.tape() == *b.tape());
 }
 
 }  // namespace
@@ -173,7 +202,7 @@ void run_batch(std::span<const Scenario> scenarios, const std::function<void(std
       if (taken[k] || (k > first && !share_samples(scenarios[first], scenarios[k]))) continue;
       auto run = lane_run(scenarios[k]);
       if (!run && k == first) break;
-      if (!run || (k > first && !share_a_kernel(run->variant(), runs.front()->variant()))) continue;
+      if (!run || (k > first && !share_a_kernel(*run, *runs.front()))) continue;
       runs.push_back(std::move(run));
       places.push_back(k);
       taken[k] = true;

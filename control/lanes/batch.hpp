@@ -8,6 +8,7 @@
 #include "control/reference_point.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/accuracy.hpp"
+#include "events/taylor/tape_series.hpp"
 
 namespace wormdrive {
 
@@ -19,6 +20,17 @@ struct LaneSample {
   double step;    ///< to the next one [s]; not a number where every trial has to go on alone
   bool counts;    ///< whether metrics are taken of it
   ReferencePoint desired;
+};
+
+/// The equations of trials of which no step has a closed form.
+struct LaneTapes {
+  const TapeCode* code = nullptr;  ///< what they have in common; nullptr: closed forms
+  double* memory = nullptr;        ///< TapeSeriesOf of each register, so many numbers
+  std::size_t room = 0;
+  /// The section of a table of a trial, lanes counted through, for an argument.
+  SectionOf<double> (*section)(void* owner, int lane, int table, double x) = nullptr;
+  /// e^x of any x, as a trial alone has it.
+  double (*exp)(double x) = nullptr;
 };
 
 /// Trials that take their samples together, a register of them after the other, and who sees to one of them alone.
@@ -36,6 +48,7 @@ struct LaneBatch {
   /// Of every sample of all registers, sample by sample: the noise of the encoders [rad] and what disturbs the shafts
   /// [N m]; null where nothing is random.
   const double *noise, *disturbance;
+  LaneTapes tapes;
 
   void* owner;
   /// Takes a trial, lanes counted through, to the next sample under a torque [N m] and what disturbs the shaft, events

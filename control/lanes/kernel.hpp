@@ -1,6 +1,8 @@
 #pragma once
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
+#include "control/lanes/taped_plant.hpp"
+#include "events/taylor/stribeck.hpp"
 
 // Included by one file for each instruction set, which instantiates it with a type of its own: nothing that is compiled
 // for a newer processor may be seen by the rest of the program.
@@ -16,6 +18,17 @@ class LaneKernel {
   static void take(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
     const LaneVariant& v = batch.variant;
     if (v == LaneVariant{}) return take<LaneVariant{}>(batch, sample, end);
+    if (v.taped)
+      return v.pid ? take<LaneVariant{.ideal = false, .pid = true, .swings = false, .taped = true}>(batch, sample, end)
+                   : take<LaneVariant{.ideal = false, .swings = false, .taped = true}>(batch, sample, end);
+    if (v.falls > 0) {  // whatever exponent and bearings
+      const auto falling = [&]<bool pid>() {
+        v.swings ? take<LaneVariant{.ideal = false, .pid = pid, .rubs = true, .falls = 1}>(batch, sample, end)
+                 : take<LaneVariant{.ideal = false, .pid = pid, .swings = false, .rubs = true, .falls = 1}>(
+                       batch, sample, end);
+      };
+      return v.pid ? falling.template operator()<true>() : falling.template operator()<false>();
+    }
     const auto rubbing = [&]<bool pid, bool swings>() {
       v.rubs ? take<LaneVariant{false, pid, swings, true}>(batch, sample, end)
              : take<LaneVariant{false, pid, swings, false}>(batch, sample, end);
@@ -32,9 +45,17 @@ class LaneKernel {
   template <LaneVariant variant>
   [[gnu::noinline]] static void take(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
     auto* const trials = reinterpret_cast<LaneTrial<V>*>(batch.trials);
-    std::size_t at = 0;  // of what is random
-    for (; sample != end; ++sample)
-      for (int r = 0; r < batch.registers; ++r, at += Width::lanes) take<variant>(batch, *sample, r, at, trials[r]);
+    if constexpr (variant.taped) {  // there is much of a register's: one after the other
+      const std::size_t stride = static_cast<std::size_t>(batch.registers) * Width::lanes;
+      for (int r = 0; r < batch.registers; ++r) {
+        std::size_t at = static_cast<std::size_t>(r) * Width::lanes;  // of what is random
+        for (const LaneSample* s = sample; s != end; ++s, at += stride) take<variant>(batch, *s, r, at, trials[r]);
+      }
+    } else {
+      std::size_t at = 0;
+      for (; sample != end; ++sample)
+        for (int r = 0; r < batch.registers; ++r, at += Width::lanes) take<variant>(batch, *sample, r, at, trials[r]);
+    }
   }
   template <LaneVariant variant>
   [[gnu::always_inline]] static void take(const LaneBatch& batch, const LaneSample& sample, int r, std::size_t at,
@@ -65,12 +86,25 @@ class LaneKernel {
 
     V theta = theta_now, omega = x.omega;
     const V command = record.applied + 0.0;  // the motor adds its signal, none
-    const HeldTorquesOf<V> held = !variant.ideal && batch.disturbance ? x.drive.under(command, disturbance)
-                                                                      : x.drive.template under<variant.ideal>(command);
-    const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
-    const auto known =
-        x.drive.held.goes_on(omega, held, arm) &
-        x.drive.held.template leap<variant.swings, variant.rubs>(theta, omega, sample.step, held, arm, batch.accuracy);
+    LaneMask<Width> known;
+    if constexpr (variant.taped) {
+      known = TapedPlant<Width>(batch, r).step(sample, theta, omega, command, disturbance);
+    } else {
+      const HeldTorquesOf<V> held = !variant.ideal && batch.disturbance
+                                        ? x.drive.under(command, disturbance)
+                                        : x.drive.template under<variant.ideal>(command);
+      const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
+      known = x.drive.held.goes_on(omega, held, arm);
+      if constexpr (variant.falls > 0) {
+        const FallOf<V> fall{
+            x.pull, x.bend, x.per_speed, x.speed_of_fall, batch.variant.falls, batch.variant.falls_with_tail};
+        known = known & FallingLeap<V>::template take<variant.swings>(x.drive.held, fall, theta, omega, sample.step,
+                                                                      held, arm, batch.accuracy);
+      } else {
+        known = known & x.drive.held.template leap<variant.swings, variant.rubs>(theta, omega, sample.step, held, arm,
+                                                                                 batch.accuracy);
+      }
+    }
     const unsigned alone = set_bits(!known) & batch.alive[r];
     if (alone == 0U) [[likely]] {
       x.theta = theta;

@@ -24,11 +24,12 @@ struct LaneTrial {
   SpeedEstimatorOf<V> speed;
   SampleSums<V> sums;
   Lemma1Quiet<V> quiet;
-  V limit;                        ///< of the motor's torque [N m]
-  V left;                         ///< of the torque decided at the sample before, by the limit [N m]
-  DrivenMotionOf<V> drive;        ///< the present mode; motion 0 at rest
-  SineAndCosineOf<V> arm_offset;  ///< of the arm against the gear
-  V theta, omega;                 ///< of the gear [rad, rad/s]
+  V limit;                                 ///< of the motor's torque [N m]
+  V left;                                  ///< of the torque decided at the sample before, by the limit [N m]
+  DrivenMotionOf<V> drive;                 ///< the present mode; motion 0 at rest
+  SineAndCosineOf<V> arm_offset;           ///< of the arm against the gear
+  V pull, bend, per_speed, speed_of_fall;  ///< of friction that falls with the speed in that mode, see FallOf
+  V theta, omega;                          ///< of the gear [rad, rad/s]
 };
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);

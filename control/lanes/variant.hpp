@@ -8,6 +8,9 @@ struct LaneVariant {
   bool pid = false;    ///< the law is the PID; else the sliding one
   bool swings = true;  ///< an arm under gravity loads the gear; else a constant torque
   bool rubs = false;   ///< bearings are viscous
+  int falls = 0;       ///< friction falls with the speed, with this exponent; 0: it does not
+  bool falls_with_tail = false;
+  bool taped = false;  ///< the equations are on tapes, whatever they are; else steps have a closed form
 
   bool operator==(const LaneVariant&) const = default;
 };

@@ -40,8 +40,12 @@ struct StaticFriction {
     return growth_time > T(0) ? mu + rise * (S(T(1)) - exp(-at.rest / growth_time)) : mu + S(rise);
   }
   FrictionRange friction_range(const FrictionRange& mu, double) const { return {mu.low, mu.high + rise}; }
-  /// Highest angular frequency with which friction at rest changes [rad/s].
-  double fastest_at_rest() const { return growth_time > T(0) ? 1.0 / static_cast<double>(growth_time) : 0.0; }
+  /// Highest angular frequency with which friction still changes after so long at rest [s], in rad/s.
+  double fastest_at_rest(double rest) const {
+    constexpr double grown = 37.0;  // what is left after so many growth times is less than a rounding
+    const double time = static_cast<double>(growth_time);
+    return time > 0.0 && rest < grown * time ? 1.0 / time : 0.0;
+  }
 };
 
 }  // namespace wormdrive

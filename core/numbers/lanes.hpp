@@ -47,6 +47,11 @@ struct Lanes {
     return Lanes(reinterpret_cast<Register>(reinterpret_cast<Bits>(a.x) & 0x7fff'ffff'ffff'ffff));
   }
   [[gnu::always_inline]] friend Lanes sqrt(const Lanes& a) { return Lanes(Width::roots(a.x)); }
+  /// 2^k of the whole numbers k in their last bits.
+  [[gnu::always_inline]] friend Lanes power_of_two(const Lanes& a) {
+    using Bits = typename Width::Bits;
+    return Lanes(reinterpret_cast<Register>((reinterpret_cast<Bits>(a.x) + 1023) << 52));
+  }
   [[gnu::always_inline]] friend Lanes select(const Mask& which, const Lanes& yes, const Lanes& no) {
     return Lanes(which.bits ? yes.x : no.x);
   }
@@ -122,6 +127,7 @@ struct BothLanes {
   [[gnu::always_inline]] friend BothLanes operator-(const V& a, const BothLanes& b) {
     return {a - b.first, a - b.second};
   }
+  [[gnu::always_inline]] BothLanes& operator+=(const BothLanes& b) { return *this = *this + b; }
   [[gnu::always_inline]] friend BothLanes abs(const BothLanes& a) { return {abs(a.first), abs(a.second)}; }
 };
 

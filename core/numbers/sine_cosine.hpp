@@ -73,11 +73,12 @@ template <class V>
   return Both<V>{x - (cube * third - (cube * z) * rest[0]), near_one + (((1.0 - near_one) - half) + (z * z) * rest[1])};
 }
 /// The same with the rounding error of the angle: sin(x + low) = sin x + low cos x, cos(x + low) = cos x - low sin x.
-[[gnu::always_inline]] inline Pair within(Reduced r) {
-  const double z = r.high * r.high, half = 0.5 * z, near_one = 1.0 - half, cube = z * r.high;
-  const Pair rest = tail(z);
-  return Pair{r.high - ((cube * third - near_one * r.low) - (cube * z) * rest[0]),
-              near_one + ((((1.0 - near_one) - half) - r.high * r.low) + (z * z) * rest[1])};
+template <class V>
+[[gnu::always_inline]] inline Both<V> within(const V& x, const V& low) {
+  const V z = x * x, half = 0.5 * z, near_one = 1.0 - half, cube = z * x;
+  const Both<V> rest = tail(z);
+  return Both<V>{x - ((cube * third - near_one * low) - (cube * z) * rest[0]),
+                 near_one + ((((1.0 - near_one) - half) - x * low) + (z * z) * rest[1])};
 }
 
 /// What the C library finds, for angles that are too large for the reduction.
@@ -103,7 +104,7 @@ inline constexpr double to_whole = 0x1.8p52;  ///< added to a double it leaves t
   r.low = (first - r.high) - second;
   if (std::abs(r.high) < 0x1p-10) [[unlikely]]
     r = cancelled(x, k);
-  return turned_back(within(r), shifted);
+  return turned_back(within(r.high, r.low), shifted);
 }
 
 }  // namespace quarter_turn

@@ -38,7 +38,7 @@ struct NominalEquation {
   /// What the terms of per_gear_torque add up to, and of the push of dry friction: both may all but cancel, and what
   /// rounding leaves of them is a share of this.
   double most_per_gear_torque = 0.0, most_push = 0.0;
-  StribeckCurve::Branch fall{};  ///< of friction over the speed
+  FallOf<double> fall{};  ///< of friction over the speed
 
   NominalEquation() = default;
   /// mu: friction of the teeth; Jg: inertia of the gear side with the load's own; amplitude: of an arm under gravity

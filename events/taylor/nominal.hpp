@@ -72,6 +72,14 @@ class NominalFlow<WormDrive<double, Load>> {
       return motor_.is_constant() && load_.piece.is_constant();
   }
 
+  /// Whether the load alone changes between samples: then a tape takes leaps that have no closed form here.
+  bool load_alone_varies() const {
+    if constexpr (swings)
+      return false;
+    else
+      return motor_.is_constant() && !load_.piece.is_constant();
+  }
+
   /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
   /// the switching surface. Otherwise the equations of core/ have to decide.
   bool goes_on(const Instant& now) {
@@ -79,7 +87,7 @@ class NominalFlow<WormDrive<double, Load>> {
   }
   /// A moving mode under held commands and the present load, where a leap is in closed form.
   std::optional<DrivenMotion> driven(Mode mode) const {
-    if (!covers_ || curve_.falls() || !inputs_are_constant()) return std::nullopt;
+    if (!covers_ || !inputs_are_constant()) return std::nullopt;
     const NominalEquation& m = equation(mode);
     DrivenMotion driven = m.driven;
     driven.known = uncommanded_torques(m, 0.0);
@@ -87,6 +95,9 @@ class NominalFlow<WormDrive<double, Load>> {
   }
   /// Whether its bearings are viscous.
   bool rubs(Mode mode) const { return equation(mode).rubs; }
+  /// How friction falls over the speed: the curve, and what that is in a moving mode.
+  const StribeckCurve& curve() const { return curve_; }
+  const FallOf<double>& fall(Mode mode) const { return equation(mode).fall; }
   /// What the motor makes of a command.
   const AffineMotor& response() const { return response_; }
   /// How the arm is turned against the gear.
@@ -108,7 +119,7 @@ class NominalFlow<WormDrive<double, Load>> {
     const SineAndCosine& arm = arm_at(now.x[0]);
     double h = next - now.t, &theta = now.x[0], &omega = now.x[1];
     if (curve_.falls()) {
-      if (!curve_.template leap<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
+      if (!FallingLeap<double>::take<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
         return false;
     } else if (mode_->rubs) {
       if (!mode_->driven.held.template leap<swings, true>(theta, omega, h, held, arm, accuracy)) return false;
@@ -138,7 +149,7 @@ class NominalFlow<WormDrive<double, Load>> {
   template <bool falls>
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const NominalEquation& m = *mode_;
-    if constexpr (falls) curve_.begin(m.driven.held, m.fall, now.x[1]);
+    if constexpr (falls) fall_.begin(m.fall, m.driven.held.motion, now.x[1]);
     const int last = accuracy.order();
     expand_input(motor_, now.t - late_, last, response_.gain, worm_torque_);
     worm_torque_[0] += response_.offset + disturbance_;
@@ -161,7 +172,7 @@ class NominalFlow<WormDrive<double, Load>> {
         if (std::abs(e.omega[k]) * power <= allowed) {
           complete(m, completed, k, e);
           completed = k + 1;
-          suffices = accuracy.suffices(e, h) && (!falls || curve_.holds(k, h));
+          suffices = accuracy.suffices(e, h) && (!falls || fall_.holds(k, h));
           if (suffices) return false;
           // a guard is near its root, and has to be exact to rounding; the speed has to be before it can be
           allowed = std::min(allowed, TaylorAccuracy::rounding_of(e.speed(), h) / h);
@@ -173,7 +184,7 @@ class NominalFlow<WormDrive<double, Load>> {
         alpha += m.driven.held.gravity * arm_.cosine(k);
       else
         alpha += gear_torque_[k] * m.per_gear_torque;
-      if constexpr (falls) alpha += curve_.term(k, e.omega, beyond(m, k, e));
+      if constexpr (falls) alpha += fall_.term(k, e.omega, beyond(m, k, e));
       e.omega[k + 1] = alpha * reciprocal[k + 1];
       alpha = 0.0;
       return true;
@@ -185,7 +196,7 @@ class NominalFlow<WormDrive<double, Load>> {
     if (suffices) return;
     complete(m, completed, last, e);
     e.step = accuracy.step(e, h);
-    if constexpr (falls) e.step = longest(e.step, [&](double s) { return curve_.holds(last, s); });
+    if constexpr (falls) e.step = longest(e.step, [&](double s) { return fall_.holds(last, s); });
   }
 
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
@@ -265,6 +276,7 @@ class NominalFlow<WormDrive<double, Load>> {
   std::array<NominalEquation, 6> equations_{};
   const NominalEquation* mode_ = &equations_[0];  ///< that of the latest mode
   StribeckCurve curve_;
+  FallSeriesOf<double, highest_order + 2> fall_;                  ///< of friction in the latest step
   Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
   ArmSeries arm_;                                                 ///< the arm's angle in the latest step
   SineAndCosine offset_{0.0, 1.0};                                ///< of the arm against the gear

@@ -9,6 +9,45 @@
 
 namespace wormdrive {
 
+/// The Stribeck curve of a drive, in a motion that has formulas of its own.
+class StribeckCurve {
+ public:
+  using Fall = FallOf<double>;
+
+  StribeckCurve() = default;
+  StribeckCurve(const Stribeck<double>& effect, const GearMesh<double>& mesh)
+      : drop_(effect.drop),
+        least_(mesh.mu - effect.drop),
+        per_speed_(std::abs(mesh.sliding_speed(mesh.i)) / effect.speed),
+        exponent_(static_cast<int>(std::ceil(effect.exponent))),
+        has_tail_(effect.tail > 0.0) {}
+
+  bool falls() const { return exponent_ > 0; }
+  int exponent() const { return exponent_; }
+  bool has_tail() const { return has_tail_; }
+  double least_friction() const { return least_; }
+
+  /// least_mu: the lowest friction of the mode; product: its motion times flank; Jg: inertia of the gear side with the
+  /// load's own.
+  Fall fall(const GearMesh<double>& mesh, double least_mu, double Jg, int product) const {
+    const auto inertia = [&](double mu) {
+      return mesh.Jw * mesh.i * mesh.gear_arm(product * mu) + Jg * mesh.worm_arm(product * mu);
+    };
+    const double least = inertia(least_mu);
+    return {mesh.lg * mesh.lw * portable::cos(mesh.phi_n) * product * drop_ * Jg / (least * least),
+            (inertia(least_mu + drop_) - least) / least,
+            per_speed_,
+            1.0 / per_speed_,
+            exponent_,
+            has_tail_};
+  }
+
+ private:
+  double drop_ = 0.0, least_ = 0.0, per_speed_ = 0.0;
+  int exponent_ = 0;  ///< 0: friction does not fall
+  bool has_tail_ = false;
+};
+
 /// What the effects of a drive are in the formulas of its nominal motion. swings: an arm under gravity loads it.
 template <bool swings>
 struct NominalEffects {
@@ -54,7 +93,7 @@ struct NominalEffects {
     here.worm_coulomb += motion * uneven_.torque;
     here.worm_viscous += motion * uneven_.coefficient * mesh.i;
     NominalEquation equation{mesh, mu, system.Jg(), response, here, amplitude, surface, motion, flank};
-    equation.fall = curve.branch(mesh, mu, system.Jg(), motion * flank);
+    equation.fall = curve.fall(mesh, mu, system.Jg(), motion * flank);
     return equation;
   }
 

@@ -21,6 +21,9 @@ inline constexpr auto reciprocal = [] {
   return r;
 }();
 
+/// The same where no table may be: in kernels of lanes, whose symbols nobody else sees.
+[[gnu::always_inline]] inline double one_over(int k) { return 1.0 / static_cast<double>(k); }
+
 /// Coefficients c[0], c[1], ... of the polynomial c[0] + c[1] s + ... in the time s since a step began.
 using Polynomial = std::span<const double>;
 

@@ -72,8 +72,9 @@ class TaylorSolver {
     return advance_step_by_step(now, next, limit);
   }
 
-  /// The formulas by which it leaps.
+  /// The formulas by which it leaps, and the tapes.
   const NominalFlow<System>& nominal() const { return nominal_; }
+  TapedFlow<System>& taped() { return taped_; }
   /// Counts leaps that were made elsewhere by the same formulas, each after a restart.
   void count_leaps(long leaps) {
     count_.restarts += leaps;
@@ -116,7 +117,7 @@ class TaylorSolver {
     bool held = false;
     if constexpr (NominalFlow<System>::known) {
       // Where they know the drive, their series cost less than a tape's.
-      held = nominal_.covers();
+      held = nominal_.covers() && !(nominal_.load_alone_varies() && covers_phase(now.t, limit));
       if (held && !nominal_.leap(now, limit, accuracy_)) return false;
     }
     if (!held && !leap_by_tape(now, limit)) return false;
@@ -126,6 +127,8 @@ class TaylorSolver {
     end_ = limit;
     return true;
   }
+  /// Whether a series around the begin may reach to the end: an input turns by less than half a radian.
+  bool covers_phase(double begin, double end) const { return (end - begin) * system_.fastest_input(begin) <= 0.5; }
   [[gnu::noinline]] bool leap_by_tape(Instant& now, double limit) {
     if constexpr (TapedFlow<System>::known) return taped_.covers(now.mode) && taped_.leap(now, limit, accuracy_);
     return false;
@@ -222,7 +225,7 @@ class TaylorSolver {
   /// Quantities at whose zeros the equations bend are followed by their series: these have to be theirs.
   double longest_step(const Instant& now) {
     if (bends_.none()) return max_step_;
-    const double rate = std::max(system_.fastest_input(now.t), ripple_rate(system_, now.x));
+    const double rate = std::max(fastest_change(system_, now), ripple_rate(system_, now.x));
     const double looks = rate > 0.0 ? phase_between_looks(false) / rate : max_step_;
     return std::min({max_step_, looks, bends_.first_step()});
   }

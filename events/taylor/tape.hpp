@@ -93,7 +93,7 @@ class Taped {
     if (!a.tape_) return b * a;
     if (b.tape_) return a.tape_->record(Operation::multiply, a.place_, b.place_);
     if (b.constant_ == 0.0) return 0.0;
-    return b.constant_ == 1.0 ? a : a.tape_->record(Operation::scale, a.place_, 0, b.constant_);
+    return a.tape_->record(Operation::scale, a.place_, 0, b.constant_);  // even 1: in another mode it may be -1
   }
   friend Taped operator/(const Taped& a, const Taped& b) {
     if (!b.tape_) return a.tape_ ? a * Taped(1.0 / b.constant_) : Taped(a.constant_ / b.constant_);

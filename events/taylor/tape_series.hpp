@@ -1,69 +1,167 @@
 #pragma once
 #include <cstddef>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "core/numbers/lanes.hpp"
+#include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/polynomial.hpp"
 #include "events/taylor/tape.hpp"
 
 namespace wormdrive {
 
-/// The power series in time of all that stands on a tape, and how far each may stray from its value at the start.
-class TapeSeries {
- public:
-  /// The tape must outlive it.
-  explicit TapeSeries(const Tape& tape);
+/// What the equations on a tape take from outside, in the places that come first.
+struct TapeInput {
+  enum : int { time, angle, speed, command, load, disturbance, count };
+};
 
-  Coefficients& operator[](int place) { return series_[static_cast<std::size_t>(place)]; }
-  const Coefficients& operator[](int place) const { return series_[static_cast<std::size_t>(place)]; }
-  /// Works out coefficient k of the results of the first so many operations, in order; inputs have theirs.
-  void work_out(int k, std::size_t operations);
+/// The operations on a tape and which of their results count, without any number: what drives that have the same
+/// effects have in common. The tape must outlive it.
+struct TapeCode {
+  const Tape::Step* steps = nullptr;
+  int operations = 0, of_acceleration = 0;  ///< all, and those up to the acceleration
+  int places = 0;
+  int acceleration = 0, beyond = 0, worm = 0, gear = 0;  ///< places of what counts
+  const int* bounded = nullptr;                          ///< places that are bound to a least value ...
+  const int* arguments = nullptr;                        ///< ... or to a section of a table
+  int bounds = 0, sections = 0;
+  int waves = 0;  ///< of the load over time
+
+  friend bool operator==(const TapeCode& a, const TapeCode& b);
+};
+
+/// A cosine over time, and its sine and cosine at the present moment.
+template <class V>
+struct WaveOf {
+  V amplitude, omega, phase;
+  SineAndCosineOf<V> now;
+};
+
+/// The cubic of a table that holds now, or the constant before or behind all: between which arguments, and
+/// value + s (slope + s (second + s third)), s = x - begin.
+template <class V>
+struct SectionOf {
+  V low, high, begin, value, slope, second, third;
+};
+
+/// What a leap needs of a drive in one mode beside the operations of its tape, of one drive or of several at once. It
+/// consists of V alone. All in SI.
+template <class V>
+struct TapedMotionOf {
+  V motion, flank;       ///< +1, -1 or (flank) 0; motion 0 where the lane has to wait
+  V surface;             ///< Jw i/Jg
+  V angle_disc;          ///< of complex angles that is looked at
+  V time_disc;           ///< of complex times in which inputs change little; infinite where they are constant
+  V load, slope, start;  ///< of the load over time: load + slope (t - start) + its waves
+  V steepness, fastest;  ///< of these the most slope and the highest angular frequency
+  V next_knot;           ///< when the inputs become others
+};
+
+/// The power series in time of all that stands on a tape, and how far each may stray from its value at the start, in
+/// memory that is somebody else's: of one drive or of several at once.
+///
+/// The numbers that describe a drive come first in it, in the same order for one as for several.
+template <class V>
+class TapeSeriesOf {
+ public:
+  using Mask = MaskOf<V>;
+
+  /// stride: coefficients of each place.
+  TapeSeriesOf(const TapeCode& code, double* memory, int stride) : code_(&code), stride_(stride) {
+    motion_ = reinterpret_cast<TapedMotionOf<V>*>(memory);
+    waves_ = reinterpret_cast<WaveOf<V>*>(motion_ + 1);
+    constants_ = reinterpret_cast<V*>(waves_ + code.waves);
+    least_ = constants_ + code.operations;
+    sections_ = reinterpret_cast<SectionOf<V>*>(least_ + code.bounds);
+    radii_ = reinterpret_cast<V*>(sections_ + code.sections);
+    coefficients_ = radii_ + code.places;
+  }
+  /// How many numbers describe a drive ...
+  static std::size_t numbers(const TapeCode& code) {
+    return (sizeof(TapedMotionOf<V>) + sizeof(SectionOf<V>) * static_cast<std::size_t>(code.sections) +
+            sizeof(WaveOf<V>) * static_cast<std::size_t>(code.waves)) /
+               sizeof(V) +
+           static_cast<std::size_t>(code.operations + code.bounds);
+  }
+  /// ... and how many V there are in all.
+  static std::size_t room(const TapeCode& code, int stride) {
+    return numbers(code) + static_cast<std::size_t>(code.places) * static_cast<std::size_t>(1 + stride);
+  }
+
+  const TapeCode& code() const { return *code_; }
+  TapedMotionOf<V>& motion() { return *motion_; }
+  const TapedMotionOf<V>& motion() const { return *motion_; }
+  WaveOf<V>& wave(int k) { return waves_[k]; }
+  V& constant(int step) { return constants_[step]; }
+  V& least_of(int bound) { return least_[bound]; }
+  SectionOf<V>& section(int k) { return sections_[k]; }
+
+  /// The coefficients of a place.
+  V* operator[](int place) { return coefficients_ + place * stride_; }
+  const V* operator[](int place) const { return coefficients_ + place * stride_; }
+  /// Works out coefficient k of the results of the first so many operations, in order; inputs have theirs. functions:
+  /// sine_and_cosine() and exp() of a V; find(section, x) lets a section be that of x, turns(section, x, k) the next
+  /// one if coefficient k of x is what takes x out of it just now, and says whether it did.
+  template <class Functions>
+  void work_out(int k, int operations, Functions&& functions);
 
   static constexpr double widest = 2.0;  ///< disc of a phase [rad] that is told about
 
   // ---- discs of complex numbers around coefficient 0 -------------------------------------------------------------
 
-  double& radius(int place) { return radii_[static_cast<std::size_t>(place)]; }
-  double radius(int place) const { return radii_[static_cast<std::size_t>(place)]; }
+  V& radius(int place) { return radii_[place]; }
+  const V& radius(int place) const { return radii_[place]; }
   /// Works out discs that hold the results wherever in theirs the inputs are, if shrinking() is 1.
   void work_out_discs();
   /// The factor, at most 1, by which the discs of the inputs have to be smaller.
-  double shrinking() const;
-
-  // ---- between which values the equations are these ----------------------------------------------------------------
-
-  struct Range {
-    int place;
-    double low, high;
-  };
-  /// Calls visit(range) for every result that is bound to one.
-  template <class Visit>
-  void for_each_range(Visit&& visit) const {
-    for (const Tape::Condition& c : tape_.conditions()) visit(Range{c.place, c.least, infinite});
-    for (const Section& s : sections_) visit(Range{s.place, s.low, s.high});
-  }
+  V shrinking() const;
+  /// Whether all that is bound to a range stays in it where everything strays by this share of its radius.
+  Mask stays_in_range(const V& share) const;
+  /// Whether no table is where one of its sections ends.
+  Mask is_within_sections() const;
 
  private:
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-  /// The cubic of a table that holds now, or the constant before or behind all.
-  struct Section {
-    const CubicTable* table;
-    int place;  ///< of the argument
-    std::size_t number{};
-    CubicTable::Cubic cubic{};
-    double low{}, high{};
-
-    void choose(std::size_t n);
-    void find(double x);
-    void turn_to(double x, double rate);
-    double disc(double x, double radius) const;
-  };
-
-  const Tape& tape_;
-  std::vector<Coefficients> series_;
-  std::vector<double> radii_;
-  std::vector<Section> sections_;  ///< of the tables, in order
+  const TapeCode* code_;
+  int stride_;
+  TapedMotionOf<V>* motion_;
+  WaveOf<V>* waves_;
+  V *constants_, *least_;
+  SectionOf<V>* sections_;
+  V *radii_, *coefficients_;
 };
+
+/// How near to its end a section of a table ends: what rounding leaves of the time at which a point is met.
+template <class V>
+[[gnu::always_inline]] inline V resolution_of(const SectionOf<V>& s, const V& x) {
+  return 1e-12 * greatest<V>(abs(x), least<V>(s.high - s.low, V(1.0)));
+}
+
+/// The sections of the tables on the tape of a drive alone, and its elementary functions.
+class TapeTables {
+ public:
+  TapeTables() = default;
+  TapeTables(const Tape& tape, TapeSeriesOf<double>& series);
+
+  SineAndCosine sine_and_cosine(double x) const { return wormdrive::sine_and_cosine(x); }
+  double exp(double x) const { return portable::exp(x); }
+  void find(int section, double x);
+  bool turns(int section, const double* x, int k);
+
+ private:
+  struct Place {
+    const CubicTable* table;
+    SectionOf<double>* section;
+    std::size_t number;
+
+    /// The n-th section: before the first point, the cubics between the points, behind the last.
+    void choose(std::size_t n);
+  };
+  std::vector<Place> places_;
+};
+
+extern template class TapeSeriesOf<double>;
+extern template void TapeSeriesOf<double>::work_out(int, int, TapeTables&);
 
 }  // namespace wormdrive

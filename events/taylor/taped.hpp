@@ -5,13 +5,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <type_traits>
+#include <vector>
 
 #include "core/worm_drive.hpp"
-#include "events/taylor/input.hpp"
-#include "events/taylor/leap.hpp"
+#include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/taped_leap.hpp"
 
 namespace wormdrive {
 
@@ -45,53 +44,63 @@ class TapedFlow<WormDrive<double, Load>> {
     course_ = courses_[static_cast<std::size_t>(at)].get();
     if (course_ == nullptr) [[unlikely]]
       course_ = (courses_[static_cast<std::size_t>(at)] = std::make_unique<Course>(system_, mode)).get();
-    return course_->series.has_value();
+    return course_->leap.has_value();
   }
 
   /// One step to next in a mode that is covered, if it is certain beforehand that no guard falls through zero in it and
   /// how far the series must go; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     const double h = next - now.t;
-    start(now);
-    course_->series->work_out(0, course_->tape.steps().size());
-    terms_ = terms_over(now, h, accuracy);
-    if (terms_ == 0) return false;
-    if (!inputs_are_constant()) expand_inputs(now.t, longest);
-    Coefficients &theta = input(angle), &omega = input(speed);
-    const Coefficients& acceleration = (*course_->series)[course_->acceleration];
-    for (int k = 0;; ++k) {
-      theta[k + 1] = omega[k] * reciprocal[k + 1];
-      omega[k + 1] = acceleration[k] * reciprocal[k + 1];
-      if (k + 1 == terms_) break;
-      course_->series->work_out(k + 1, course_->operations);
-    }
-    theta[terms_ + 1] = omega[terms_] * reciprocal[terms_ + 1];
+    begin(now);
+    const MotorInput<double>& motor = system_.motor_input();
+    const auto command_disc = [&](double seconds) {
+      return motor.is_constant() ? 0.0 : motor.change_within(now.t, seconds);
+    };
+    if (!course_->leap->foresee(true, h, accuracy, command_disc)) return false;
+    if (!motor.is_constant()) expand_command(now.t, TapedLeap::longest);
+    course_->leap->follow(course_->tables);
     now.x = state(h);
     now.t = next;
     return true;
   }
   /// Angle and speed so many seconds after the latest leap began.
   typename System::State state(double s) const {
-    const std::size_t n = static_cast<std::size_t>(terms_);
-    return {value({input(angle).data(), n + 2}, s), value({input(speed).data(), n + 1}, s)};
+    return {course_->leap->angle_after(s), course_->leap->speed_after(s)};
+  }
+
+  // ---- for lanes -----------------------------------------------------------------------------------------------
+
+  /// The operations in a mode; nullptr where its equations cannot be recorded.
+  const TapeCode* code(Mode mode) { return covers(mode) ? &course_->code : nullptr; }
+  /// Tells the latest mode when its inputs become others [s].
+  void expect_knot(double t) { course_->leap->series().motion().next_knot = t; }
+  /// The numbers of the latest mode and of the inputs that hold at a time.
+  const double* numbers(double t) {
+    read_inputs(t);
+    return course_->memory.data();
+  }
+  /// The section of a table in the latest mode.
+  SectionOf<double> section(int number, double x) {
+    course_->tables.find(number, x);
+    return course_->leap->series().section(number);
   }
 
   /// The motion from now on in a mode that is covered, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
-    // the next piece of a table may begin where the step does
-    if (course_->has_table) return SeriesFlow<System>::expand(system_, now, h, accuracy, e);
     const int last = accuracy.order();
-    start(now);
-    if (!inputs_are_constant()) expand_inputs(now.t, highest_order);
-    const Coefficients& acceleration = (*course_->series)[course_->acceleration];
+    TapeSeriesOf<double>& series = course_->leap->series();
+    begin(now);
+    course_->leap->expand_load(last);
+    if (!system_.motor_input().is_constant()) expand_command(now.t, highest_order);
+    const double* const acceleration = series[series.code().acceleration];
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
     double allowed = accuracy.allowed(e.omega[0], h), power = 1.0 / h;  // power: h^(k-1)
     bool suffices = false;
     for (int k = 0;; ++k) {
-      input(angle)[k] = e.theta[k];
-      input(speed)[k] = e.omega[k];
-      course_->series->work_out(k, course_->tape.steps().size());
+      series[In::angle][k] = e.theta[k];
+      series[In::speed][k] = e.omega[k];
+      if (k > 0) series.work_out(k, series.code().operations, course_->tables);
       if (k == last) break;
       if (k >= TaylorAccuracy::least_order && std::abs(e.omega[k]) * power <= allowed) {
         complete(now.mode, k, e);
@@ -109,45 +118,72 @@ class TapedFlow<WormDrive<double, Load>> {
       complete(now.mode, last, e);
       e.step = accuracy.step(e, h);
     }
+    for (int k = 0; k < series.code().sections; ++k)
+      e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
     if (course_->has_exponential) SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
 
  private:
-  static constexpr int longest = 12;        ///< coefficients of the acceleration in a leap
-  static constexpr double farthest = 64.0;  ///< leaps that the disc of times is wide
-
-  /// Places of the inputs.
-  enum Input { time, angle, speed, command, load, disturbance, inputs };
+  using TapedLeap = TapedLeapOf<double>;
+  using In = TapeInput;
 
   /// The equations in one mode.
-  struct Course {
-    Tape tape{inputs};
-    std::optional<TapeSeries> series;  ///< nothing where the equations could not be recorded
-    int acceleration{}, beyond{};      ///< places
-    std::size_t operations{};          ///< up to the acceleration
-    bool has_exponential = false;      ///< of what moves: its terms may be too small to be seen at first
-    bool has_table = false;
-    bool moves = false;  ///< inputs have more than a value
-
+  class Course {
+   public:
     Course(const System& system, Mode mode) {
       using Side = typename System::template SideTorques<Taped>;
-      const auto at = system.moment(tape.input(time), tape.input(angle), tape.input(speed));
-      const Taped motor = system.effects().motor_torque(tape.input(command), at);
-      const Side tau =
-          system.with_bearings(Side{motor + tape.input(disturbance), load_torque(system, at, mode)}, at, mode.motion);
-      acceleration = tape.place(system.acceleration(tau, at, mode));
-      operations = tape.steps().size();
-      beyond = tape.place(system.beyond_surface(tau, at));
-      for (const Tape::Step& s : tape.steps()) {
+      const auto at = system.moment(tape_.input(In::time), tape_.input(In::angle), tape_.input(In::speed));
+      const Taped motor = system.effects().motor_torque(tape_.input(In::command), at);
+      const Side tau = system.with_bearings(Side{motor + tape_.input(In::disturbance), load_torque(system, at, mode)},
+                                            at, mode.motion);
+      code.acceleration = tape_.place(system.acceleration(tau, at, mode));
+      code.of_acceleration = static_cast<int>(tape_.steps().size());
+      code.beyond = tape_.place(system.beyond_surface(tau, at));
+      code.worm = tape_.place(tau.worm);
+      code.gear = tape_.place(tau.gear);
+      for (const Tape::Step& s : tape_.steps()) {
         has_exponential = has_exponential || s.operation == Tape::Operation::exponential;
-        has_table = has_table || s.operation == Tape::Operation::table;
+        if (s.operation == Tape::Operation::table) arguments_.push_back(s.a);
       }
-      if (!tape.is_complete()) return;
-      series.emplace(tape);
-      (*series)[time][1] = 1.0;
+      if (!tape_.is_complete()) return;
+      for (const Tape::Condition& c : tape_.conditions()) bounded_.push_back(c.place);
+      code.steps = tape_.steps().data();
+      code.operations = static_cast<int>(tape_.steps().size());
+      code.places = tape_.places();
+      code.bounded = bounded_.data();
+      code.arguments = arguments_.data();
+      code.bounds = static_cast<int>(bounded_.size());
+      code.sections = static_cast<int>(arguments_.size());
+      if (const TimedLoad* const timed = over_time(system.load()))
+        code.waves = static_cast<int>(timed->signal.terms.size());
+      memory.assign(TapeSeriesOf<double>::room(code, stride), 0.0);
+      leap.emplace(TapeSeriesOf<double>(code, memory.data(), stride));
+      TapeSeriesOf<double>& series = leap->series();
+      for (std::size_t k = 0; k < tape_.steps().size(); ++k)
+        series.constant(static_cast<int>(k)) = tape_.steps()[k].constant;
+      for (std::size_t k = 0; k < bounded_.size(); ++k)
+        series.least_of(static_cast<int>(k)) = tape_.conditions()[k].least;
+      TapedMotionOf<double>& motion = series.motion();
+      motion.motion = sign(mode.motion);
+      motion.flank = sign(mode.flank);
+      motion.surface = system.surface();
+      const double ripple = system.ripple();
+      motion.angle_disc = ripple > 0.0 ? TapeSeriesOf<double>::widest / ripple : 1.0;
+      tables = TapeTables(tape_, series);
     }
+    Course(const Course&) = delete;  // what is in it points to the rest
+    Course& operator=(const Course&) = delete;
+
+    TapeCode code;
+    std::vector<double> memory;
+    std::optional<TapedLeap> leap;  ///< nothing where the equations could not be recorded
+    TapeTables tables;
+    bool has_exponential = false;  ///< of what moves: its terms may be too small to be seen at first
+    bool command_moves = false;    ///< the series of the command has more than a value
 
    private:
+    static constexpr int stride = highest_order + 2;  ///< a search for events takes the longest series
+
     /// A load of which the functions of time are an input.
     struct Given {
       const Load& all;
@@ -161,12 +197,12 @@ class TapedFlow<WormDrive<double, Load>> {
     };
     Taped load_torque(const System& system, const Moment<Taped>& at, Mode mode) {
       if (over_time(system.load()) == nullptr) return system.effects().load_torque(system.load(), at, mode.motion);
-      return system.effects().load_torque(Given{system.load(), tape.input(load)}, at, mode.motion);
+      return system.effects().load_torque(Given{system.load(), tape_.input(In::load)}, at, mode.motion);
     }
-  };
 
-  Coefficients& input(Input which) { return (*course_->series)[which]; }
-  const Coefficients& input(Input which) const { return (*course_->series)[which]; }
+    Tape tape_{In::count};
+    std::vector<int> bounded_, arguments_;
+  };
 
   /// What of a load depends on time alone, or nullptr.
   static const TimedLoad* over_time(const Load& load) {
@@ -175,90 +211,63 @@ class TapedFlow<WormDrive<double, Load>> {
     else
       return nullptr;
   }
-  const Piece* load_piece() const {
+
+  void begin(const Instant& now) {
+    read_inputs(now.t);
+    course_->leap->begin(now.t, now.x[0], now.x[1], system_.motor_input()(now.t), system_.disturbance(),
+                         course_->tables);
+    if (!course_->command_moves) return;
+    double* const c = course_->leap->series()[In::command];
+    std::fill(c + 1, c + highest_order + 2, 0.0);
+    course_->command_moves = false;
+  }
+  /// The inputs that hold now.
+  void read_inputs(double t) {
+    TapedMotionOf<double>& m = course_->leap->series().motion();
     const TimedLoad* const timed = over_time(system_.load());
-    return timed == nullptr ? nullptr : &timed->piece;
+    const bool constant = system_.motor_input().is_constant() && (timed == nullptr || timed->piece.is_constant());
+    m.time_disc = constant ? std::numeric_limits<double>::infinity() : 1.0 / system_.fastest_input(t);
+    if (timed == nullptr) return;
+    const Piece& piece = timed->piece;
+    m.load = piece.constant;
+    m.slope = piece.slope;
+    m.start = piece.start;
+    m.steepness = m.fastest = 0.0;
+    for (int k = 0; k < course_->code.waves; ++k) {
+      const bool holds = static_cast<std::size_t>(k) < piece.cosines.size();
+      const Cosine wave = holds ? piece.cosines[static_cast<std::size_t>(k)] : Cosine{0.0, 0.0, 0.0};
+      course_->leap->series().wave(k) = {wave.amplitude, wave.omega, wave.phase, {}};
+      m.steepness += std::abs(wave.amplitude * wave.omega);
+      m.fastest = std::max(m.fastest, std::abs(wave.omega));
+    }
   }
-  bool inputs_are_constant() const {
-    const Piece* const piece = load_piece();
-    return system_.motor_input().is_constant() && (piece == nullptr || piece->is_constant());
-  }
-  /// The values of the inputs.
-  void start(const Instant& now) {
-    input(time)[0] = now.t;
-    input(angle)[0] = now.x[0];
-    input(speed)[0] = now.x[1];
-    input(command)[0] = system_.motor_input()(now.t);
-    input(disturbance)[0] = system_.disturbance();
-    if (const Piece* const piece = load_piece()) input(load)[0] = (*piece)(now.t);
-    if (!course_->moves) return;
-    std::fill(input(command).begin() + 1, input(command).end(), 0.0);
-    std::fill(input(load).begin() + 1, input(load).end(), 0.0);
-    course_->moves = false;
-  }
-  /// The series of those that change on their own.
-  void expand_inputs(double t, int order) {
+  /// The series of the motor's command.
+  void expand_command(double t, int order) {
     const auto motor = system_.motor_input()(OpenSeries<double>::variable(t, order));
-    std::copy(motor.c.begin(), motor.c.end(), input(command).begin());
-    if (const Piece* const piece = load_piece()) expand_input(*piece, t, order, 1.0, input(load));
-    course_->moves = true;
+    std::copy(motor.c.begin(), motor.c.begin() + order + 1, course_->leap->series()[In::command]);
+    course_->command_moves = true;
   }
 
-  /// How many coefficients of the acceleration a step of h needs; 0 if a guard might fall in it, or if it takes more
-  /// than there are.
-  ///
-  /// Around the present moment there is a disc of complex times in which angle and speed stay in discs of theirs, and
-  /// so nothing strays from its value f by more than some r. What is so bounded in a disc of a radius R differs from f
-  /// by at most r |s|/R at a time s (Schwarz), and its k-th coefficient is at most r/R^k (Cauchy).
-  int terms_over(const Instant& now, double h, const TaylorAccuracy& accuracy) {
-    TapeSeries& series = *course_->series;
-    const double omega = now.x[1], v = std::abs(omega), alpha = series[course_->acceleration][0];
-    const double motion = sign(now.mode.motion), flank = sign(now.mode.flank);
-    // Radii with which both angle and speed use up theirs at about the same time.
-    const double ripple = system_.ripple();
-    series.radius(angle) = ripple > 0.0 ? TapeSeries::widest / ripple : 1.0;
-    series.radius(speed) = std::max(0.5 * (std::sqrt(v * v + 4.0 * series.radius(angle) * std::abs(alpha)) - v),
-                                    series.radius(angle) / (4.0 * farthest * h));
-    series.radius(time) = farthest * h;
-    series.radius(command) = series.radius(load) = series.radius(disturbance) = 0.0;
-    if (!inputs_are_constant()) {
-      series.radius(time) = std::min(series.radius(time), 1.0 / system_.fastest_input(now.t));
-      series.radius(command) = system_.motor_input().change_within(now.t, series.radius(time));
-      if (const Piece* const piece = load_piece()) series.radius(load) = piece->change_within(series.radius(time));
+  /// How long the argument of a table stays in its section, within the step [s].
+  double end_of_section(const SectionOf<double>& section, const double* x, const Motion& e) {
+    double end = e.step;
+    for (const double side : {1.0, -1.0}) {
+      Coefficients left{};  // to the point on that side
+      left[0] = side > 0.0 ? section.high - x[0] : x[0] - section.low;
+      if (!std::isfinite(left[0])) continue;
+      for (int k = 1; k <= e.order; ++k) left[k] = -side * x[k];
+      std::size_t vanishing = std::abs(left[0]) <= resolution_of(section, x[0]) ? 1 : 0;
+      while (vanishing > 0 && vanishing <= static_cast<std::size_t>(e.order) && left[vanishing] == 0.0) ++vanishing;
+      const Polynomial all{left.data(), static_cast<std::size_t>(e.order) + 1};
+      if (const auto met = search_.fall_from_start(all, end, vanishing).at) end = *met;
     }
-    series.work_out_discs();
-    if (const double factor = series.shrinking(); !(factor >= 1.0)) {
-      for (const Input which : {time, angle, speed, command, load}) series.radius(which) *= (1.0 - 1e-6) * factor;
-      series.work_out_discs();
-      if (!(series.shrinking() >= 1.0)) return 0;
-    }
-    const double strays = series.radius(course_->acceleration);
-    const double disc = std::min({series.radius(speed) / (above_one * (std::abs(alpha) + strays)),
-                                  series.radius(angle) / (v + series.radius(speed)), series.radius(time)});
-    const double ratio = above_one * h / disc;
-    if (!(ratio <= 0.5)) return 0;
-
-    const double bend = strays * ratio, change = above_one * (std::abs(alpha) + bend) * h, along = motion * omega;
-    if (!(along > change || (along >= 0.0 && motion * alpha > bend))) return 0;
-    if (flank != 0.0 && !(-flank * series[course_->beyond][0] > series.radius(course_->beyond) * ratio)) return 0;
-    bool within = true;
-    series.for_each_range([&](const TapeSeries::Range& r) {
-      const double x = series[r.place][0], nearing = series.radius(r.place) * ratio;
-      within = within && x - nearing > r.low && x + nearing < r.high;
-    });
-    if (!within) return 0;
-
-    const double allowed = accuracy.allowed(v + change, h) * (1.0 - ratio);
-    double error = bend;  // of the acceleration
-    for (int terms = 1; terms <= longest; ++terms, error *= ratio)
-      if (error * reciprocal[terms + 1] <= allowed) return terms;
-    return 0;
+    return end;
   }
 
   /// Angle and guards to the order to which the speed is known.
   void complete(Mode mode, int order, Motion& e) const {
     e.order = order;
-    const Coefficients& beyond = (*course_->series)[course_->beyond];
+    const double* const beyond = course_->leap->series()[course_->code.beyond];
     const double motion = sign(mode.motion), side = -sign(mode.flank);
     e.theta[order + 1] = e.omega[order] * reciprocal[order + 1];
     for (int k = 0; k <= order; ++k) {
@@ -271,7 +280,7 @@ class TapedFlow<WormDrive<double, Load>> {
   bool changes_;  ///< an effect is another one from a given time on
   std::array<std::unique_ptr<Course>, 6> courses_;
   Course* course_ = nullptr;  ///< of the latest mode
-  int terms_ = 0;             ///< of the latest leap
+  RootSearch search_;         ///< of the ends of sections
 };
 
 }  // namespace wormdrive

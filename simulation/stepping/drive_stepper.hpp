@@ -25,7 +25,7 @@ class DriveStepper final : public SteppedDrive {
     begin();
     if constexpr (requires { solver_.nominal().driven(Mode{}); })
       lane_ = lane && solver_.nominal().driven({Motion::forward, Flank::left}) &&
-              !solver_.nominal().rubs({Motion::forward, Flank::left});
+              !solver_.nominal().rubs({Motion::forward, Flank::left}) && !solver_.nominal().curve().falls();
   }
 
   StepState state() const override {

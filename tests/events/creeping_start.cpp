@@ -118,4 +118,33 @@ TEST_CASE("friction that does not fall yet, for the load passes through zero, ca
   }
 }
 
+TEST_CASE("a speed far below the tolerance is a motion of its own: what gains it goes on, and stops in its time") {
+  std::mt19937_64 random(28);
+  const auto decades = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution(low, high)(random));
+  };
+  for (int k = 0; k < 40; ++k) {
+    // a torque that rises to little more than the bearings hold, and falls again: J omega' = torque - 1
+    const double J = decades(-4.0, 2.0), excess = decades(-8.0, -2.0), start = 1.0 / (1.0 + excess);
+    const double rate = (1.0 + excess) / J;  // of the acceleration, which is excess/J at the knot
+    const double gained = 0.5 * rate * (1.0 - start) * (1.0 - start);
+    const double later = (excess / J + std::sqrt(excess / J * (excess / J) + 2.0 * rate * gained)) / rate;
+    const Samples triangle{
+        .times = {0.0, 1.0, 2.0}, .values = {0.0, 1.0 + excess, 0.0}, .interpolation = Interpolation::linear};
+    Effects<double> effects;
+    std::get<std::optional<WormCoulomb<double>>>(effects.list) = WormCoulomb<double>{.torque = 1.0};
+    for (const By by : every_solver)
+      for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-10}) {
+        CAPTURE(k, J, excess, tolerance, static_cast<int>(by.solver), static_cast<int>(by.method));
+        const auto r =
+            run(WormDrive(GearMesh<double>::without_teeth(J), make_load(Signal{}), effects, Signal{{triangle}}),
+                Timetable(0.0, 2.0, 2.0), {}, tight(by, tolerance));
+        REQUIRE(r.events.size() == 2);
+        CHECK(std::abs(r.events[0].after.t - start) <= 1e-6 * excess + 1e-15);
+        CHECK(std::abs(r.events[1].after.t - 1.0 - later) <= 0.05 * later + 1e-15);
+        CHECK(r.end.x[0] > -0.01 * tolerance);  // less is not known of it
+      }
+  }
+}
+
 }  // namespace wormdrive::test::events_creeping_start

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "catch.hpp"
+#include "core/ripple.hpp"
 #include "events/audit.hpp"
 #include "support.hpp"
 
@@ -104,6 +105,28 @@ TEST_CASE("friction that grows over hours holds no torque of ten times break-in"
       REQUIRE(r.events.size() == 1);
       REQUIRE(r.events[0].after.t == 1.0);
       REQUIRE(r.end.mode.motion == Motion::forward);
+    }
+}
+
+TEST_CASE("friction that grows at rest is watched until it has grown, and not while the gear moves") {
+  const auto d = drive(table1(), constant(load), constant(0.1), effects(StaticFriction<double>{0.1, 1e-6}));
+  WormDrive<double, TimedLoad>::Instant now;
+  CHECK(fastest_change(d, now) == 1e6);
+  now.t = 1e-4;
+  CHECK(fastest_change(d, now) == 0.0);
+  now.since = 0.99e-4;  // at rest for a microsecond
+  CHECK(fastest_change(d, now) == 1e6);
+  now.mode.motion = Motion::forward;
+  CHECK(fastest_change(d, now) == 0.0);
+  for (const By by : every_solver)  // a day at rest, and a second of motion
+    for (const double torque : {0.0, 0.1}) {
+      const double end = torque == 0.0 ? 86400.0 : 1.0;
+      const auto count = [&](double growth) {
+        const auto grown = effects(StaticFriction<double>{0.1, growth});
+        return run(drive(table1(), constant(load), constant(torque), grown), Timetable(0, end, end), {}, tight(by))
+            .statistics.evaluations;
+      };
+      CHECK(count(1e-6) <= 2 * count(1.0));
     }
 }
 
