@@ -77,6 +77,8 @@ void Hdf5Handle::reject_losses(const std::string& action) {
   if (const int number = loss.exchange(no_loss); number != no_loss) throw OutputFault(with_reason(action, number));
 }
 
+void Hdf5Handle::forget_losses() { loss = no_loss; }
+
 void check_hdf5(herr_t status, const std::string& action) {
   if (status < 0) throw OutputFault(with_reason(action));
 }

@@ -43,8 +43,10 @@ class Hdf5Handle {
   /// Closes now, so that a failure can be told; throws OutputFault naming the action.
   void close(const std::string& action);
 
-  /// Throws OutputFault naming the action if a handle that closed itself lost what it had to write, as on a full disk.
+  /// Throws OutputFault naming the action if a handle that closed itself since they were forgotten lost what it had to
+  /// write, as on a full disk.
   static void reject_losses(const std::string& action);
+  static void forget_losses();
 
  private:
   static void note_loss();

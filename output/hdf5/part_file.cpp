@@ -68,6 +68,7 @@ PartFile::PartFile(const std::string& path, OutputLock lock, std::string_view ki
 }
 
 void PartFile::create(std::string_view kind, Replace replace) {
+  Hdf5Handle::forget_losses();  // of files that were read
   reject_if_being_written(part_path_);
   reject_replacing(path_, kind, replace);
   try {
@@ -80,6 +81,7 @@ void PartFile::create(std::string_view kind, Replace replace) {
 
 PartFile::PartFile(const std::string& path, std::string_view kind, Replace replace, Left)
     : path_(followed(path)), part_path_(path_ + ".part"), stays_(true) {
+  Hdf5Handle::forget_losses();
   reject_if_being_written(part_path_);
   reject_replacing(path_, kind, replace);
   file_ = reopen_hdf5(part_path_);
