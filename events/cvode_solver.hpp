@@ -20,6 +20,7 @@
 #include "events/cvode_handles.hpp"
 #include "events/first_step.hpp"
 #include "events/growth.hpp"
+#include "events/integrated_state.hpp"
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
@@ -120,18 +121,16 @@ class CvodeSolver {
 
   static int right_hand_side(sunrealtype clock, N_Vector y, N_Vector ydot, void* self) {
     auto& solver = *static_cast<CvodeSolver*>(self);
-    const Eigen::Map<const State> x(N_VGetArrayPointer(y));
-    const State dx = solver.system_.derivative(solver.origin_ + clock, x, solver.ahead_.mode);
-    Eigen::Map<State>(N_VGetArrayPointer(ydot)) = dx;
+    const State dx = solver.system_.derivative(solver.origin_ + clock, solver.state_of(y), solver.ahead_.mode);
+    Eigen::Map<State>(N_VGetArrayPointer(ydot)) = integrated_state(solver.system_, dx);
     // once is for good: the fixed-point iteration would only shorten its step and try again, without end
     solver.finite_ = solver.finite_ && dx.allFinite();
     return solver.finite_ ? 0 : -1;
   }
   static int jacobian(sunrealtype clock, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& solver = *static_cast<const CvodeSolver*>(self);
-    const Eigen::Map<const State> x(N_VGetArrayPointer(y));
-    Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) =
-        solver.system_.jacobian(solver.origin_ + clock, x, solver.ahead_.mode);
+    Eigen::Map<typename System::Jacobian>(SUNDenseMatrix_Data(J)) = integrated_jacobian(
+        solver.system_, solver.system_.jacobian(solver.origin_ + clock, solver.state_of(y), solver.ahead_.mode));
     return 0;
   }
   static int error_weights(N_Vector y, N_Vector weights, void* self) {
@@ -139,7 +138,7 @@ class CvodeSolver {
     double step = 0.0;
     if (solver.rounding_counts_) CVodeGetCurrentStep(solver.memory(), &step);
     Instant now = solver.ahead_;
-    now.x = Eigen::Map<const State>(N_VGetArrayPointer(y));
+    now.x = solver.state_of(y);
     Eigen::Map<State>(N_VGetArrayPointer(weights)) = weights_of_errors(solver.system_, now, solver.settings_, step);
     return 0;
   }
@@ -158,7 +157,8 @@ class CvodeSolver {
   bool first_step(Instant& now, double next, double limit) requires Foresees<System> {
     do {
       if (!first_) {
-        first_.emplace(system_, now, limit, longest_step(now), settings_);
+        first_.emplace(system_, now, limit, longest_step(now, ripple_rate(system_, now.x)),
+                       for_each_speed(system_, now, settings_));
         total_.evaluations += first_->evaluations();
         ++total_.steps;
       }
@@ -185,7 +185,7 @@ class CvodeSolver {
   /// Lets CVODE begin at ahead_.
   void begin() {
     total_ = statistics();
-    state() = ahead_.x;
+    Eigen::Map<State>(N_VGetArrayPointer(y_.get())) = integrated_state(system_, ahead_.x);
     origin_ = ahead_.t;
     check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
     failures_ = 0;
@@ -202,7 +202,7 @@ class CvodeSolver {
   /// One step of CVODE, and the first guard that falls through zero in it.
   void step(Instant& now, double next) {
     const double from = clock_, before = ripple_rate(system_, ahead_.x);
-    double longest = longest_step(ahead_);
+    double longest = longest_step(ahead_, before);
     if constexpr (Foresees<System>)
       if (friction_changes_) longest = shortened_by_growth(system_, ahead_, longest, limit_, total_.jacobians);
     check_cvode(CVodeSetMaxStep(memory(), std::isfinite(longest) ? longest : 0.0));
@@ -213,7 +213,7 @@ class CvodeSolver {
       throw SolverFault(cvode_reason(finite_ ? flag : CV_RHSFUNC_FAIL));
     }
     step_ = clock_ - from;
-    ahead_.x = state();
+    ahead_.x = state_of(y_.get());
     rounding_counts_ = meets_rounding() || rounding_counts_;
     const double ripple = std::max(before, ripple_rate(system_, ahead_.x));
     const double parts = std::max(1.0, std::ceil(ripple * step_ / phase_between_looks(false)));
@@ -256,15 +256,17 @@ class CvodeSolver {
   }
 
   /// Within the longest step [s] a guard turns at most once, whatever the tolerance lets pass.
-  double longest_step(const Instant& now) const {
-    const double omega = std::max(fastest_change(system_, now), ripple_rate(system_, now.x));
+  double longest_step(const Instant& now, double ripple) const {
+    const double omega = std::max(fastest_change(system_, now), ripple);
     return omega > 0.0 ? std::min(settings_.max_step, phase_between_looks(false) / omega) : settings_.max_step;
   }
   void* memory() const { return memory_.get(); }
-  Eigen::Map<State> state() { return Eigen::Map<State>(N_VGetArrayPointer(y_.get())); }
-  Eigen::Map<State> state_at(double clock) {
+  State state_of(N_Vector y) const {
+    return state_of_integrated(system_, State(Eigen::Map<const State>(N_VGetArrayPointer(y))), ahead_);
+  }
+  State state_at(double clock) {
     check_cvode(CVodeGetDky(memory(), clock, 0, y_.get()));
-    return state();
+    return state_of(y_.get());
   }
 
   const System& system_;

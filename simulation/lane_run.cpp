@@ -237,8 +237,7 @@ class LaneRunOf final : public LaneRun {
       tape_.numbers[0] = 0.0;  // of TapedMotionOf: it waits
       return;
     }
-    solver_.taped().expect_knot(drive_.next_knot(now.t));
-    const double* const numbers = solver_.taped().numbers(now.t);
+    const double* const numbers = solver_.taped().numbers(now.t, drive_.next_knot(now.t));
     const std::size_t inputs =
         (sizeof(TapedMotionOf<double>) + static_cast<std::size_t>(code->waves) * sizeof(WaveOf<double>)) /
         sizeof(double);

@@ -1,5 +1,5 @@
 #pragma once
-#include <type_traits>
+#include <cstddef>
 
 #include "control/lanes/kind.hpp"
 #include "core/numbers/sine_cosine.hpp"
@@ -37,13 +37,10 @@ struct StepBatch {
 /// Lets the drives of a batch make a step. Every one gets the bits that it would get alone.
 void take_step(LaneKind kind, const StepBatch& batch);
 
-/// Puts a drive into its lane among others: field k of all drives of a register, then field k + 1.
+/// Puts a drive into its lane among others.
 inline void write_lane(double* drives, int lanes, int drive, const LaneDrive<double>& fields) {
-  static_assert(std::is_trivially_copyable_v<LaneDrive<double>>);
-  double list[lane_drive_fields];
-  __builtin_memcpy(list, &fields, sizeof fields);
-  double* const first = drives + static_cast<std::size_t>(drive / lanes * lanes) * lane_drive_fields + drive % lanes;
-  for (std::size_t k = 0; k < lane_drive_fields; ++k) first[k * static_cast<std::size_t>(lanes)] = list[k];
+  put_into_lane(fields, drives + static_cast<std::size_t>(drive / lanes * lanes) * lane_drive_fields + drive % lanes,
+                static_cast<std::size_t>(lanes));
 }
 
 }  // namespace wormdrive

@@ -69,11 +69,8 @@ class TapedPlant {
     auto* const fields = reinterpret_cast<double*>(&leap_.series().section(table));
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
-      const SectionOf<double> found =
-          batch_.tapes.section(batch_.owner, r_ * Width::lanes + lane, table, each.of[lane]);
-      double list[sizeof found / sizeof(double)];
-      __builtin_memcpy(list, &found, sizeof found);
-      for (std::size_t k = 0; k < sizeof found / sizeof(double); ++k) fields[k * Width::lanes + lane] = list[k];
+      put_into_lane(batch_.tapes.section(batch_.owner, r_ * Width::lanes + lane, table, each.of[lane]), fields + lane,
+                    Width::lanes);
     }
   }
 

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstring>
-#include <type_traits>
 
 #include "control/lemma1_monitor.hpp"
 #include "control/metrics.hpp"
@@ -34,7 +33,7 @@ struct LaneTrial {
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);
 
-/// A trial in its lane among others: field k of all trials of a register, then field k + 1.
+/// A trial in its lane among others.
 class Lane {
  public:
   /// memory: of the register's LaneTrial; lanes: in a register.
@@ -47,12 +46,7 @@ class Lane {
     std::memcpy(&trial, fields, sizeof trial);
     return trial;
   }
-  void write(const LaneTrial<double>& trial) const {
-    static_assert(std::is_trivially_copyable_v<LaneTrial<double>>);
-    double fields[lane_fields];
-    std::memcpy(fields, &trial, sizeof trial);
-    for (std::size_t k = 0; k < lane_fields; ++k) first_[k * lanes_] = fields[k];
-  }
+  void write(const LaneTrial<double>& trial) const { put_into_lane(trial, first_, lanes_); }
 
  private:
   double* first_;

@@ -30,6 +30,8 @@ struct HuntCrossley {
   S force(const S& d, const S& v) const {
     return stiffness * d * (T(1) + damping * v);
   }
+  /// What damping adds to the force at most per approach speed [N s/m], at a penetration d [m].
+  T per_speed(const T& d) const { return stiffness * damping * d; }
   /// Distance from touching [m]: positive where the teeth cannot push each other.
   template <class S>
   S apart(const S& d, const S& v) const {
@@ -60,6 +62,8 @@ struct LimitedDamper {
     const S elastic = stiffness * d, viscous = damping * v;
     return elastic + (viscous < elastic ? viscous : elastic);
   }
+  /// What damping adds to the force at most per approach speed [N s/m], at a penetration d [m].
+  T per_speed(const T&) const { return damping; }
   /// Distance from touching [m]: positive where the teeth cannot push each other.
   template <class S>
   S apart(const S& d, const S& v) const {
@@ -85,6 +89,9 @@ struct ToothContact {
   template <class S>
   S apart(const S& d, const S& v) const {
     return std::visit([&](const auto& by) { return by.apart(d, v); }, law);
+  }
+  T per_speed(const T& d) const {
+    return std::visit([&](const auto& by) { return by.per_speed(d); }, law);
   }
   /// k [N/m]
   T stiffness() const {

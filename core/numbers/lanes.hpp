@@ -76,6 +76,11 @@ template <class Width>
 [[gnu::always_inline]] inline bool all(bool mask) { return mask; }
 [[gnu::always_inline]] inline bool any(bool mask) { return mask; }
 [[gnu::always_inline]] inline double abs(double x) { return std::fabs(x); }
+template <class V>
+[[gnu::always_inline]] inline V root(const V& x) {
+  using std::sqrt;
+  return sqrt(x);
+}
 [[gnu::always_inline]] inline double select(bool which, double yes, double no) { return which ? yes : no; }
 /// True or false for a trial alone, a mask for several.
 template <class V>
@@ -148,6 +153,15 @@ using Both = typename lanes::Both<V>::Type;
 template <class V>
 [[gnu::always_inline]] inline Both<V> both(Pair of_all) {
   return Both<V>{V(of_all[0]), V(of_all[1])};
+}
+
+/// Puts a struct of doubles into its lane among others: field k of all of a register, then field k + 1. first: its own.
+template <class Fields>
+[[gnu::always_inline]] inline void put_into_lane(const Fields& fields, double* first, std::size_t lanes) {
+  static_assert(std::is_trivially_copyable_v<Fields>);
+  double list[sizeof fields / sizeof(double)];
+  __builtin_memcpy(list, &fields, sizeof fields);
+  for (std::size_t k = 0; k < sizeof fields / sizeof(double); ++k) first[k * lanes] = list[k];
 }
 
 }  // namespace wormdrive

@@ -125,8 +125,8 @@ class FallingLeap {
   [[gnu::always_inline]] static Mask take(const HeldMotionOf<V>& m, const FallOf<V>& fall, V& theta, V& omega, double h,
                                           const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm,
                                           const TaylorAccuracy& accuracy) {
-    const Foresight f = foresee(m, fall, omega, h, held, arm, accuracy);
-    if (f.most == 0) return f.certain;
+    const TermsOf<V> terms = foresee(m, fall, omega, h, held, arm, accuracy);
+    if (terms.most == 0) return terms.suffice;
 
     // Coefficients in the time in which the step takes 1, speeds as angles per step.
     FallSeriesOf<V, longest + 1> series;
@@ -140,7 +140,7 @@ class FallingLeap {
     speed[0] = angle;
 #pragma GCC unroll 16
     for (int k = 0; k < longest; ++k) {
-      if (k == f.most) break;
+      if (k == terms.most) break;
       if constexpr (swings) {
         if (k > 0) turning.turn(speed, k);
         push += m.gravity * turning.cosine(k);
@@ -152,37 +152,30 @@ class FallingLeap {
         change += speed[k + 1];
         angle += speed[k + 1] * one_over(k + 2);
       } else {  // a drive alone would have stopped there
-        const Mask counts = V(static_cast<double>(k)) < f.terms;
+        const Mask counts = V(static_cast<double>(k)) < terms.of_each;
         change = select(counts, change + speed[k + 1], change);
         angle = select(counts, angle + speed[k + 1] * one_over(k + 2), angle);
       }
       push = beyond = 0.0;
     }
-    theta = select(f.certain, theta + angle, theta);
-    omega = select(f.certain, omega + change / h, omega);
-    return f.certain;
+    theta = select(terms.suffice, theta + angle, theta);
+    omega = select(terms.suffice, omega + change / h, omega);
+    return terms.suffice;
   }
 
  private:
   static constexpr int longest = 12;  ///< coefficients of the acceleration
 
-  /// How many coefficients of the acceleration a step needs, and the most of all.
-  struct Foresight {
-    Mask certain;
-    V terms;
-    int most = 0;
-  };
-  /// Bounds hold for complex times up to a radius within which |e| stays bounded, and so does the acceleration; by
-  /// Cauchy's estimate its k-th coefficient is at most that bound over the radius^k.
-  [[gnu::always_inline]] static Foresight foresee(const HeldMotionOf<V>& m, const FallOf<V>& fall, const V& omega,
-                                                  double h, const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm,
-                                                  const TaylorAccuracy& accuracy) {
+  /// How many coefficients of the acceleration a step needs. Bounds hold for complex times up to a radius within which
+  /// |e| stays bounded, and so does the acceleration; by Cauchy's estimate its k-th coefficient is at most that bound
+  /// over the radius^k.
+  [[gnu::always_inline]] static TermsOf<V> foresee(const HeldMotionOf<V>& m, const FallOf<V>& fall, const V& omega,
+                                                   double h, const HeldTorquesOf<V>& held,
+                                                   const SineAndCosineOf<V>& arm, const TaylorAccuracy& accuracy) {
     const V x = fall.per_speed * (m.motion * omega), e = fall.left(fall.power(x));
     const Disc d = fall.has_tail ? disc_with_tail(fall, x, e) : disc_without_tail(fall, x, e);
     const V bent = abs(fall.bend) * d.highest;
-    Foresight f;
-    f.certain = (x >= V(0.0)) & (bent <= V(0.5));
-    f.terms = 0.0;
+    Mask certain = (x >= V(0.0)) & (bent <= V(0.5));
 
     constexpr double cosh_1 = 1.544;
     const V v = abs(omega), rise = d.aside * fall.speed, fastest = v + rise;  // speeds within the radius
@@ -195,21 +188,11 @@ class FallingLeap {
     const V distance = held.beyond - m.lift * arm.cosine - m.skew * omega;
     const V nearing = abs(m.lift) * ((v + change) * h) + abs(m.skew) * change;
     const Mask without_teeth = !(m.flank != V(0.0));
-    f.certain =
-        f.certain & (ratio <= V(0.5)) & (m.motion * omega > change) & (without_teeth | (-m.flank * distance > nearing));
+    certain =
+        certain & (ratio <= V(0.5)) & (m.motion * omega > change) & (without_teeth | (-m.flank * distance > nearing));
 
     const V allowed = accuracy.allowed(v + change, h) * (1.0 - ratio);
-    V error = uneven * (ratio * ratio);  // of the acceleration
-    Mask left = f.certain;
-    for (int terms = 2; terms <= longest && any(left); ++terms, error = error * ratio) {
-      const Mask enough = left & (error * one_over(terms + 1) <= allowed);
-      if (!any(enough)) continue;
-      f.terms = select(enough, V(static_cast<double>(terms)), f.terms);
-      f.most = terms;
-      left = left & !enough;
-    }
-    f.certain = f.certain & !left;
-    return f;
+    return TermsOf<V>::needed(certain, 2, longest, uneven * (ratio * ratio), ratio, allowed);
   }
 
   /// A distance from x in the complex plane, and the most that |e| comes to within it.

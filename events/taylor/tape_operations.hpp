@@ -31,11 +31,6 @@ template <class V>
   for (int j = 1; j <= k; ++j) sum += static_cast<double>(j) * a[j] * b[k - j];
   return sum;
 }
-template <class V>
-[[gnu::always_inline]] inline V root(const V& x) {
-  using std::sqrt;
-  return sqrt(x);
-}
 /// The disc of the cubic of a table.
 template <class V>
 [[gnu::always_inline]] inline V disc(const SectionOf<V>& c, const V& x, const V& radius) {

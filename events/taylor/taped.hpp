@@ -72,11 +72,10 @@ class TapedFlow<WormDrive<double, Load>> {
 
   /// The operations in a mode; nullptr where its equations cannot be recorded.
   const TapeCode* code(Mode mode) { return covers(mode) ? &course_->code : nullptr; }
-  /// Tells the latest mode when its inputs become others [s].
-  void expect_knot(double t) { course_->leap->series().motion().next_knot = t; }
-  /// The numbers of the latest mode and of the inputs that hold at a time.
-  const double* numbers(double t) {
+  /// The numbers of the latest mode and of the inputs that hold from a time until they become others [s].
+  const double* numbers(double t, double next_knot) {
     read_inputs(t);
+    course_->leap->series().motion().next_knot = next_knot;
     return course_->memory.data();
   }
   /// The section of a table in the latest mode.

@@ -95,18 +95,8 @@ class TapedLeapOf {
     certain = certain & series_.stays_in_range(ratio);
 
     const V allowed = accuracy.allowed(v + change, h) * (1.0 - ratio);
-    V error = bend;  // of the acceleration
-    terms_ = 0.0;
-    most_ = 0;
-    Mask left = certain;
-    for (int terms = 1; terms <= longest && any(left); ++terms, error = error * ratio) {
-      const Mask enough = left & (error * one_over(terms + 1) <= allowed);
-      if (!any(enough)) continue;
-      terms_ = select(enough, V(static_cast<double>(terms)), terms_);
-      most_ = terms;
-      left = left & !enough;
-    }
-    return certain & !left;
+    terms_ = TermsOf<V>::needed(certain, 1, longest, bend, ratio, allowed);
+    return terms_.suffice;
   }
 
   /// Works out the motion from there, which value() tells.
@@ -115,27 +105,25 @@ class TapedLeapOf {
     expand_load();
     V *const theta = series_[In::angle], *const omega = series_[In::speed];
     const V* const acceleration = series_[series_.code().acceleration];
-    for (int k = 0; k < most_; ++k) {
+    for (int k = 0; k < terms_.most; ++k) {
       if (k > 0) series_.work_out(k, series_.code().of_acceleration, functions);
       theta[k + 1] = omega[k] * one_over(k + 1);
       omega[k + 1] = acceleration[k] * one_over(k + 1);
     }
-    theta[most_ + 1] = omega[most_] * one_over(most_ + 1);
+    theta[terms_.most + 1] = omega[terms_.most] * one_over(terms_.most + 1);
     if constexpr (!std::is_same_v<V, double>)
-      for (int k = 1; k <= most_; ++k) {  // a drive alone would have stopped there
-        const Mask counts = V(static_cast<double>(k)) <= terms_;
+      for (int k = 1; k <= terms_.most; ++k) {  // a drive alone would have stopped there
+        const Mask counts = V(static_cast<double>(k)) <= terms_.of_each;
         omega[k] = select(counts, omega[k], V(0.0));
         theta[k + 1] = select(counts, theta[k + 1], V(0.0));
       }
   }
   /// Angle and speed so many seconds after the latest moment.
-  V angle_after(double s) const { return value(series_[In::angle], most_ + 2, s); }
-  V speed_after(double s) const { return value(series_[In::speed], most_ + 1, s); }
+  V angle_after(double s) const { return value(series_[In::angle], terms_.most + 2, s); }
+  V speed_after(double s) const { return value(series_[In::speed], terms_.most + 1, s); }
 
   TapeSeriesOf<V>& series() { return series_; }
   const TapeSeriesOf<V>& series() const { return series_; }
-  /// How many coefficients of the acceleration the latest leap took.
-  int terms() const { return most_; }
 
   /// Coefficients of the load over time from the second on, up to the order that is asked for.
   void expand_load(int order) {
@@ -155,11 +143,7 @@ class TapedLeapOf {
 
  private:
   const V& first(int place) const { return series_[place][0]; }
-  static V root(const V& x) {
-    using std::sqrt;
-    return sqrt(x);
-  }
-  void expand_load() { expand_load(most_ - 1); }
+  void expand_load() { expand_load(terms_.most - 1); }
 
   /// The most by which the load over time differs from its value within so many seconds, complex ones too: a cosine by
   /// amplitude (e^x - 1), x = omega seconds, which is at most as steep as where x is greatest, and there is at most 1.
@@ -186,8 +170,7 @@ class TapedLeapOf {
   }
 
   TapeSeriesOf<V> series_;
-  V terms_{};     ///< of each, of the latest leap
-  int most_ = 0;  ///< of them
+  TermsOf<V> terms_{};  ///< of the latest leap
 };
 
 }  // namespace wormdrive

@@ -189,4 +189,27 @@ TEST_CASE("power series cost no more where less is asked of them", "[slow]") {
     }
 }
 
+TEST_CASE("torques that change with the angle bound the steps of every solver, whatever the tolerance") {
+  constexpr double pi = std::numbers::pi;
+  auto p = table1();
+  p.mu = 0.0;
+  for (const double periods : {1.0, 7.0, 24.0})
+    for (const double speed : {0.5, 30.0, -400.0}) {
+      // the torque changes its sign, and with it the flank that carries the load, at every half period of the worm
+      const double waves = p.i * periods, turns = 100.0 / waves, end = turns * 2.0 * pi / std::abs(speed);
+      const Cogging<double> cogging{.amplitude = 1e-9 * speed * speed, .periods = periods, .phase = 0.3};
+      for (const By method : every_solver)
+        for (const double tolerance : {1e-2, 1e-5, 1e-9}) {
+          INFO(periods << " periods, " << speed << " rad/s, tolerance " << tolerance);
+          auto of = drive(p, constant(0.0), constant(0.0), effects(cogging));
+          of.enter(0.0);
+          const TimedDrive::Instant start{0.0, {0.0, speed}, {}};
+          const auto r = run(std::move(of), Timetable(0, end, end), start, tight(method, tolerance));
+          const double passed = std::abs(std::floor((waves * r.end.x[0] + 0.3) / pi) - std::floor(0.3 / pi));
+          CHECK(passed >= 199.0);
+          CHECK(static_cast<double>(r.events.size()) == passed);
+        }
+    }
+}
+
 }  // namespace wormdrive::test::events_time_scales
