@@ -18,6 +18,12 @@ void check_table(const StoredTable& table, const Columns& columns, Range first, 
   for (const ColumnDescription& column : columns) table.check(column, &column == &columns.front() ? first : others);
 }
 
+/// The same of one that has a row at least, whatever wrote it.
+void check_filled_table(const StoredTable& table, const Columns& columns, Range first, Range others) {
+  check_table(table, columns, first, others);
+  if (table.rows() == 0) table.column(columns.front().name).reject("has no rows");
+}
+
 Columns numbers(std::initializer_list<const char*> names) {
   Columns list;
   for (const char* const name : names) list.push_back({name, "", ""});
@@ -26,13 +32,14 @@ Columns numbers(std::initializer_list<const char*> names) {
 ColumnDescription yes_or_no(const std::string& name) { return {name, "", "", "no yes", {0, 1}}; }
 
 void check_statics(hid_t file) {
-  check_table(StoredTable(file, "statics"), numbers({"load_torque", "stick_low", "stick_high", "static_surface"}),
-              Range::rising, Range::finite);
+  check_filled_table(StoredTable(file, "statics"),
+                     numbers({"load_torque", "stick_low", "stick_high", "static_surface"}), Range::rising,
+                     Range::finite);
   read_text_attribute(file, "regime");
 }
 
 void check_steady(hid_t file) {
-  check_table(StoredTable(file, "model"), numbers({"worm_speed", "motor_torque"}), Range::finite, Range::finite);
+  check_filled_table(StoredTable(file, "model"), numbers({"worm_speed", "motor_torque"}), Range::finite, Range::finite);
   if (!has_member(file, "records")) return;
   const StoredTable records(file, "records");
   check_table(records, numbers({"worm_speed", "motor_torque", "motor_torque_model", "samples", "left_out"}),
@@ -44,8 +51,7 @@ void check_steady(hid_t file) {
 /// Where no torque keeps a speed there are no numbers.
 void check_efficiency(hid_t file) {
   const StoredTable map(file, "efficiency");
-  check_table(map, numbers({"worm_speed", "load_torque"}), Range::finite, Range::finite);
-  if (map.rows() == 0) map.column("worm_speed").reject("has no rows");
+  check_filled_table(map, numbers({"worm_speed", "load_torque"}), Range::finite, Range::finite);
   check_table(map, numbers({"motor_torque", "motor_power", "load_power", "loss", "efficiency"}), Range::any,
               Range::any);
 }
@@ -70,11 +76,11 @@ void check_rare(hid_t file) {
   read_text_attribute(estimated, "metric");
   read_number_attribute(estimated, "limit");
   read_integer_attribute(estimated, "above");
-  check_table(levels, numbers({"index", "distance", "share", "variation", "acceptance"}), Range::finite, Range::any);
+  check_filled_table(levels, numbers({"index", "distance", "share", "variation", "acceptance"}), Range::finite,
+                     Range::any);
   const bool has_design_point = has_member(file, "design_point");
   if (const std::size_t due = has_design_point ? 2 : 1; estimates.rows() != due)
     estimates.column("index").reject(fmt::format("has {} rows, not {}", estimates.rows(), due));
-  if (levels.rows() == 0) levels.column("index").reject("has no rows");
   const auto check_within = [](const StoredTable& table, const char* name, double most) {
     for (const double value : table.column(name).values())
       if (!(value >= 0.0 && value <= most)) table.column(name).reject(fmt::format("contains {}", value));
@@ -125,7 +131,8 @@ void check_run(hid_t file) {
     if (const StateColumn column = state_column(id, state, place); trajectory.has(column.description.name))
       contents.states.push_back(column);
   });
-  check_table(trajectory, descriptions(trajectory_columns(contents), Axis::rotary), Range::rising, Range::finite);
+  check_filled_table(trajectory, descriptions(trajectory_columns(contents), Axis::rotary), Range::rising,
+                     Range::finite);
   check_table(events, descriptions(event_columns(contents), Axis::rotary), Range::ordered, Range::finite);
   if (!has_member(file, "controller")) return;
   const StoredTable controller(file, "controller");

@@ -31,7 +31,7 @@ OperatingPoint operating_point(Drive& drive, double theta_g, double worm_speed, 
   typename Drive::Instant now;
   now.x = {theta_g, worm_speed / drive.mesh().i};
   now.mode = drive.settle(now);
-  if (!is_within_supply(drive.effects(), drive.observe(now).winding)) return point;
+  if (!is_within_amplifier(drive.effects(), drive.observe(now).winding)) return point;
   const Power found = power(drive, now);
   const double share = efficiency(found);
   if (std::isnan(share)) return point;

@@ -8,6 +8,7 @@
 
 #include "cli/scenario_options.hpp"
 #include "output/replacing.hpp"
+#include "statistics/threads.hpp"
 
 namespace wormdrive {
 
@@ -40,7 +41,8 @@ inline void add_quiet(CLI::App& command, bool& quiet) { command.add_flag("-q,--q
 inline void add_json(CLI::App& command, bool& json) { command.add_flag("--json", json, "print the result as JSON"); }
 
 inline void add_threads(CLI::App& command, unsigned& threads) {
-  command.add_option("--threads", threads, "number of threads; default: all cores")->check(CLI::Range(1, 4096));
+  command.add_option("--threads", threads, "number of threads; default: all cores")
+      ->check(CLI::Range(1U, most_threads));
 }
 
 inline void add_scenario_options(CLI::App& command, ScenarioOptions& options) {

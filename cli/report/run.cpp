@@ -103,7 +103,6 @@ ReportTable control_table(const ResultFile& file) {
 }  // namespace
 
 ReportPage report_of_run(const ResultFile& file) {
-  if (file.column("trajectory/time").empty()) reject({file.path()}, "contains a run without rows");
   const Scenario scenario = file.scenario();
   using enum ReportPanel::Style;
   ReportGroup group{"", "time", "s",

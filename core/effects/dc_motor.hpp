@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
@@ -28,7 +29,10 @@ struct DcMotor {
       "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
       "h/thermal_resistance; with a current loop U = R I + torque_constant theta_w' + 2 pi current_bandwidth "
-      "inductance (u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit";
+      "inductance (u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit; "
+      "without "
+      "one, but with a current_limit, U lies between the voltages that a loop of limiter_bandwidth would give for "
+      "-current_limit and for +current_limit";
   static constexpr std::string_view source =
       "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};
@@ -38,6 +42,7 @@ struct DcMotor {
   std::optional<T> amplifier_gain{};
   std::optional<T> current_bandwidth{};
   std::optional<T> current_limit{};
+  std::optional<T> limiter_bandwidth{};
   std::optional<T> heat_capacity{};
   std::optional<T> thermal_resistance{};
   std::optional<T> temperature_coefficient{};
@@ -62,7 +67,11 @@ struct DcMotor {
               "voltage",
               o},
         Field{&P::current_limit, "current_limit", unit::ampere, bounds::positive,
-              "largest current that the loop asks for in either direction; unlimited if not stated", o},
+              "largest current in either direction that the loop asks for, or the limiter of a voltage lets pass; "
+              "unlimited if not stated",
+              o},
+        Field{&P::limiter_bandwidth, "limiter_bandwidth", unit::hertz, bounds::positive,
+              "of an amplifier that gives a voltage: how fast it brings the current back to its limit", o},
         Field{&P::heat_capacity, "heat_capacity", unit::joule_per_kelvin, bounds::positive,
               "of the winding and what is as warm as it; if not stated the winding stays as it is", o},
         Field{&P::thermal_resistance, "thermal_resistance", unit::kelvin_per_watt, bounds::positive,
@@ -89,10 +98,17 @@ struct DcMotor {
     if (thermal_resistance) rates[1] = rates[1] - state[1] / (*thermal_resistance * *heat_capacity);
     return rates;
   }
-  /// Calls visit with what is zero where the current loop reaches the voltage of the supply, or leaves it.
+  /// Calls visit with what is zero where the current loop reaches the voltage of the supply, or leaves it, and where
+  /// the limiter does so with that of the amplifier.
   template <class S, class Visit>
   void for_each_bend(const S& command, const Moment<S>& at, const std::array<S, 2>& state, Visit&& visit) const {
-    if (!current_bandwidth || !supply_voltage) return;
+    if (!limits_voltage()) return;
+    if (!current_bandwidth) {
+      const auto [lowest, highest] = limiting_voltages(at, state);
+      visit(S(highest - gain() * command));
+      visit(S(gain() * command - lowest));
+    }
+    if (!supply_voltage) return;
     const S asked = asked_voltage(command, at, state);
     visit(S(*supply_voltage - asked));
     visit(S(*supply_voltage + asked));
@@ -109,11 +125,9 @@ struct DcMotor {
   /// ... and with the states.
   template <class S>
   S voltage(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
-    if (!current_bandwidth) return gain() * command;
+    if (!limits_voltage()) return gain() * command;
     const S asked = asked_voltage(command, at, state);
-    if (!supply_voltage) return asked;
-    const S highest(*supply_voltage), lowest(-*supply_voltage);
-    return is_positive(S(asked - highest)) ? highest : is_positive(S(lowest - asked)) ? lowest : asked;
+    return supply_voltage ? within(S(-*supply_voltage), S(*supply_voltage), asked) : asked;
   }
   /// I [A] without a state.
   template <class S>
@@ -150,13 +164,31 @@ struct DcMotor {
   }
 
  private:
+  /// Whether the amplifier looks at the current.
+  bool limits_voltage() const { return current_bandwidth || current_limit; }
+  template <class S>
+  static S within(const S& lowest, const S& highest, const S& x) {
+    return is_positive(S(x - highest)) ? highest : is_positive(S(lowest - x)) ? lowest : x;
+  }
+  /// What the amplifier would give if its supply had no end [V].
+  template <class S>
+  S asked_voltage(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
+    if (current_bandwidth) return loop_voltage(*current_bandwidth, S(command / torque_constant), at, state);
+    const auto [lowest, highest] = limiting_voltages(at, state);
+    return within(lowest, highest, S(gain() * command));
+  }
+  /// Between them the limiter leaves a voltage alone [V].
+  template <class S>
+  std::pair<S, S> limiting_voltages(const Moment<S>& at, const std::array<S, 2>& state) const {
+    return {loop_voltage(*limiter_bandwidth, S(-*current_limit), at, state),
+            loop_voltage(*limiter_bandwidth, S(*current_limit), at, state)};
+  }
   /// Voltage of a proportional-integral current loop whose integral has cancelled the pole of the winding and whose
   /// feedforward the back-EMF [V]: the current follows as a lag of first order, unless the supply ends it.
   template <class S>
-  S asked_voltage(const S& command, const Moment<S>& at, const std::array<S, 2>& state) const {
-    const T omega_c = T(2.0 * std::numbers::pi) * *current_bandwidth;
-    return hot_resistance(state) * state[0] + torque_constant * at.omega_w +
-           *inductance * omega_c * (command / torque_constant - state[0]);
+  S loop_voltage(const T& bandwidth, const S& asked, const Moment<S>& at, const std::array<S, 2>& state) const {
+    const T omega_c = T(2.0 * std::numbers::pi) * bandwidth;
+    return hot_resistance(state) * state[0] + torque_constant * at.omega_w + *inductance * omega_c * (asked - state[0]);
   }
   T gain() const { return amplifier_gain ? *amplifier_gain : resistance / torque_constant; }
 };

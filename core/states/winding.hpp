@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -31,10 +32,12 @@ std::optional<Winding> winding(const Effects<double>& effects, double command, c
   }
 }
 
-/// Whether the supply can give the voltage of the winding.
-inline bool is_within_supply(const Effects<double>& effects, const std::optional<Winding>& winding) {
-  if (!winding || !dc_motor(effects)->supply_voltage) return true;
-  return std::abs(winding->voltage) <= *dc_motor(effects)->supply_voltage;
+/// Whether the amplifier can give voltage and current of the winding for ever.
+inline bool is_within_amplifier(const Effects<double>& effects, const std::optional<Winding>& winding) {
+  if (!winding) return true;
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  return std::abs(winding->voltage) <= dc_motor(effects)->supply_voltage.value_or(unlimited) &&
+         std::abs(winding->current) <= dc_motor(effects)->current_limit.value_or(unlimited);
 }
 
 /// Energy in the field of the winding [J].

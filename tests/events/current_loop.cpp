@@ -218,4 +218,69 @@ TEST_CASE("a drive that controls its current gives its limit up to the speed at 
   REQUIRE(std::abs(seen.end.x[1] - *m.supply_voltage / (K + m.resistance * b / K)) <= 1e-9 * seen.end.x[1]);
 }
 
+// Under a constant voltage U0 the current of a held gear rises towards U0/R up to where the limiter takes over, and
+// from there on towards the limit by the limiter's own time.
+TEST_CASE("an amplifier that gives a voltage keeps the current of a held gear to its limit") {
+  for (int trial = 0; trial < 40; ++trial) {
+    near_ties::Dice dice(20261129, static_cast<std::uint64_t>(trial));
+    DcMotor<double> m;
+    const double R = m.resistance = dice.decades(0.1, 10.0), L = R * dice.decades(1e-5, 1e-2),
+                 U0 = dice.decades(1.0, 400.0), limit = U0 / R * dice.between(0.1, 0.9),
+                 rate = R / L * dice.decades(1.5, 100.0);
+    m.torque_constant = dice.decades(0.01, 1.0);
+    m.inductance = L;
+    m.current_limit = limit;
+    m.limiter_bandwidth = rate / (2.0 * std::numbers::pi);
+    m.amplifier_gain = 1.0;
+    m.supply_voltage = U0 * dice.between(1.0, 3.0);
+    const double side = dice.sign();
+    // it takes over where U0 = R I + L rate (limit - I)
+    const double taken = (L * rate * limit - U0) / (L * rate - R);
+    const double begins = taken > 0.0 ? -L / R * std::log1p(-taken * R / U0) : 0.0, from = std::max(taken, 0.0);
+    const auto current = [&](double t) {
+      return t <= begins ? -U0 / R * std::expm1(-R / L * t) : limit + (from - limit) * std::exp(-rate * (t - begins));
+    };
+    const double end = 3.0 * (begins + 1.0 / rate);
+    for (const By by : every_solver) {
+      INFO(trial << " by " << static_cast<int>(by.solver));
+      const auto seen =
+          run(drive_with_states(GearMesh<double>(table1()), constant(-1e6), constant(side * U0), effects(m)),
+              Timetable(0, end, end / 20.0), {}, tight(by));
+      REQUIRE(seen.events.empty());
+      for (const auto& row : seen.rows) CHECK(std::abs(row.now.x[2] - side * current(row.now.t)) <= 1e-9 * limit);
+    }
+  }
+}
+
+TEST_CASE(
+    "a limiter lets a short-circuited motor brake with its limit down to where the winding takes less by itself") {
+  DcMotor<double> m = servo();
+  m.current_bandwidth.reset();
+  m.current_limit = 8.0;
+  m.limiter_bandwidth = 400.0;
+  m.amplifier_gain = 1.0;
+  const double K = m.torque_constant, J = 1e-4, b = 2e-5, pull = K * *m.current_limit,
+               corner = m.resistance * *m.current_limit / K;
+  TimedDriveWithStates::Instant fast{};
+  fast.x[1] = 500.0;
+  for (const By by : every_solver) {
+    const auto seen = run(drive_with_states(GearMesh<double>::without_teeth(J), Signal{}, constant(0.0),
+                                            effects(m, WormViscous<double>{b})),
+                          Timetable(0, 2.0, 1e-3), fast, tight(by));
+    int limited = 0;
+    for (std::size_t n = 20; n < seen.rows.size(); ++n) {  // 50 times the time of the limiter
+      const auto &row = seen.rows[n], &before = seen.rows[n - 1];
+      if (row.now.x[1] < 1.02 * corner) continue;
+      CHECK(std::abs(row.now.x[2] + *m.current_limit) <= 1e-9);
+      const double expected = (before.now.x[1] + pull / b) * std::exp(-b / J * 1e-3) - pull / b;
+      CHECK(std::abs(row.now.x[1] - expected) <= 1e-8);
+      CHECK(std::abs(row.seen.winding->voltage - (K * row.now.x[1] - m.resistance * *m.current_limit)) <= 1e-6);
+      ++limited;
+    }
+    CHECK(limited > 50);
+    CHECK(seen.rows.back().seen.winding->voltage == 0.0);
+    CHECK(std::abs(seen.end.x[1]) <= 1.0);
+  }
+}
+
 }  // namespace wormdrive::test::events_current_loop

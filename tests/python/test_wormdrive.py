@@ -141,6 +141,8 @@ class Runs(unittest.TestCase):
             wormdrive.Scenario(SHORT, mesh={"friction": np.bool_(True)})
         wormdrive.sweep({**STUDY, "scenario": str(FIG09), "set": ["run.duration_s=0.001"], "sweep": {
             "design": "monte_carlo", "trials": np.int64(2), "seed": np.uint8(3)}}, threads=np.int64(1))
+        with self.assertRaisesRegex(ValueError, "threads = 100000 must be at most 4096"):
+            wormdrive.sweep({**STUDY, "scenario": str(FIG09)}, threads=100000)
 
     def test_a_title_is_one_line_that_every_file_can_hold(self):
         for title, told in (("a\u0001b", "2 is U+0001"), ("two\nlines", "4 is U+000A"), ("\x7f", "1 is U+007F"),

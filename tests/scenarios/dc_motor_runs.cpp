@@ -65,6 +65,10 @@ TEST_CASE("random drives with a motor on bristles have the same events by every 
       words.push_back(
           fmt::format("effect.dc_motor.current_bandwidth_Hz={}", between(0.02, 2.0) * resistance / inductance));
       words.push_back(fmt::format("effect.dc_motor.current_limit_A={}", between(0.5, 20.0)));
+    } else if (trial % 4 == 2) {  // one that gives a voltage as long as the current is within a limit
+      words.push_back(
+          fmt::format("effect.dc_motor.limiter_bandwidth_Hz={}", between(0.2, 20.0) * resistance / inductance));
+      words.push_back(fmt::format("effect.dc_motor.current_limit_A={}", between(0.5, 5.0)));
     }
     INFO(fmt::format("{}", fmt::join(words, " ")));
     const Trajectory a = simulate_scenario(motor_scenario(words)),

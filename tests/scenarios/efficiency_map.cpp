@@ -55,10 +55,13 @@ TEST_CASE("motor and load pay for the loss, whatever effects are on") {
   }
 }
 
-TEST_CASE("with a winding the power is that of its supply, and ends where the voltage does") {
+TEST_CASE("with a winding the power is that of its supply, and ends where voltage or current do") {
   const double R = 2.0, k = 0.05, U = 12.0;
   const auto bare = efficiency_map(back_drivable(), speeds, loads);
-  for (const std::string amplifier : {"", ",current_bandwidth_Hz=400"}) {  // one that gives a voltage, or a current
+  // one that gives a voltage, or a current, or a voltage within a current
+  for (const std::string amplifier :
+       {"", ",current_bandwidth_Hz=400", ",current_limit_A=0.3,limiter_bandwidth_Hz=400"}) {
+    const double limit = amplifier.find("limit_A") == std::string::npos ? 1e9 : 0.3;
     const auto wound = efficiency_map(
         back_drivable({"effect.dc_motor={resistance_ohm=2,torque_constant_Nm_per_A=0.05,inductance_H=1e-3,"
                        "supply_voltage_V=12" +
@@ -69,7 +72,7 @@ TEST_CASE("with a winding the power is that of its supply, and ends where the vo
       const OperatingPoint &p = bare[n], &q = wound[n];
       const double current = p.motor_torque / k, voltage = R * current + k * p.worm_speed;
       CAPTURE(amplifier, p.worm_speed, p.load_torque, voltage);
-      if (std::abs(voltage) > U) {
+      if (std::abs(voltage) > U || std::abs(current) > limit) {
         ++beyond;
         CHECK(std::isnan(q.efficiency));
         continue;
