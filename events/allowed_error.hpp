@@ -15,24 +15,24 @@ namespace wormdrive {
 
 /// What the deflection of elastic teeth [rad] and its rate [rad/s] may err by in a step: the tolerated share of how far
 /// the teeth give way or are apart, and of how far they will for their speed, where the rate may change the force by no
-/// more than the deflection does; no more than angle and speed of the gear may, and no less than can be told of them.
+/// more than the deflection does; no more than angle and speed of the gear may, and no less than their own rounding.
 template <HasElasticTeeth System>
 Eigen::Vector2d allowed_deflection(const System& system, const typename System::Instant& now,
                                    const SolverSettings& settings) {
-  constexpr double told = 2.0 * Rounded::unit;
   const auto& mesh = system.mesh();
   const auto at = system.moment(now);
   const auto [d, v] = system.penetration(at, Flank::left);
   const double distance = std::min(std::abs(d), std::abs(system.penetration(at, Flank::right).first));
   const double swing = contact_frequency(system.contact(), effective_mass(mesh, system.rigid().Jg(at)));
   const double give = distance + std::abs(v) / swing;
-  const double angle = std::abs(now.x[2]) + std::abs(now.x[0]) / mesh.i;
-  const double speed = std::abs(now.x[3]) + std::abs(now.x[1]) / mesh.i;
   const double share = settings.relative_tolerance, least = settings.absolute_tolerance;
-  double allowed = std::min(share * give / mesh.gear_arm(0.0), share * std::abs(now.x[2]) + least) + told * angle;
-  if (!(allowed > 0.0)) allowed = least;  // of teeth that just touch, at the angle zero
+  constexpr double told = 2.0 * Rounded::unit;
+  const auto integrated = integrated_state(system, now.x);
+  double allowed =
+      std::min(share * give / mesh.gear_arm(0.0), share * std::abs(now.x[2]) + least) + told * std::abs(integrated[2]);
+  if (!(allowed > 0.0)) allowed = least;  // of teeth that just touch, without a gap
   const double delay = std::max(1.0 / swing, system.contact().per_speed(give) / system.contact().stiffness());
-  return {allowed, std::min(allowed / delay, share * std::abs(now.x[3]) + least) + told * speed};
+  return {allowed, std::min(allowed / delay, share * std::abs(now.x[3]) + least) + told * std::abs(integrated[3])};
 }
 
 /// What all that CVODE integrates may err by in a step [units of the state]: its tolerance, and what the rounding of
