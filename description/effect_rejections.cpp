@@ -77,14 +77,12 @@ std::string refusal(const DcMotor<double>& motor, const Scenario&) {
     return "states current_bandwidth_Hz without inductance_H, against which the loop changes the current; add it";
   if (motor.current_bandwidth && motor.limiter_bandwidth)
     return "states both current_bandwidth_Hz and limiter_bandwidth_Hz: a loop that controls the current keeps its "
-           "limit "
-           "by itself; leave out one of them";
+           "limit by itself; leave out one of them";
   if (motor.limiter_bandwidth && !motor.current_limit)
     return "states limiter_bandwidth_Hz without current_limit_A, at which the limiter acts; add it";
   if (motor.current_limit && !motor.current_bandwidth && !motor.limiter_bandwidth)
     return "states current_limit_A, but not how fast the amplifier keeps to it; add current_bandwidth_Hz, if it "
-           "controls "
-           "the current, or limiter_bandwidth_Hz, if it gives a voltage";
+           "controls the current, or limiter_bandwidth_Hz, if it gives a voltage";
   if (motor.limiter_bandwidth && !motor.has_inductance())
     return "states limiter_bandwidth_Hz without inductance_H, against which the limiter changes the current; add it";
   if (!motor.heat_capacity && (motor.thermal_resistance || motor.temperature_coefficient))

@@ -30,9 +30,8 @@ struct DcMotor {
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
       "h/thermal_resistance; with a current loop U = R I + torque_constant theta_w' + 2 pi current_bandwidth "
       "inductance (u/torque_constant - I) within +-supply_voltage, with u/torque_constant within +-current_limit; "
-      "without "
-      "one, but with a current_limit, U lies between the voltages that a loop of limiter_bandwidth would give for "
-      "-current_limit and for +current_limit";
+      "without one, but with a current_limit, U lies between the voltages that a loop of limiter_bandwidth would give "
+      "for -current_limit and for +current_limit";
   static constexpr std::string_view source =
       "W. Leonhard, Control of Electrical Drives, 3rd ed., Springer 2001, chapter 5";
   T resistance{};
