@@ -5,7 +5,6 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "core/effect_list.hpp"
 #include "core/hook.hpp"
@@ -161,8 +160,9 @@ struct Effects {
   }
   /// Highest angular frequency with which friction still changes after so long at rest [s], in rad/s.
   double fastest_at_rest(double rest) const {
-    return through(list, 0.0,
-                   [=](const auto& e, double) -> decltype(e.fastest_at_rest(rest)) { return e.fastest_at_rest(rest); });
+    return through(
+        list, 0.0,
+        [](const auto& e, double, double t) -> decltype(e.fastest_at_rest(t)) { return e.fastest_at_rest(t); }, rest);
   }
   /// Highest number of periods per radian of the gear in what effects do over its angle, for a ratio i.
   double ripple(double i) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace wormdrive {
@@ -30,6 +31,7 @@ consteval auto hooked(const std::tuple<std::optional<Effect>...>*) {
 /// whether it fits.
 template <class List, class Value, class Hook, class... At>
 Value through(const List& list, Value value, Hook hook, const At&... at) {
+  static_assert(std::is_empty_v<Hook>, "give what the hook looks at behind it, as `at`");
   static constexpr auto places = hooked<Hook, Value, At...>(static_cast<const List*>(nullptr));
   [&]<std::size_t... K>(std::index_sequence<K...>) {
     ((std::get<places[K]>(list) ? void(value = hook(*std::get<places[K]>(list), value, at...)) : void()), ...);
