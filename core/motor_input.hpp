@@ -68,6 +68,16 @@ class MotorInput {
     return side_ == 0 ? piece_(then) : S(cut_off());
   }
   bool is_constant() const { return !lags() && piece_.is_constant(); }
+  /// Whether the torque follows the command with a lag, its time constant [s], and what is left of the torque before at
+  /// a time [N m].
+  bool lags() const { return lag_ > T(0); }
+  double lag() const { return value_of(lag_); }
+  double decaying(double t) const { return lagged_.decaying(t - late_); }
+  /// Lets a lagging torque have this value [N m] now.
+  void resume(double t, double torque) {
+    lagged_ = {Piece{}, T(0), lag_, T(t), T(torque)};
+    started_ = true;
+  }
   /// The most by which the torque differs from its value at t at other times, complex ones too, within so many seconds.
   double change_within(double t, double seconds) const {
     return lags() ? lagged_.change_within(t - late_, seconds) : piece_.change_within(seconds);
@@ -95,8 +105,6 @@ class MotorInput {
   struct Command {
     double arrival, torque;
   };
-
-  bool lags() const { return lag_ > T(0); }
 
   /// The same through a limit, a delay or a lag.
   [[gnu::noinline]] bool command_indirect(double t, double torque) {

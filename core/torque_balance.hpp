@@ -75,6 +75,7 @@ class TorqueBalance {
   /// Holds a motor torque [N m] from t on, in addition to the motor's signal; whether the next knot may be another one
   /// now. The caller settles the mode.
   bool command(double t, double tau_m) { return motor_.command(t, tau_m); }
+  void resume_motor(double t, double torque) { motor_.resume(t, torque); }
   /// Disturbs the worm's shaft with a torque [N m] from now on, whatever the motor does. The caller settles the mode.
   void disturb(double torque) { disturbance_ = torque; }
   /// What disturbs the worm's shaft now [N m].

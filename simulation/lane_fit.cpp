@@ -11,8 +11,7 @@ namespace {
 bool has_held_torque(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
   return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
-         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states() && on.delay() <= 0.0 &&
-         on.lag() <= 0.0;
+         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states() && on.delay() <= 0.0;
 }
 
 /// Whether lanes know what a controller is told and how it decides.
@@ -28,7 +27,7 @@ bool has_lane_controller(const ControlScenario& control) {
 
 bool has_lane_plant(const Scenario& scenario) {
   return has_held_torque(scenario) && std::holds_alternative<GravityArm>(scenario.load) &&
-         std::isinf(scenario.effects.torque_limit());
+         std::isinf(scenario.effects.torque_limit()) && scenario.effects.lag() <= 0.0;
 }
 
 bool fits_lane(const Scenario& scenario) {

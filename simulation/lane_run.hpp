@@ -12,8 +12,8 @@ namespace wormdrive {
 /// it.
 bool has_lane_plant(const Scenario& scenario);
 /// Whether a scenario may run in a lane: between angle and torque an encoder's scale, zero, counts and noise, the
-/// sliding controller or the PID, and a delay of a sample; between torque and angle what has no states of its own and
-/// leaves a torque that is held as it is between samples.
+/// sliding controller or the PID, and a delay of a sample; between torque and angle what has no states of its own,
+/// where a torque that is held reaches the motor at once or with a lag.
 bool fits_lane(const Scenario& scenario);
 /// Whether two scenarios take the same samples of the same reference, equally exact.
 bool share_samples(const Scenario& a, const Scenario& b);

@@ -107,7 +107,7 @@ class LaneGroup {
         const bool counts = control.window.contains(t);
         counted += counts;
         samples.push_back({k, t, k == 0 ? 0.0 : control.sampling.period,
-                           alone ? std::numeric_limits<double>::quiet_NaN() : next - t, counts,
+                           alone ? std::numeric_limits<double>::quiet_NaN() : next - t, next, counts,
                            control.reference.at(t)});
       }
       draw(samples.front().number, k, static_cast<std::size_t>(batch.registers) * static_cast<std::size_t>(width_));

@@ -18,6 +18,7 @@ struct LaneSample {
   double t;       ///< [s]
   double period;  ///< since the sample before [s]; 0 at the first
   double step;    ///< to the next one [s]; not a number where every trial has to go on alone
+  double next;    ///< when that is [s]
   bool counts;    ///< whether metrics are taken of it
   ReferencePoint desired;
 };

@@ -23,18 +23,41 @@ class TapedPlant {
                               TapedLeapOf<V>::stride)) {}
 
   /// Moves angle and speed on to the next sample where that is certain beforehand, and returns where it is.
-  [[gnu::always_inline]] Mask step(const LaneSample& sample, V& theta, V& omega, const V& torque,
+  [[gnu::always_inline]] Mask step(const LaneSample& sample, V& theta, V& omega, const V& command,
                                    const V& disturbance) {
-    const TapedMotionOf<V>& motion = leap_.series().motion();
+    TapedMotionOf<V>& motion = leap_.series().motion();
     const Mask moves = motion.motion != V(0.0), ahead = V(sample.t + 2.0 * sample.step) < motion.next_knot;
+    V t = sample.t, length = sample.step;
     active_ = set_bits(moves & ahead) & batch_.alive[r_];
-    leap_.begin(sample.t, theta, omega, torque, disturbance, *this);
-    Mask known = ahead & leap_.goes_on() & leap_.series().is_within_sections();
-    known = leap_.foresee(known, sample.step, batch_.accuracy, [](const V&) { return V(0.0); });
-    if (!any(known)) return known;
-    leap_.follow(*this);
-    theta = select(known, leap_.angle_after(sample.step), theta);
-    omega = select(known, leap_.speed_after(sample.step), omega);
+    MotorTorque motor(*this, motion, sample.t, command);
+    leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
+    Mask known = ahead & leap_.goes_on(), going = known;
+    V taken = motion.leaps;
+    for (int leaps = 1;; ++leaps) {
+      V end = length;
+      Mask leapt = leap_.foresee(going, end, leap_.worth_while, batch_.accuracy, motor.reach(t),
+                                 [&](const V& seconds) { return motor.change_within(seconds); });
+      if (any(leapt)) {
+        motor.expand(leap_.series()[TapeInput::command]);
+        leap_.follow(*this);
+        leapt = leap_.end_with_sections(leapt, end) & (t + end > t);
+        theta = select(leapt, leap_.angle_after(end), theta);
+        omega = select(leapt, leap_.speed_after(end), omega);
+      }
+      taken = select(leapt, taken + 1.0, taken);
+      known = known & (leapt | (!going));
+      going = leapt & (end < length);
+      if (!any(going) || leaps == most_leaps) break;
+      t = select(going, t + end, t);
+      length = select(going, sample.next - t, length);
+      active_ = set_bits(going) & batch_.alive[r_];
+      motor.turn_to(t);
+      leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
+    }
+    known = known & (!going);
+    active_ = set_bits(known) & batch_.alive[r_];
+    motion.leaps = select(known, taken, motion.leaps);
+    motor.end_sample(known, sample.next);
     return known;
   }
 
@@ -60,10 +83,57 @@ class TapedPlant {
     if (const unsigned outside = set_bits(!((s.low <= x) & (x < s.high))) & active_) [[unlikely]]
       find_each(table, x, outside);
   }
-  /// Where a section ends the trial goes on alone.
+  /// A leap never begins where a section ends.
   static constexpr bool turns(int, const V*, int) { return false; }
 
  private:
+  /// The torque that the motors give on a command that they hold: at once, or with a lag.
+  class MotorTorque {
+   public:
+    [[gnu::always_inline]] MotorTorque(const TapedPlant& plant, TapedMotionOf<V>& motion, double sample,
+                                       const V& command)
+        : plant_(plant),
+          motion_(motion),
+          lags_(plant.batch_.tapes.code->lags),
+          sample_(sample),
+          command_(command),
+          begin_(motion.torque - command),
+          left_(0.0) {
+      turn_to(sample);
+    }
+    [[gnu::always_inline]] void turn_to(const V& t) {
+      if (lags_) left_ = begin_ * plant_.exp((sample_ - t) / motion_.lag);
+    }
+    [[gnu::always_inline]] V now() const { return lags_ ? command_ + left_ : command_; }
+    [[gnu::always_inline]] CommandReach<V> reach(const V& t) const {
+      constexpr double never = std::numeric_limits<double>::infinity();
+      return lags_ ? reach_of_lag<V>(motion_.lag, t - sample_)
+                   : CommandReach<V>{V(never), V(never), TapedLeapOf<V>::farthest};
+    }
+    [[gnu::always_inline]] V change_within(const V& seconds) const {
+      return lags_ ? abs(left_) * (plant_.exp(seconds * (1.0 / motion_.lag)) - 1.0) : V(0.0);
+    }
+    [[gnu::always_inline]] void expand(V* c) const {
+      if (lags_) expand_decay(left_, motion_.lag, TapedLeapOf<V>::longest, c);
+    }
+    /// Keeps what the torque has become at the next sample.
+    [[gnu::always_inline]] void end_sample(const Mask& known, double next) {
+      if (!lags_) return;
+      turn_to(next);
+      motion_.torque = select(known, now(), motion_.torque);
+    }
+
+   private:
+    const TapedPlant& plant_;
+    TapedMotionOf<V>& motion_;
+    bool lags_;
+    V sample_, command_;
+    V begin_, left_;  ///< of the torque before, at the sample and now
+  };
+
+  /// Within a sample; what needs more goes on alone.
+  static constexpr int most_leaps = 8;
+
   [[gnu::noinline]] void find_each(int table, const V& x, unsigned lanes) {
     const EachLane<Width> each(x);
     auto* const fields = reinterpret_cast<double*>(&leap_.series().section(table));

@@ -5,6 +5,7 @@
 #include "core/numbers/jet.hpp"
 #include "core/numbers/portable.hpp"
 #include "core/pieces/piece.hpp"
+#include "core/pieces/settling.hpp"
 
 namespace wormdrive {
 
@@ -26,12 +27,12 @@ class LaggedPiece {
 
   /// The most by which it differs from its value at t at other times, complex ones too, within so many seconds.
   double change_within(double t, double seconds) const {
-    const double rate = 1.0 / value_of(lag_),
-                 left = std::abs(value_of(excess_)) * portable::exp((value_of(begin_) - t) * rate);
-    return u_.change_within(seconds) + left * (portable::exp(seconds * rate) - 1.0);
+    return u_.change_within(seconds) + std::abs(decaying(t)) * (portable::exp(seconds * (1.0 / value_of(lag_))) - 1.0);
   }
+  /// The part of it that decays.
+  double decaying(double t) const { return value_of(excess_) * portable::exp((value_of(begin_) - t) / value_of(lag_)); }
   /// From when on what decays is below rounding [s].
-  double settled() const { return value_of(begin_) + 40.0 * value_of(lag_); }
+  double settled() const { return value_of(begin_) + lags_to_settle * value_of(lag_); }
 
  private:
   template <class S>

@@ -46,6 +46,10 @@ class TaylorAccuracy {
   [[gnu::always_inline]] V allowed(const V& speed, double h) const {
     return h > 1.0 ? allowed(speed) * (1.0 / h) : allowed(speed);
   }
+  template <class Width>
+  [[gnu::always_inline]] Lanes<Width> allowed(const Lanes<Width>& speed, const Lanes<Width>& h) const {
+    return select(h > 1.0, allowed(speed) * (1.0 / h), allowed(speed));
+  }
   /// The same for a quantity of which the terms of its series add up to this size.
   double relative() const { return relative_; }
   /// The order with the least work where the step is free: it grows with the digits that are asked for, and is never

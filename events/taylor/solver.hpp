@@ -68,16 +68,21 @@ class TaylorSolver {
   /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
   /// no_guard.
   int advance(Instant& now, double next, double limit) {
-    if (next == limit && now.t < next && now.t >= end_ && leap(now, limit)) return no_guard;
-    return advance_step_by_step(now, next, limit);
+    now.t = std::min(now.t, end_);  // a report within rounding of the end of a step does not move what comes next
+    bool may_leap = true;
+    if (next == limit && now.t < next && now.t >= end_) {
+      may_leap = leap(now, limit);
+      if (may_leap && now.t == limit) return no_guard;
+    }
+    return advance_step_by_step(now, next, limit, may_leap);
   }
 
   /// The formulas by which it leaps, and the tapes.
   const NominalFlow<System>& nominal() const { return nominal_; }
   TapedFlow<System>& taped() { return taped_; }
-  /// Counts leaps that were made elsewhere by the same formulas, each after a restart.
-  void count_leaps(long leaps) {
-    count_.restarts += leaps;
+  /// Counts leaps that were made elsewhere by the same formulas, and restarts before them.
+  void count_leaps(long restarts, long leaps) {
+    count_.restarts += restarts;
     count_.steps += leaps;
     count_.evaluations += leaps;
   }
@@ -90,7 +95,8 @@ class TaylorSolver {
   }
 
  private:
-  [[gnu::noinline]] int advance_step_by_step(Instant& now, double next, double limit) {
+  /// may_leap: whether a leap from now on has not been tried. Every step tries it, so that reports decide nothing.
+  [[gnu::noinline]] int advance_step_by_step(Instant& now, double next, double limit, bool may_leap) {
     for (int steps = 0; !already_there(now.t, next);) {
       if (now.t >= end_) {
         if (++steps > most_steps)
@@ -98,10 +104,11 @@ class TaylorSolver {
               "more than 100000 steps to the next sample or report; the controller does not hold the "
               "drive, or reports are too far apart");
         begin_ = now;
-        if (next < limit && leap(now, limit))
+        if (may_leap && leap(now, limit))
           there_ = now;
         else
           step(now, limit);
+        may_leap = true;
       }
       now = at(std::min(next, end_));
       if (fired_ != no_guard && now.t == end_) return fired_;
@@ -110,7 +117,7 @@ class TaylorSolver {
     return no_guard;
   }
 
-  /// Goes on to the limit without a search for events, where the formulas can vouch for it.
+  /// Goes on without a search for events to the limit, or to where a formula ends, where they can vouch for it.
   bool leap(Instant& now, double limit) {
     leapt_ = Leap::none;
     if (limit - now.t > max_step_) return false;
@@ -124,7 +131,7 @@ class TaylorSolver {
     leapt_ = held ? Leap::nominal : Leap::taped;
     ++count_.steps;
     ++count_.evaluations;
-    end_ = limit;
+    end_ = now.t;
     return true;
   }
   /// Whether a series around the begin may reach to the end: an input turns by less than half a radian.
@@ -154,6 +161,7 @@ class TaylorSolver {
 
   /// The polynomials from now on to the first event, or to as far as they are accurate.
   void step(const Instant& now, double limit) {
+    leapt_ = Leap::none;
     const double h = std::min(limit - now.t, longest_step(now));
     expand(now, h);
     ++count_.steps;

@@ -31,12 +31,17 @@ template <class V>
   for (int j = 1; j <= k; ++j) sum += static_cast<double>(j) * a[j] * b[k - j];
   return sum;
 }
-/// The disc of the cubic of a table.
+/// Lengths of a section of a table within which the disc of an argument stays: its cubic holds for all arguments, but
+/// grows fast beyond the section, and a leap ends where that does.
+inline constexpr double sections_seen = 4.0;
+
+/// The disc of the cubic of a table; where that of its argument has to be smaller, one that shrinks with it.
 template <class V>
 [[gnu::always_inline]] inline V disc(const SectionOf<V>& c, const V& x, const V& radius) {
+  const V seen = least<V>(radius, sections_seen * (c.high - c.low));
   const V s = x - c.begin, slope = c.slope + s * (2.0 * c.second + s * 3.0 * c.third);
   const V bend = c.second + 3.0 * s * c.third;
-  return radius * (abs(slope) + radius * (abs(bend) + radius * abs(c.third)));
+  return radius * (abs(slope) + seen * (abs(bend) + seen * abs(c.third)));
 }
 
 }  // namespace tape_operations
@@ -173,7 +178,7 @@ V TapeSeriesOf<V>::shrinking() const {
       case Operation::invert: within(radius(s->a), half(s->a)); break;
       case Operation::divide: within(radius(s->b), half(s->b)); break;
       case Operation::table:
-        within(radius(s->a), section->high - section->low);
+        within(radius(s->a), tape_operations::sections_seen * (section->high - section->low));
         ++section;
         break;
       case Operation::add:
@@ -192,22 +197,7 @@ auto TapeSeriesOf<V>::stays_in_range(const V& share) const -> Mask {
     const int place = code_->bounded[k];
     stays = stays & ((*this)[place][0] - radius(place) * share > least_[k]);
   }
-  for (int k = 0; k < code_->sections; ++k) {
-    const int place = code_->arguments[k];
-    const V x = (*this)[place][0], nearing = radius(place) * share;
-    stays = stays & (x - nearing > sections_[k].low) & (x + nearing < sections_[k].high);
-  }
   return stays;
-}
-
-template <class V>
-auto TapeSeriesOf<V>::is_within_sections() const -> Mask {
-  Mask within = motion_->motion != V(0.0);
-  for (int k = 0; k < code_->sections; ++k) {
-    const V x = (*this)[code_->arguments[k]][0], resolution = resolution_of(sections_[k], x);
-    within = within & (sections_[k].high - x > resolution) & (x - sections_[k].low > resolution);
-  }
-  return within;
 }
 
 }  // namespace wormdrive

@@ -27,7 +27,8 @@ struct TapeCode {
   const int* bounded = nullptr;                          ///< places that are bound to a least value ...
   const int* arguments = nullptr;                        ///< ... or to a section of a table
   int bounds = 0, sections = 0;
-  int waves = 0;  ///< of the load over time
+  int waves = 0;      ///< of the load over time
+  bool lags = false;  ///< the motor's torque follows its command with a lag
 
   friend bool operator==(const TapeCode& a, const TapeCode& b);
 };
@@ -53,10 +54,12 @@ struct TapedMotionOf {
   V motion, flank;       ///< +1, -1 or (flank) 0; motion 0 where the lane has to wait
   V surface;             ///< Jw i/Jg
   V angle_disc;          ///< of complex angles that is looked at
-  V time_disc;           ///< of complex times in which inputs change little; infinite where they are constant
+  V time_disc;           ///< of complex times in which the load changes little; infinite where it is constant
   V load, slope, start;  ///< of the load over time: load + slope (t - start) + its waves
   V steepness, fastest;  ///< of these the most slope and the highest angular frequency
   V next_knot;           ///< when the inputs become others
+  V lag, torque;         ///< of a motor that lags: its time constant, and its torque when the latest command came
+  V leaps;               ///< that a lane has taken
 };
 
 /// The power series in time of all that stands on a tape, and how far each may stray from its value at the start, in
@@ -97,6 +100,7 @@ class TapeSeriesOf {
   V& constant(int step) { return constants_[step]; }
   V& least_of(int bound) { return least_[bound]; }
   SectionOf<V>& section(int k) { return sections_[k]; }
+  const SectionOf<V>& section(int k) const { return sections_[k]; }
 
   /// The coefficients of a place.
   V* operator[](int place) { return coefficients_ + place * stride_; }
@@ -117,10 +121,8 @@ class TapeSeriesOf {
   void work_out_discs();
   /// The factor, at most 1, by which the discs of the inputs have to be smaller.
   V shrinking() const;
-  /// Whether all that is bound to a range stays in it where everything strays by this share of its radius.
+  /// Whether all that is bound to a least value stays above it where everything strays by this share of its radius.
   Mask stays_in_range(const V& share) const;
-  /// Whether no table is where one of its sections ends.
-  Mask is_within_sections() const;
 
  private:
   const TapeCode* code_;
@@ -133,9 +135,8 @@ class TapeSeriesOf {
 };
 
 /// How near to its end a section of a table ends: what rounding leaves of the time at which a point is met.
-template <class V>
-[[gnu::always_inline]] inline V resolution_of(const SectionOf<V>& s, const V& x) {
-  return 1e-12 * greatest<V>(abs(x), least<V>(s.high - s.low, V(1.0)));
+inline double resolution_of(const SectionOf<double>& s, double x) {
+  return 1e-12 * greatest(std::fabs(x), least(s.high - s.low, 1.0));
 }
 
 /// The sections of the tables on the tape of a drive alone, and its elementary functions.

@@ -34,8 +34,7 @@ class TapedFlow<WormDrive<double, Load>> {
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
   explicit TapedFlow(const System& system)
-      : system_(system),
-        changes_(std::isfinite(system.effects().next_knot(-std::numeric_limits<double>::infinity()))) {}
+      : system_(system), changes_(std::isfinite(system.effects().next_knot(-never))) {}
 
   /// False where equations in this mode cannot be recorded.
   bool covers(Mode mode) {
@@ -47,20 +46,25 @@ class TapedFlow<WormDrive<double, Load>> {
     return course_->leap.has_value();
   }
 
-  /// One step to next in a mode that is covered, if it is certain beforehand that no guard falls through zero in it and
-  /// how far the series must go; otherwise nothing changes.
+  /// One step in a mode that is covered, to next or to where a section of a table ends, if it is certain beforehand
+  /// that no guard falls through zero in it and how far the series must go; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     const double h = next - now.t;
     begin(now);
     const MotorInput<double>& motor = system_.motor_input();
-    const auto command_disc = [&](double seconds) {
-      return motor.is_constant() ? 0.0 : motor.change_within(now.t, seconds);
-    };
-    if (!course_->leap->foresee(true, h, accuracy, command_disc)) return false;
+    const auto command_disc = [&](double seconds) { return motor.change_within(now.t, seconds); };
+    CommandReach<double> reach{never, never, TapedLeap::farthest};
+    if (motor.lags()) reach = reach_of_lag(motor.lag(), now.t - motor.arrival());
+    reach.disc = std::min(reach.disc, 1.0 / motor.piece().fastest());
+    double end = h;
+    // where sections of a table are short, a step would end with them, too
+    const double part = course_->code.sections > 0 ? 0x1p-10 : TapedLeap::worth_while;
+    if (!course_->leap->foresee(true, end, part, accuracy, reach, command_disc)) return false;
     if (!motor.is_constant()) expand_command(now.t, TapedLeap::longest);
     course_->leap->follow(course_->tables);
-    now.x = state(h);
-    now.t = next;
+    if (!course_->leap->end_with_sections(true, end) || !(now.t + end > now.t)) return false;
+    now.x = state(end);
+    now.t = end < h ? now.t + end : next;
     return true;
   }
   /// Angle and speed so many seconds after the latest leap began.
@@ -74,8 +78,12 @@ class TapedFlow<WormDrive<double, Load>> {
   const TapeCode* code(Mode mode) { return covers(mode) ? &course_->code : nullptr; }
   /// The numbers of the latest mode and of the inputs that hold from a time until they become others [s].
   const double* numbers(double t, double next_knot) {
-    read_inputs(t);
-    course_->leap->series().motion().next_knot = next_knot;
+    read_inputs();
+    TapedMotionOf<double>& m = course_->leap->series().motion();
+    m.next_knot = next_knot;
+    m.lag = system_.motor_input().lag();
+    m.torque = system_.motor_input()(t);
+    m.leaps = 0.0;
     return course_->memory.data();
   }
   /// The section of a table in the latest mode.
@@ -124,6 +132,7 @@ class TapedFlow<WormDrive<double, Load>> {
 
  private:
   using TapedLeap = TapedLeapOf<double>;
+  static constexpr double never = std::numeric_limits<double>::infinity();
   using In = TapeInput;
 
   /// The equations in one mode.
@@ -153,6 +162,7 @@ class TapedFlow<WormDrive<double, Load>> {
       code.arguments = arguments_.data();
       code.bounds = static_cast<int>(bounded_.size());
       code.sections = static_cast<int>(arguments_.size());
+      code.lags = system.motor_input().lags();
       if (const TimedLoad* const timed = over_time(system.load()))
         code.waves = static_cast<int>(timed->signal.terms.size());
       memory.assign(TapeSeriesOf<double>::room(code, stride), 0.0);
@@ -212,7 +222,7 @@ class TapedFlow<WormDrive<double, Load>> {
   }
 
   void begin(const Instant& now) {
-    read_inputs(now.t);
+    read_inputs();
     course_->leap->begin(now.t, now.x[0], now.x[1], system_.motor_input()(now.t), system_.disturbance(),
                          course_->tables);
     if (!course_->command_moves) return;
@@ -221,13 +231,13 @@ class TapedFlow<WormDrive<double, Load>> {
     course_->command_moves = false;
   }
   /// The inputs that hold now.
-  void read_inputs(double t) {
+  void read_inputs() {
     TapedMotionOf<double>& m = course_->leap->series().motion();
     const TimedLoad* const timed = over_time(system_.load());
-    const bool constant = system_.motor_input().is_constant() && (timed == nullptr || timed->piece.is_constant());
-    m.time_disc = constant ? std::numeric_limits<double>::infinity() : 1.0 / system_.fastest_input(t);
+    m.time_disc = never;
     if (timed == nullptr) return;
     const Piece& piece = timed->piece;
+    m.time_disc = 1.0 / piece.fastest();
     m.load = piece.constant;
     m.slope = piece.slope;
     m.start = piece.start;
@@ -242,9 +252,12 @@ class TapedFlow<WormDrive<double, Load>> {
   }
   /// The series of the motor's command.
   void expand_command(double t, int order) {
-    const auto motor = system_.motor_input()(OpenSeries<double>::variable(t, order));
-    std::copy(motor.c.begin(), motor.c.begin() + order + 1, course_->leap->series()[In::command]);
     course_->command_moves = true;
+    const MotorInput<double>& motor = system_.motor_input();
+    double* const c = course_->leap->series()[In::command];
+    if (motor.lags() && motor.piece().is_constant()) return expand_decay(motor.decaying(t), motor.lag(), order, c);
+    const auto torque = motor(OpenSeries<double>::variable(t, order));
+    std::copy(torque.c.begin(), torque.c.begin() + order + 1, c);
   }
 
   /// How long the argument of a table stays in its section, within the step [s].

@@ -1,9 +1,37 @@
 #pragma once
+#include <limits>
+
+#include "core/pieces/settling.hpp"
 #include "events/taylor/accuracy.hpp"
 #include "events/taylor/leap.hpp"
 #include "events/taylor/tape_series.hpp"
 
 namespace wormdrive {
+
+/// How far a step may follow the torque of a motor [s]: a leap, and the disc of complex times around its begin, which
+/// is no more than so many leaps wide.
+template <class V>
+struct CommandReach {
+  V leap, disc;
+  double leaps_in_disc;
+};
+/// A torque that follows its command with a lag [s], so long after the command came [s]. At the edge of the disc the
+/// torque of before seems to be e^2.25 of what it was at the command; so the less of it is left, the further a leap
+/// gets.
+template <class V>
+[[gnu::always_inline]] inline CommandReach<V> reach_of_lag(const V& lag, const V& elapsed) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr double leaps_in_disc = 4.0;  // so far 20 terms are exact
+  const V disc = select(elapsed > lags_to_settle * lag, V(infinite), 2.25 * lag + elapsed);
+  return {(1.0 / leaps_in_disc) * disc, disc, leaps_in_disc};
+}
+/// Its coefficients from the first on, where so much of the torque before is left [N m].
+template <class V>
+[[gnu::always_inline]] inline void expand_decay(const V& left, const V& lag, int order, V* c) {
+  const V rate = -1.0 / lag;
+  V term = left;
+  for (int k = 1; k <= order; ++k) c[k] = term = term * rate * one_over(k);
+}
 
 /// One step of a drive whose equations are on a tape, without a search for events: of one drive or of several at once.
 template <class V>
@@ -15,13 +43,17 @@ class TapedLeapOf {
   static constexpr int longest = 20;          ///< coefficients of the acceleration
   static constexpr int stride = longest + 2;  ///< that the angle has
   static constexpr double farthest = 64.0;    ///< leaps that the disc of times is wide
+  /// Of the way to the edge of the disc, where a leap ends that would get further than half of it.
+  static constexpr double within_reach = 0.25;
+  /// The part of what was asked for that is worth a leap.
+  static constexpr double worth_while = 0.125;
 
   explicit TapedLeapOf(const TapeSeriesOf<V>& series) : series_(series) {}
 
   /// Takes up a moment [s, rad, rad/s] with what the motor is told and what disturbs the worm's shaft [N m], and works
   /// out all that they come to.
   template <class Functions>
-  [[gnu::always_inline]] void begin(double t, const V& theta, const V& omega, const V& motor, const V& disturbs,
+  [[gnu::always_inline]] void begin(const V& t, const V& theta, const V& omega, const V& motor, const V& disturbs,
                                     Functions&& functions) {
     series_[In::time][0] = t;
     series_[In::time][1] = 1.0;
@@ -50,52 +82,57 @@ class TapedLeapOf {
     return (m.motion * first(In::speed) > V(0.0)) & (without_teeth | (distance > 2e-3 * most));
   }
 
-  /// Where, among these, it is certain beforehand that no guard falls through zero within h and how far the series must
-  /// go. command_disc: that in which the motor's command stays within one of times.
+  /// Where, among these, it is certain beforehand that no guard falls through zero within h [s] and how far the series
+  /// must go, if the tables stay in their sections. h becomes shorter where that is not so for all of it, if that is at
+  /// least a part of it. reach: of the motor's torque; command_disc: that in which it stays within one of times.
   ///
   /// Around the present moment there is a disc of complex times in which angle and speed stay in discs of theirs, and
   /// so nothing strays from its value f by more than some r. What is so bounded in a disc of a radius R differs from f
   /// by at most r |s|/R at a time s (Schwarz), and its k-th coefficient is at most r/R^k (Cauchy).
   template <class CommandDisc>
-  [[gnu::always_inline]] Mask foresee(const Mask& among, double h, const TaylorAccuracy& accuracy,
-                                      CommandDisc&& command_disc) {
+  [[gnu::always_inline]] Mask foresee(const Mask& among, V& h, double part, const TaylorAccuracy& accuracy,
+                                      const CommandReach<V>& reach, CommandDisc&& command_disc) {
     const TapeCode& code = series_.code();
     const TapedMotionOf<V>& m = series_.motion();
     const V omega = first(In::speed), v = abs(omega), alpha = first(code.acceleration);
-    // Radii with which both angle and speed use up theirs at about the same time.
-    series_.radius(In::angle) = m.angle_disc;
-    series_.radius(In::speed) = greatest<V>(0.5 * (root(v * v + 4.0 * m.angle_disc * abs(alpha)) - v),
-                                            m.angle_disc * (1.0 / (4.0 * farthest * h)));
-    series_.radius(In::time) = least<V>(V(farthest * h), m.time_disc);
-    series_.radius(In::command) = command_disc(series_.radius(In::time));
-    series_.radius(In::load) = load_disc(series_.radius(In::time));
-    series_.radius(In::disturbance) = 0.0;
-    series_.work_out_discs();
-    const V factor = series_.shrinking();
+    h = least<V>(h, reach.leap);
+    const V T = least<V>(reach.leaps_in_disc * h, least<V>(m.time_disc, reach.disc)), turn = m.angle_disc;
+    // A disc of the speed with which that of the angle is used up at about the same time.
+    const V change =
+        greatest<V>(0.5 * (root(v * v + 4.0 * turn * abs(alpha)) - v), turn * (1.0 / (4.0 * farthest * h)));
+    const V factor = look(among, T, turn, change, command_disc);
     Mask certain = factor >= V(1.0);
-    if (!all(certain)) {
-      const V smaller = select(certain, V(1.0), (1.0 - 1e-6) * factor);
-      for (const int which : {In::time, In::angle, In::speed, In::command, In::load})
-        series_.radius(which) = series_.radius(which) * smaller;
-      series_.work_out_discs();
-      certain = series_.shrinking() >= V(1.0);
+    if (!all(certain | (!among))) {
+      // What bounds one of them need not bound the others: no more than the leap needs, else all in proportion.
+      const V smaller = (1.0 - 1e-6) * factor, less = smaller * change, near = least<V>(8.0 * h, less / abs(alpha));
+      certain = look(among & (!certain), least<V>(near, T),
+                     least<V>(turn, greatest<V>(smaller * turn, near * (v + less))), less, command_disc) >= V(1.0);
+      if (!all(certain | (!among)))
+        certain = look(among & (!certain), smaller * T, smaller * turn, less, command_disc) >= V(1.0);
     }
     const V strays = series_.radius(code.acceleration);
     const V disc = least<V>(least<V>(series_.radius(In::speed) / (above_one * (abs(alpha) + strays)),
                                      series_.radius(In::angle) / (v + series_.radius(In::speed))),
                             series_.radius(In::time));
-    const V ratio = above_one * h / disc;
-    certain = certain & among & (ratio <= V(0.5));
+    V ratio = above_one * h / disc;
+    const Mask far = ratio > V(0.5);
+    certain = certain & among & (part * ratio <= V(within_reach));
+    if (any(far & certain)) {
+      h = select(far & certain, disc * (within_reach / above_one), h);
+      ratio = select(far, V(within_reach), ratio);
+    }
     if (!any(certain)) return certain;
 
-    const V bend = strays * ratio, change = above_one * (abs(alpha) + bend) * h, along = m.motion * omega;
-    certain = certain & ((along > change) | ((along >= V(0.0)) & (m.motion * alpha > bend)));
+    const V bend = strays * ratio, gain = above_one * (abs(alpha) + bend) * h, along = m.motion * omega;
+    certain = certain & ((along > gain) | ((along >= V(0.0)) & (m.motion * alpha > bend)));
     const Mask without_teeth = !(m.flank != V(0.0));
     certain = certain & (without_teeth | (-m.flank * first(code.beyond) > series_.radius(code.beyond) * ratio));
     certain = certain & series_.stays_in_range(ratio);
 
-    const V allowed = accuracy.allowed(v + change, h) * (1.0 - ratio);
-    terms_ = TermsOf<V>::needed(certain, 1, longest, bend, ratio, allowed);
+    const V allowed = accuracy.allowed(v + gain, h) * (1.0 - ratio);
+    // of the arguments of tables it has to be known how they bend
+    terms_ = code.sections > 0 ? TermsOf<V>::needed(certain, 3, longest, bend * ratio * ratio, ratio, allowed)
+                               : TermsOf<V>::needed(certain, 1, longest, bend, ratio, allowed);
     return terms_.suffice;
   }
 
@@ -118,9 +155,32 @@ class TapedLeapOf {
         theta[k + 1] = select(counts, theta[k + 1], V(0.0));
       }
   }
+  /// Lets a leap end behind the first point of a table that is met within its length [s], and returns where, among
+  /// these, it is certain which that is. Behind a point the cubic before it differs from the next one by the square of
+  /// the way beyond, which is so short that rounding sees nothing of it, and so long that the next section holds there.
+  [[gnu::always_inline]] Mask end_with_sections(const Mask& among, V& length) const {
+    Mask certain = among;
+    for (int k = 0; k < series_.code().sections; ++k) {
+      const SectionOf<V>& section = series_.section(k);
+      const Argument x = argument(series_.code().arguments[k], length);
+      const V now = x.terms[0], first = x.terms[1], sides = abs(first) + x.bends;
+      const Mask stays = (now + sides < section.high) & (now - sides > section.low);
+      certain = certain & (stays | (2.0 * x.turns <= abs(first)));
+      const V end = select(first > V(0.0), section.high, section.low),
+              way = 0x1p-20 * abs(x.moves) + 0x1p-50 * abs(end);
+      const V target = select(first > V(0.0), end + way, end - way) - now;
+      const Mask leaves = certain & !stays & (abs(x.moves) > abs(target));
+      if (!any(leaves)) continue;
+      V share = target / first;
+      for (int n = 0; n < 6; ++n) share = within_limits<V>(share - x.beyond(target, share), V(0.0), V(1.0));
+      certain = certain & ((!leaves) | (abs(x.beyond(target, share) * first) < 0.5 * way));
+      length = select(leaves, share * length, length);
+    }
+    return certain;
+  }
   /// Angle and speed so many seconds after the latest moment.
-  V angle_after(double s) const { return value(series_[In::angle], terms_.most + 2, s); }
-  V speed_after(double s) const { return value(series_[In::speed], terms_.most + 1, s); }
+  V angle_after(const V& s) const { return value(series_[In::angle], terms_.most + 2, s); }
+  V speed_after(const V& s) const { return value(series_[In::speed], terms_.most + 1, s); }
 
   TapeSeriesOf<V>& series() { return series_; }
   const TapeSeriesOf<V>& series() const { return series_; }
@@ -143,6 +203,21 @@ class TapedLeapOf {
 
  private:
   const V& first(int place) const { return series_[place][0]; }
+  /// Works out discs with others of time, angle and speed in some lanes, and returns by how much all are too large.
+  template <class CommandDisc>
+  V look(const Mask& which, const V& time, const V& angle, const V& speed, CommandDisc&& command_disc) {
+    const auto put = [&](int input, const V& radius) {
+      series_.radius(input) = select(which, radius, series_.radius(input));
+    };
+    put(In::time, time);
+    put(In::angle, angle);
+    put(In::speed, speed);
+    put(In::command, command_disc(time));
+    put(In::load, load_disc(time));
+    series_.radius(In::disturbance) = 0.0;
+    series_.work_out_discs();
+    return series_.shrinking();
+  }
   void expand_load() { expand_load(terms_.most - 1); }
 
   /// The most by which the load over time differs from its value within so many seconds, complex ones too: a cosine by
@@ -154,11 +229,47 @@ class TapedLeapOf {
     return select(seconds > V(0.0), seconds * (abs(m.slope) + m.steepness * growth), V(0.0));
   }
 
-  [[gnu::always_inline]] static V value(const V* c, int size, double s) {
+  /// The argument of a table over a length: its terms there, and what they come to.
+  struct Argument {
+    V terms[longest];
+    int count;
+    V moves;  ///< how far it gets
+    V bends;  ///< what all terms but the first may add to that ...
+    V turns;  ///< ... and to the first one's slope, times the length
+
+    /// By how many shares of the length a share is beyond that at which it has moved to the target, to first order.
+    V beyond(const V& target, const V& share) const {
+      V sum = 0.0, slope = 0.0;
+      for (int k = count - 1; k >= 1; --k) {
+        sum = (sum + terms[k]) * share;
+        slope = slope * share + static_cast<double>(k) * terms[k];
+      }
+      return (sum - target) / slope;
+    }
+  };
+  Argument argument(int place, const V& length) const {
+    Argument x;
+    x.count = terms_.most;
+    x.terms[0] = series_[place][0];
+    x.moves = x.bends = x.turns = V(0.0);
+    V power = length;
+    for (int k = 1; k < x.count; ++k, power = power * length) {
+      const Mask counts = V(static_cast<double>(k)) < terms_.of_each;  // as of a drive alone
+      const V term = select(counts, series_[place][k] * power, V(0.0));
+      x.terms[k] = term;
+      x.moves += term;
+      if (k == 1) continue;
+      x.bends += abs(term);
+      x.turns += static_cast<double>(k) * abs(term);
+    }
+    return x;
+  }
+
+  [[gnu::always_inline]] static V value(const V* c, int size, const V& s) {
     if constexpr (std::is_same_v<V, double>) {
       return wormdrive::value({c, static_cast<std::size_t>(size)}, s);
     } else {
-      const double square = s * s;  // as a drive alone has it, even and odd powers side by side
+      const V square = s * s;  // as a drive alone has it, even and odd powers side by side
       V even = 0.0, odd = 0.0;
       if (size % 2 == 1) even = c[--size];
       for (; size > 0; size -= 2) {

@@ -64,6 +64,42 @@ TEST_CASE("actuator_lag: through knots and limits the torque obeys lag y' + y = 
   REQUIRE(k >= 99'000);
 }
 
+TEST_CASE(
+    "actuator_lag: a sampled torque follows its samples, be the lag a hundredth of a sample or a hundred of them") {
+  constexpr double h = 0.01;
+  for (const double lag : {1e-4, 7e-4, 3e-3, 1e-2, 4e-2, 1.0})
+    for (const double start : {3.0, 1e-3, 0.0})
+      for (const By by : every_solver) {
+        INFO("lag " << lag << " s, from " << start << " rad/s, solver " << static_cast<int>(by.solver));
+        Counting controller;
+        const auto result =
+            run(flywheel({}, effects(ActuatorLag<double>{lag})), Timetable(0, 1, 0.017, {.period = h, .offset = 0.0}),
+                {0.0, {0.0, start}, {}}, tight(by, 1e-12), controller);
+        // An error of taylor is one of a second, an error of cvode one of each of thousands of steps.
+        const double error = by.solver == SolverKind::taylor ? 1e-11 : 3e-9;
+        double theta = 0.0, omega = start, torque = 0.0;
+        std::size_t row = 0;
+        for (int k = 0; k < 100; ++k) {  // tau = u - left e^(-s/lag)
+          const double u = 0.1 * (k + 1), left = u - torque;
+          const auto arrived = [&](double s) { return -std::expm1(-s / lag); };
+          const auto speed = [&](double s) { return omega + (u * s - left * lag * arrived(s)) / J; };
+          const auto angle = [&](double s) {
+            return theta + omega * s + (0.5 * u * s * s - left * lag * (s - lag * arrived(s))) / J;
+          };
+          for (; row < result.rows.size() && result.rows[row].now.t <= (k + 1) * h; ++row) {
+            const double s = result.rows[row].now.t - k * h;
+            CHECK(std::abs(result.rows[row].now.x[1] - speed(s)) <= error * (1.0 + speed(s)));
+            CHECK(std::abs(result.rows[row].now.x[0] - angle(s)) <= error * (1.0 + angle(s)));
+          }
+          const double next = angle(h);
+          omega = speed(h);
+          theta = next;
+          torque = u - left * std::exp(-h / lag);
+        }
+        CHECK(row == result.rows.size());
+      }
+}
+
 TEST_CASE("actuator_delay: the torque is the command of earlier, and nothing before the first has come") {
   const double late = 0.123;
   const Signal u = wavy();

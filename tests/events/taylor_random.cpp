@@ -231,6 +231,8 @@ Comparison compare_random_held(Dice& dice) {
     std::get<std::optional<Agma<double>>>(on.list) = {dice.between(0.5, 1.2)};
   }
   maybe(dice, on, TorqueSaturation<double>{dice.between(0.02, 0.04)});
+  if (dice.one_in(4))
+    std::get<std::optional<ActuatorLag<double>>>(on.list) = {1e-4 * std::pow(10.0, dice.between(0, 3))};
   if (dice.one_in(4)) std::get<std::optional<DcMotor<double>>>(on.list) = {dice.between(1, 3), dice.between(0.02, 0.1)};
   Samples held;
   double torque = 0.0;
