@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 #include "core/numbers/exponential.hpp"

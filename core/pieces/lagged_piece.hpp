@@ -5,7 +5,6 @@
 #include "core/numbers/jet.hpp"
 #include "core/numbers/portable.hpp"
 #include "core/pieces/piece.hpp"
-#include "core/pieces/settling.hpp"
 
 namespace wormdrive {
 
@@ -32,7 +31,7 @@ class LaggedPiece {
   /// The part of it that decays.
   double decaying(double t) const { return value_of(excess_) * portable::exp((value_of(begin_) - t) / value_of(lag_)); }
   /// From when on what decays is below rounding [s].
-  double settled() const { return value_of(begin_) + lags_to_settle * value_of(lag_); }
+  double settled() const { return value_of(begin_) + 40.0 * value_of(lag_); }
 
  private:
   template <class S>

@@ -1,7 +1,4 @@
 #pragma once
-#include <limits>
-
-#include "core/pieces/settling.hpp"
 #include "events/taylor/accuracy.hpp"
 #include "events/taylor/leap.hpp"
 #include "events/taylor/tape_series.hpp"
@@ -20,9 +17,8 @@ struct CommandReach {
 /// gets.
 template <class V>
 [[gnu::always_inline]] inline CommandReach<V> reach_of_lag(const V& lag, const V& elapsed) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr double leaps_in_disc = 4.0;  // so far 20 terms are exact
-  const V disc = select(elapsed > lags_to_settle * lag, V(infinite), 2.25 * lag + elapsed);
+  const V disc = 2.25 * lag + elapsed;
   return {(1.0 / leaps_in_disc) * disc, disc, leaps_in_disc};
 }
 /// Its coefficients from the first on, where so much of the torque before is left [N m].
