@@ -12,9 +12,8 @@ struct CommandReach {
   V leap, disc;
   double leaps_in_disc;
 };
-/// A torque that follows its command with a lag [s], so long after the command came [s]. At the edge of the disc the
-/// torque of before seems to be e^2.25 of what it was at the command; so the less of it is left, the further a leap
-/// gets.
+/// A torque that follows its command with a lag [s], so long after that came [s]. At the edge of the disc what is left
+/// of the torque before is e^2.25 of what it was at the command: the less it is now, the further a leap gets.
 template <class V>
 [[gnu::always_inline]] inline CommandReach<V> reach_of_lag(const V& lag, const V& elapsed) {
   constexpr double leaps_in_disc = 4.0;  // so far 20 terms are exact
@@ -90,7 +89,7 @@ class TapedLeapOf {
                                       const CommandReach<V>& reach, CommandDisc&& command_disc) {
     const TapeCode& code = series_.code();
     const TapedMotionOf<V>& m = series_.motion();
-    const V omega = first(In::speed), v = abs(omega), alpha = first(code.acceleration);
+    const V v = abs(first(In::speed)), alpha = first(code.acceleration);
     h = least<V>(h, reach.leap);
     const V T = least<V>(reach.leaps_in_disc * h, least<V>(m.time_disc, reach.disc)), turn = m.angle_disc;
     // A disc of the speed with which that of the angle is used up at about the same time.
@@ -106,10 +105,7 @@ class TapedLeapOf {
       if (!all(certain | (!among)))
         certain = look(among & (!certain), smaller * T, smaller * turn, less, command_disc) >= V(1.0);
     }
-    const V strays = series_.radius(code.acceleration);
-    const V disc = least<V>(least<V>(series_.radius(In::speed) / (above_one * (abs(alpha) + strays)),
-                                     series_.radius(In::angle) / (v + series_.radius(In::speed))),
-                            series_.radius(In::time));
+    const V strays = series_.radius(code.acceleration), disc = disc_of_times();
     V ratio = above_one * h / disc;
     const Mask far = ratio > V(0.5);
     certain = certain & among & (part * ratio <= V(within_reach));
@@ -119,17 +115,18 @@ class TapedLeapOf {
     }
     if (!any(certain)) return certain;
 
-    const V bend = strays * ratio, gain = above_one * (abs(alpha) + bend) * h, along = m.motion * omega;
-    certain = certain & ((along > gain) | ((along >= V(0.0)) & (m.motion * alpha > bend)));
-    const Mask without_teeth = !(m.flank != V(0.0));
-    certain = certain & (without_teeth | (-m.flank * first(code.beyond) > series_.radius(code.beyond) * ratio));
-    certain = certain & series_.stays_in_range(ratio);
-
+    const V bend = strays * ratio, gain = above_one * (abs(alpha) + bend) * h;
     const V allowed = accuracy.allowed(v + gain, h) * (1.0 - ratio);
     // of the arguments of tables it has to be known how they bend
     terms_ = code.sections > 0 ? TermsOf<V>::needed(certain, 3, longest, bend * ratio * ratio, ratio, allowed)
                                : TermsOf<V>::needed(certain, 1, longest, bend, ratio, allowed);
-    return terms_.suffice;
+    const Mask kept = terms_.suffice & keeps_mode(h, ratio), open = terms_.suffice & (!kept);
+    if (!any(open)) return kept;
+    // A disc hardly wider than the leap tells more of it.
+    const V near = 1.25 * h, less = 1.25 * gain;
+    const Mask fits = look(open, least<V>(near, T), near * (v + less), less, command_disc) >= V(1.0);
+    ratio = above_one * h / disc_of_times();
+    return kept | (open & fits & (ratio <= V(1.0)) & keeps_mode(h, ratio));
   }
 
   /// Works out the motion from there, which value() tells.
@@ -199,6 +196,26 @@ class TapedLeapOf {
 
  private:
   const V& first(int place) const { return series_[place][0]; }
+  /// The disc of times in which angle and speed stay in theirs.
+  [[gnu::always_inline]] V disc_of_times() const {
+    const V strays = series_.radius(series_.code().acceleration), alpha = abs(first(series_.code().acceleration));
+    return least<V>(least<V>(series_.radius(In::speed) / (above_one * (alpha + strays)),
+                             series_.radius(In::angle) / (abs(first(In::speed)) + series_.radius(In::speed))),
+                    series_.radius(In::time));
+  }
+  /// Where no guard falls through zero and nothing leaves its range in a leap of h [s], so large a share of the way to
+  /// the edge of the disc.
+  [[gnu::always_inline]] Mask keeps_mode(const V& h, const V& ratio) const {
+    const TapeCode& code = series_.code();
+    const TapedMotionOf<V>& m = series_.motion();
+    const V alpha = first(code.acceleration), along = m.motion * first(In::speed);
+    const V bend = series_.radius(code.acceleration) * ratio;
+    const Mask turns =
+        !((along > above_one * (abs(alpha) + bend) * h) | ((along >= V(0.0)) & (m.motion * alpha > bend)));
+    const Mask without_teeth = !(m.flank != V(0.0));
+    return (!turns) & (without_teeth | (-m.flank * first(code.beyond) > series_.radius(code.beyond) * ratio)) &
+           series_.stays_in_range(ratio);
+  }
   /// Works out discs with others of time, angle and speed in some lanes, and returns by how much all are too large.
   template <class CommandDisc>
   V look(const Mask& which, const V& time, const V& angle, const V& speed, CommandDisc&& command_disc) {
