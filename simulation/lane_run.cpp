@@ -139,14 +139,18 @@ class LaneRunOf final : public LaneRun {
   void go_on(const Lane& lane, long sample, double t, double torque, double disturbance) override {
     LaneTrial<double> trial = lane.read();
     if (sample != next_) {
-      const long samples = sample - next_;
-      solver_.count_leaps(samples, taped_ ? static_cast<long>(tape_.motion().leaps) : samples);
+      long leaps = sample - next_;
+      if (taped_) {
+        const auto motion = from_lane<TapedMotionOf<double>>(tape_.numbers, tape_.lanes);
+        leaps = static_cast<long>(motion.leaps);
+        if (tape_.code->lags) drive_.resume_motor(t, motion.torque);
+      }
+      solver_.count_leaps(sample - next_, leaps);
       progress_.timetable.skip_to_sample(sample);
       progress_.now.t = t;
       progress_.now.x = {trial.theta, trial.omega};
       progress_.cause = {Reason::sample};
       watch_.meter.instant(t, progress_.now.mode);
-      if (taped_ && tape_.code->lags) drive_.resume_motor(t, tape_.motion().torque);
       run_.record(drive_, progress_.now);
     }
     advance({.torque = torque, .disturbance = disturbance});
@@ -267,15 +271,6 @@ class LaneRunOf final : public LaneRun {
     std::size_t lanes = 0;
     const TapeCode* left = nullptr;  ///< of the mode in which it was left, which fits the batch's or not
     bool fits = false;
-
-    /// What comes first in the lane's numbers.
-    TapedMotionOf<double> motion() const {
-      double fields[sizeof(TapedMotionOf<double>) / sizeof(double)];
-      for (std::size_t k = 0; k < std::size(fields); ++k) fields[k] = numbers[k * lanes];
-      TapedMotionOf<double> motion;
-      std::memcpy(&motion, fields, sizeof motion);
-      return motion;
-    }
   } tape_;
 };
 

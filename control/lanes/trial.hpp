@@ -33,19 +33,23 @@ struct LaneTrial {
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);
 
+/// A struct of doubles out of its lane among others, as put_into_lane() has put it there. first: its own.
+template <class Fields>
+Fields from_lane(const double* first, std::size_t lanes) {
+  double list[sizeof(Fields) / sizeof(double)];
+  for (std::size_t k = 0; k < sizeof list / sizeof(double); ++k) list[k] = first[k * lanes];
+  Fields fields;
+  std::memcpy(&fields, list, sizeof fields);
+  return fields;
+}
+
 /// A trial in its lane among others.
 class Lane {
  public:
   /// memory: of the register's LaneTrial; lanes: in a register.
   Lane(double* memory, int lanes, int lane) : first_(memory + lane), lanes_(lanes) {}
 
-  LaneTrial<double> read() const {
-    double fields[lane_fields];
-    for (std::size_t k = 0; k < lane_fields; ++k) fields[k] = first_[k * lanes_];
-    LaneTrial<double> trial;
-    std::memcpy(&trial, fields, sizeof trial);
-    return trial;
-  }
+  LaneTrial<double> read() const { return from_lane<LaneTrial<double>>(first_, lanes_); }
   void write(const LaneTrial<double>& trial) const { put_into_lane(trial, first_, lanes_); }
 
  private:

@@ -71,7 +71,7 @@ TEST_CASE("lanes: trials whose equations are on tapes have the bits of runs alon
     const auto run = lane_run(scenario);
     taped += run && run->tape() != nullptr;
   }
-  REQUIRE(taped >= 110);  // Stribeck's friction alone has formulas of its own
+  REQUIRE(taped == 120);
   require_the_same(scenarios);
 }
 
