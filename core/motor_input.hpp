@@ -73,8 +73,13 @@ class MotorInput {
   bool lags() const { return lag_ > T(0); }
   double lag() const { return value_of(lag_); }
   double decaying(double t) const { return lagged_.decaying(t - late_); }
-  /// Lets a lagging torque have this value [N m] now.
+  /// Lets a torque that lags, or one that is commanded with a delay and has arrived, have this value [N m] now.
   void resume(double t, double torque) {
+    if (!lags()) {
+      on_the_way_.clear();
+      held_ = torque;
+      return freeze(Piece{}, t);
+    }
     lagged_ = {Piece{}, T(0), lag_, T(t), T(torque)};
     started_ = true;
   }

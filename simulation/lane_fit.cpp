@@ -11,7 +11,13 @@ namespace {
 bool has_held_torque(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
   return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
-         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states() && on.delay() <= 0.0;
+         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states();
+}
+
+/// Whether a command reaches the motor before the next one is given, and the motor does not lag as well.
+bool arrives_within_sample(const Scenario& scenario) {
+  const double delay = scenario.effects.delay(), rounding = 4.0 * time_resolution(scenario.run.duration);
+  return delay <= 0.0 || (scenario.effects.lag() <= 0.0 && delay + rounding < scenario.control->sampling.period);
 }
 
 /// Whether lanes know what a controller is told and how it decides.
@@ -27,12 +33,13 @@ bool has_lane_controller(const ControlScenario& control) {
 
 bool has_lane_plant(const Scenario& scenario) {
   return has_held_torque(scenario) && std::holds_alternative<GravityArm>(scenario.load) &&
-         std::isinf(scenario.effects.torque_limit()) && scenario.effects.lag() <= 0.0;
+         std::isinf(scenario.effects.torque_limit()) && scenario.effects.lag() <= 0.0 &&
+         scenario.effects.delay() <= 0.0;
 }
 
 bool fits_lane(const Scenario& scenario) {
   return scenario.control && has_lane_controller(*scenario.control) && has_held_torque(scenario) &&
-         scenario.effects.measuring_delay() <= 0.0;
+         arrives_within_sample(scenario) && scenario.effects.measuring_delay() <= 0.0;
 }
 
 bool share_samples(const Scenario& a, const Scenario& b) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "simulation/lane_tape.hpp"
 #include "simulation/run_drive.hpp"
 
 namespace wormdrive {
@@ -60,18 +61,20 @@ class LaneRunOf final : public LaneRun {
   LaneRunOf& operator=(const LaneRunOf&) = delete;
 
   /// False where the steps of the drive are neither in closed form nor on a tape.
-  bool fits() { return !taped_ || (leaps_by_tape() && tape() != nullptr); }
+  bool fits() { return !taped_ || (response() != MotorResponse::after_delay && leaps_by_tape() && tape() != nullptr); }
   LaneVariant variant() const override {
     const bool pid = std::holds_alternative<PidParameters>(scenario_.control->law);
     if constexpr (has_formulas)
       if (!taped_)
         return {.ideal = std::isinf(drive_.torque_limit()) && solver_.nominal().response().gain == 1.0 && !falls() &&
-                         scenario_.control->sampling.delay <= 0.5 && is_encoder_exact() && !is_disturbed(),
+                         scenario_.control->sampling.delay <= 0.5 && is_encoder_exact() && !is_disturbed() &&
+                         response() == MotorResponse::at_once,
                 .pid = pid,
                 .swings = std::is_same_v<Load, GravityLoad>,
                 .rubs = rubs() && !falls(),
                 .falls = solver_.nominal().curve().exponent(),
-                .falls_with_tail = solver_.nominal().curve().has_tail()};
+                .falls_with_tail = solver_.nominal().curve().has_tail(),
+                .response = response()};
     return {.ideal = false, .pid = pid, .swings = false, .taped = true};
   }
   const TapeCode* tape() override {
@@ -81,9 +84,7 @@ class LaneRunOf final : public LaneRun {
         if (const TapeCode* const code = solver_.taped().code({motion, flank})) return code;
     return nullptr;
   }
-  void use_tape(const TapeCode& code, double* numbers, int lanes) override {
-    tape_ = {&code, numbers, static_cast<std::size_t>(lanes)};
-  }
+  void use_tape(const TapeCode& code, double* numbers, int lanes) override { tape_ = LaneTape(code, numbers, lanes); }
   SectionOf<double> section(int table, double x) override { return solver_.taped().section(table, x); }
   bool estimate_is_aligned() const override { return nominal_.load_angle_offset == 0.0 && is_encoder_exact(); }
   bool is_rough() const override { return !encoder_.is_exact() || scenario_.control->sensor.zero_error != 0.0; }
@@ -118,6 +119,8 @@ class LaneRunOf final : public LaneRun {
                             .quiet = watch_.lemma ? watch_.lemma->quiet() : all_quiet,
                             .limit = drive_.torque_limit(),
                             .left = 0.0,
+                            .torque = 0.0,
+                            .behind = drive_.effects().delay() + drive_.effects().lag(),
                             .drive = {},
                             .arm_offset = {},
                             .pull = 0.0,
@@ -139,13 +142,16 @@ class LaneRunOf final : public LaneRun {
   void go_on(const Lane& lane, long sample, double t, double torque, double disturbance) override {
     LaneTrial<double> trial = lane.read();
     if (sample != next_) {
-      long leaps = sample - next_;
+      long restarts = sample - next_, leaps = restarts;
       if (taped_) {
-        const auto motion = from_lane<TapedMotionOf<double>>(tape_.numbers, tape_.lanes);
+        const TapedMotionOf<double> motion = tape_.motion();
         leaps = static_cast<long>(motion.leaps);
-        if (tape_.code->lags) drive_.resume_motor(t, motion.torque);
+        if (tape_.lags()) drive_.resume_motor(t, motion.torque);
+      } else if (response() != MotorResponse::at_once) {
+        if (response() == MotorResponse::after_delay) leaps = restarts *= 2;
+        drive_.resume_motor(t, trial.torque);
       }
-      solver_.count_leaps(sample - next_, leaps);
+      solver_.count_leaps(restarts, leaps);
       progress_.timetable.skip_to_sample(sample);
       progress_.now.t = t;
       progress_.now.x = {trial.theta, trial.omega};
@@ -200,6 +206,10 @@ class LaneRunOf final : public LaneRun {
     }
     return false;
   }
+  MotorResponse response() const {
+    if (drive_.effects().delay() > 0.0) return MotorResponse::after_delay;
+    return drive_.motor_input().lags() ? MotorResponse::with_lag : MotorResponse::at_once;
+  }
   /// Whether the solver takes no step in closed form.
   bool leaps_by_tape() const {
     if constexpr (!has_formulas) return true;
@@ -222,7 +232,10 @@ class LaneRunOf final : public LaneRun {
     const typename Drive::Instant& now = progress_.now;
     trial.theta = now.x[0];
     trial.omega = now.x[1];
-    if (taped_) return leave_on_tape();
+    if (taped_)
+      return tape_.leave(Drive::at_rest(now.mode) ? nullptr : solver_.taped().code(now.mode),
+                         [&] { return solver_.taped().numbers(now.t, drive_.next_knot(now.t)); });
+    if (response() != MotorResponse::at_once) trial.torque = drive_.motor_input()(now.t);
     if constexpr (has_formulas) {
       trial.drive = Drive::at_rest(now.mode) ? DrivenMotion{} : *solver_.nominal().driven(now.mode);
       if (Drive::at_rest(now.mode) || !falls()) return;
@@ -233,25 +246,6 @@ class LaneRunOf final : public LaneRun {
       trial.speed_of_fall = fall.speed;
     }
   }
-  /// The same of one whose equations are on a tape. Its place in memory is that of a TapeSeriesOf<V>.
-  void leave_on_tape() {
-    const typename Drive::Instant& now = progress_.now;
-    const TapeCode* const code = Drive::at_rest(now.mode) ? nullptr : solver_.taped().code(now.mode);
-    if (code != tape_.left) tape_.fits = code != nullptr && *code == *tape_.code;
-    if (!tape_.fits) {
-      tape_.left = code;
-      tape_.numbers[0] = 0.0;  // of TapedMotionOf: it waits
-      return;
-    }
-    const double* const numbers = solver_.taped().numbers(now.t, drive_.next_knot(now.t));
-    const std::size_t inputs =
-        (sizeof(TapedMotionOf<double>) + static_cast<std::size_t>(code->waves) * sizeof(WaveOf<double>)) /
-        sizeof(double);
-    const std::size_t changed = code == tape_.left ? inputs : TapeSeriesOf<double>::numbers(*code);
-    for (std::size_t k = 0; k < changed; ++k) tape_.numbers[k * tape_.lanes] = numbers[k];
-    tape_.left = code;
-  }
-
   const Scenario& scenario_;
   RunListeners nobody_;
   Drive drive_;
@@ -265,13 +259,7 @@ class LaneRunOf final : public LaneRun {
   Progress<Drive> progress_;
   long next_ = 0;  ///< sample up to which it has come alone
   bool taped_;
-  struct {
-    const TapeCode* code = nullptr;  ///< of the batch
-    double* numbers = nullptr;
-    std::size_t lanes = 0;
-    const TapeCode* left = nullptr;  ///< of the mode in which it was left, which fits the batch's or not
-    bool fits = false;
-  } tape_;
+  LaneTape tape_;
 };
 
 template <class Stated>

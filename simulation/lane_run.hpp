@@ -3,7 +3,7 @@
 
 #include "control/lanes/trial.hpp"
 #include "control/lanes/variant.hpp"
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/tapes/series.hpp"
 #include "simulation/run_scenario.hpp"
 
 namespace wormdrive {
@@ -13,7 +13,7 @@ namespace wormdrive {
 bool has_lane_plant(const Scenario& scenario);
 /// Whether a scenario may run in a lane: between angle and torque an encoder's scale, zero, counts and noise, the
 /// sliding controller or the PID, and a delay of a sample; between torque and angle what has no states of its own,
-/// where a torque that is held reaches the motor at once or with a lag.
+/// where a torque that is held reaches the motor at once, before the next one is given, or with a lag.
 bool fits_lane(const Scenario& scenario);
 /// Whether two scenarios take the same samples of the same reference, equally exact.
 bool share_samples(const Scenario& a, const Scenario& b);

@@ -7,7 +7,7 @@
 
 #include "control/lanes/batch.hpp"
 #include "events/simulation_failure.hpp"
-#include "events/taylor/taped_leap.hpp"
+#include "events/taylor/tapes/leap.hpp"
 #include "simulation/lane_run.hpp"
 
 namespace wormdrive {

@@ -8,7 +8,7 @@
 #include "control/reference_point.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/accuracy.hpp"
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/tapes/series.hpp"
 
 namespace wormdrive {
 

@@ -2,7 +2,7 @@
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 #include "control/lanes/taped_plant.hpp"
-#include "events/taylor/stribeck.hpp"
+#include "events/taylor/nominal/stribeck.hpp"
 
 // Included by one file for each instruction set, which instantiates it with a type of its own: nothing that is compiled
 // for a newer processor may be seen by the rest of the program.
@@ -90,20 +90,14 @@ class LaneKernel {
     if constexpr (variant.taped) {
       known = TapedPlant<Width>(batch, r).step(sample, theta, omega, command, disturbance);
     } else {
-      const HeldTorquesOf<V> held = !variant.ideal && batch.disturbance
-                                        ? x.drive.under(command, disturbance)
-                                        : x.drive.template under<variant.ideal>(command);
+      const HeldTorquesOf<V> held = torques_under<variant>(batch, x, command, disturbance);
       const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
-      known = x.drive.held.goes_on(omega, held, arm);
-      if constexpr (variant.falls > 0) {
-        const FallOf<V> fall{
-            x.pull, x.bend, x.per_speed, x.speed_of_fall, batch.variant.falls, batch.variant.falls_with_tail};
-        known = known & FallingLeap<V>::template take<variant.swings>(x.drive.held, fall, theta, omega, sample.step,
-                                                                      held, arm, batch.accuracy);
-      } else {
-        known = known & x.drive.held.template leap<variant.swings, variant.rubs>(theta, omega, sample.step, held, arm,
-                                                                                 batch.accuracy);
-      }
+      if (variant.ideal || batch.variant.response == MotorResponse::at_once) [[likely]]
+        known = leap<variant>(batch, x, theta, omega, sample.step, held, arm);
+      else if (batch.variant.response == MotorResponse::after_delay)
+        known = leap_after_delay<variant>(batch, sample, r, x, theta, omega, command, disturbance, arm);
+      else if constexpr (!variant.rubs && variant.falls == 0)
+        known = leap_with_lag<variant>(batch, sample, x, theta, omega, command, held, arm);
     }
     const unsigned alone = set_bits(!known) & batch.alive[r];
     if (alone == 0U) [[likely]] {
@@ -114,6 +108,59 @@ class LaneKernel {
       x.omega = select(known, omega, x.omega);
       go_on(batch, sample, r, alone, record);
     }
+  }
+
+  template <LaneVariant variant>
+  [[gnu::always_inline]] static HeldTorquesOf<V> torques_under(const LaneBatch& batch, const LaneTrial<V>& x,
+                                                               const V& command, const V& disturbance) {
+    return !variant.ideal && batch.disturbance ? x.drive.under(command, disturbance)
+                                               : x.drive.template under<variant.ideal>(command);
+  }
+  /// One step by a formula, where it is certain beforehand.
+  template <LaneVariant variant, class H>
+  [[gnu::always_inline]] static LaneMask<Width> leap(const LaneBatch& batch, const LaneTrial<V>& x, V& theta, V& omega,
+                                                     const H& h, const HeldTorquesOf<V>& held,
+                                                     const SineAndCosineOf<V>& arm) {
+    const HeldMotionOf<V>& m = x.drive.held;
+    const LaneMask<Width> goes_on = m.goes_on(omega, held, arm);
+    if constexpr (variant.falls > 0) {
+      const FallOf<V> fall{
+          x.pull, x.bend, x.per_speed, x.speed_of_fall, batch.variant.falls, batch.variant.falls_with_tail};
+      return goes_on &
+             FallingLeap<V>::template take<variant.swings>(m, fall, theta, omega, h, held, arm, batch.accuracy);
+    } else {
+      return goes_on & m.template leap<variant.swings, variant.rubs>(theta, omega, h, held, arm, batch.accuracy);
+    }
+  }
+  /// Two steps: under the torque of the command before, and under that of this one from when it arrives.
+  template <LaneVariant variant>
+  [[gnu::noinline]] static LaneMask<Width> leap_after_delay(const LaneBatch& batch, const LaneSample& sample, int r,
+                                                            LaneTrial<V>& x, V& theta, V& omega, const V& command,
+                                                            const V& disturbance, const SineAndCosineOf<V>& arm) {
+    const V arrival = sample.t + x.behind;
+    const LaneMask<Width> is_within =
+        (arrival > V(sample.t)) & (arrival < V(sample.next)) & (V(sample.step) > V(0.0));  // not where all go on alone
+    LaneMask<Width> known = is_within & leap<variant>(batch, x, theta, omega, arrival - sample.t,
+                                                      torques_under<variant>(batch, x, x.torque, disturbance), arm);
+    const SineAndCosineOf<V> then =
+        variant.swings ? of_sum(sine_and_cosine(batch, r, theta), x.arm_offset) : SineAndCosineOf<V>{0.0, 1.0};
+    known = known & leap<variant>(batch, x, theta, omega, sample.next - arrival,
+                                  torques_under<variant>(batch, x, command, disturbance), then);
+    x.torque = select(known, command, x.torque);
+    return known;
+  }
+  /// One step without drag while the torque before decays.
+  template <LaneVariant variant>
+  [[gnu::noinline]] static LaneMask<Width> leap_with_lag(const LaneBatch& batch, const LaneSample& sample,
+                                                         LaneTrial<V>& x, V& theta, V& omega, const V& command,
+                                                         const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm) {
+    const V left = x.torque - command;
+    const LaggingTorqueOf<V> lagging{x.drive.of_decaying(left), DecayOf<V>(sample.step / x.behind)};
+    const LaneMask<Width> known =
+        x.drive.held.goes_on(omega, held + lagging.left, arm) &
+        x.drive.held.template leap<variant.swings>(theta, omega, sample.step, held, lagging, arm, batch.accuracy);
+    x.torque = select(known, command + left * lagging.decay.left(), x.torque);
+    return known;
   }
 
   /// What encoders show of angles: with noise, then rounded to counts.

@@ -4,7 +4,7 @@
 #include "control/lanes/kind.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/accuracy.hpp"
-#include "events/taylor/leap.hpp"
+#include "events/taylor/nominal/driven.hpp"
 
 namespace wormdrive {
 

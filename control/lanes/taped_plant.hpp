@@ -4,8 +4,8 @@
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 #include "core/numbers/exponential.hpp"
-#include "events/taylor/tape_operations.hpp"
-#include "events/taylor/taped_leap.hpp"
+#include "events/taylor/tapes/leap.hpp"
+#include "events/taylor/tapes/operations.hpp"
 
 // Included by one file for each instruction set, as kernel.hpp is.
 

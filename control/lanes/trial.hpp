@@ -6,7 +6,7 @@
 #include "control/pid.hpp"
 #include "control/sliding.hpp"
 #include "control/speed_estimator.hpp"
-#include "events/taylor/leap.hpp"
+#include "events/taylor/nominal/driven.hpp"
 
 namespace wormdrive {
 
@@ -25,6 +25,8 @@ struct LaneTrial {
   Lemma1Quiet<V> quiet;
   V limit;                                 ///< of the motor's torque [N m]
   V left;                                  ///< of the torque decided at the sample before, by the limit [N m]
+  V torque;                                ///< that the motor gives, where it does not answer at once [N m] ...
+  V behind;                                ///< ... but after this delay or with this time constant [s]
   DrivenMotionOf<V> drive;                 ///< the present mode; motion 0 at rest
   SineAndCosineOf<V> arm_offset;           ///< of the arm against the gear
   V pull, bend, per_speed, speed_of_fall;  ///< of friction that falls with the speed in that mode, see FallOf

@@ -2,6 +2,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/numbers/lanes.hpp"
+
 namespace wormdrive {
 
 /// 2^k of the whole number k in the last bits of a double.
@@ -25,7 +27,11 @@ inline V exponential(const V& x) {
   return power_of_two(shifted) * (1.0 + (r + r2 * tail));
 }
 
-/// e^-x for x >= 0; zero where that is less than 1e-307.
-inline double decay(double x) { return x > 707.0 ? 0.0 : exponential(-x); }
+/// e^-x for x >= 0, zero where that is less than 1e-307; of one number or of several at once.
+template <class V>
+inline V decay(const V& x) {
+  constexpr double nothing_left = 707.0;
+  return select(x > V(nothing_left), V(0.0), exponential(-least<V>(x, V(nothing_left))));
+}
 
 }  // namespace wormdrive

@@ -3,6 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/motor_input.hpp"
+#include "core/numbers/decay.hpp"
+#include "core/numbers/series.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "core/pieces/piece.hpp"
 #include "events/taylor/polynomial.hpp"
@@ -26,6 +29,16 @@ inline void expand_input(const Piece& piece, double t, int last, double factor, 
   }
   if (factor != 1.0)
     for (int k = 0; k <= last; ++k) c[k] *= factor;
+}
+
+/// Sets c to the coefficients of the torque of a motor, up to the last that is asked for.
+inline void expand_torque(const MotorInput<double>& motor, double t, int last, double* c) {
+  if (motor.lags() && motor.piece().is_constant()) {
+    c[0] = motor(t);
+    return expand_decay(motor.decaying(t), motor.lag(), last, c);
+  }
+  const auto torque = motor(OpenSeries<double>::variable(t, last));
+  std::copy_n(torque.c.begin(), last + 1, c);
 }
 
 /// The most that the terms of coefficient k may add up to, whatever the phases.

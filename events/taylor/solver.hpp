@@ -11,11 +11,11 @@
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
 #include "events/taylor/leave_rest.hpp"
-#include "events/taylor/nominal.hpp"
-#include "events/taylor/nominal_start.hpp"
+#include "events/taylor/nominal/flow.hpp"
+#include "events/taylor/nominal/start.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
-#include "events/taylor/taped.hpp"
+#include "events/taylor/tapes/flow.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {
@@ -113,8 +113,9 @@ class TaylorSolver {
       now = at(std::min(next, end_));
       if (fired_ != no_guard && now.t == end_) return fired_;
     }
+    if (now.t < next && next <= end_) now = at(next);  // a report was within rounding of it
     now.t = next;
-    return no_guard;
+    return next == end_ ? fired_ : no_guard;
   }
 
   /// Goes on without a search for events to the limit, or to where a formula ends, where they can vouch for it.
@@ -124,7 +125,7 @@ class TaylorSolver {
     bool held = false;
     if constexpr (NominalFlow<System>::known) {
       // Where they know the drive, their series cost less than a tape's.
-      held = nominal_.covers() && !(nominal_.load_alone_varies() && covers_phase(now.t, limit));
+      held = nominal_.covers() && !(nominal_.load_alone_varies() && (nominal_.lags() || covers_phase(now.t, limit)));
       if (held && !nominal_.leap(now, limit, accuracy_)) return false;
     }
     if (!held && !leap_by_tape(now, limit)) return false;

@@ -9,7 +9,7 @@
 
 #include "core/numbers/sine_cosine.hpp"
 #include "description/scenario.hpp"
-#include "events/taylor/leap.hpp"
+#include "events/taylor/nominal/driven.hpp"
 #include "output/run_columns.hpp"
 #include "simulation/stepping/step_clock.hpp"
 

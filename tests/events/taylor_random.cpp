@@ -262,6 +262,36 @@ Comparison compare_random_held(Dice& dice) {
   return compare(drive(p, arm, motor, on), start);
 }
 
+/// Nothing but a motor that answers late or brakes, or bearings that do, by torques that are held for milliseconds:
+/// steps have formulas of their own. Times and sizes over decades.
+Comparison compare_random_motor(Dice& dice) {
+  const MeshParameters<double> p = table1(dice.between(0.1, 0.35));
+  const auto decades = [&](double low, double high) { return low * std::pow(high / low, dice.between(0, 1)); };
+  Effects<double> on;
+  switch (dice.below(4)) {
+    case 0: on = effects(ActuatorLag<double>{decades(1e-5, 1.0)}); break;
+    case 1: on = effects(DcMotor<double>{decades(0.1, 100.0), dice.between(0.02, 0.1)}); break;
+    case 2: on = effects(WormViscous<double>{decades(1e-6, 1e-2)}, GearViscous<double>{decades(1e-4, 1.0)}); break;
+    case 3: on = effects(ActuatorDelay<double>{decades(1e-5, 1e-2)}); break;
+  }
+  maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
+  maybe(dice, on, GearInertia<double>{decades(1e-5, 3e-3)});
+  maybe(dice, on, TorqueSaturation<double>{dice.between(0.02, 0.04)});
+  Samples held;
+  double torque = 0.0;
+  for (double t = 0.0; t < duration; t += 0.005) {
+    torque = std::clamp(torque + dice.between(-0.02, 0.02), -0.05, 0.05);
+    held.times.push_back(t);
+    held.values.push_back(torque);
+  }
+  const typename WormDrive<double, GravityLoad>::Instant start{0, {dice.between(-3, 3), dice.between(-2, 2)}, {}};
+  if (dice.one_in(4)) return compare(drive(p, constant(dice.between(-0.1, 0.1)), Signal{{held}}, on), {0, start.x, {}});
+  GravityArm arm;
+  arm.amplitude = dice.between(-1, 1) < 0.0 ? -decades(1e-3, 1.0) : decades(1e-3, 1.0);
+  arm.offset = dice.between(-3, 3);
+  return compare(drive(p, arm, Signal{{held}}, on), start);
+}
+
 }  // namespace
 
 TEST_CASE("a run that grazes an event by less than 1e-7 is known as such") {
@@ -321,6 +351,14 @@ TEST_CASE("in 200 random runs power series and CVODE find the same events and st
 TEST_CASE("in 100 random runs with a third of all effects on, power series and CVODE tell the same within 1e-8",
           "[slow]") {
   const Tally tally = require_same(100, 1000, 1e-8, " with effects", compare_random_effects);
+  REQUIRE(tally.set_aside <= 100 / 4);
+  REQUIRE(tally.events >= 250);
+}
+
+TEST_CASE(
+    "in 100 random runs with a motor that lags, comes late or brakes, power series and CVODE tell the same within 1e-8",
+    "[slow]") {
+  const Tally tally = require_same(100, 5000, 1e-8, " with motors", compare_random_motor);
   REQUIRE(tally.set_aside <= 100 / 4);
   REQUIRE(tally.events >= 250);
 }

@@ -122,7 +122,10 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
              {none.front(), "sensor.noise_deg=0.002"},
              {none.front(), "sensor.zero_error_deg=-0.7"},
              {none.front(), "disturbance.deviation_Nm=2e-4", "disturbance={deviation_Nm=1e-4,time_constant_s=0.01}"},
-             {none.front(), "controller.delay_samples=1"}})
+             {none.front(), "controller.delay_samples=1"},
+             {none.front(), none.front(), none.front(), "effect.actuator_delay.delay_s=2e-4",
+              "effect.actuator_delay.delay_s=9.99e-4", "effect.actuator_lag.time_constant_s=1e-6",
+              "effect.actuator_lag.time_constant_s=5e-4", "effect.actuator_lag.time_constant_s=0.02"}})
       changes.push_back(one_of(choices));
     scenarios.push_back(
         varied(load_scenario(shipped(one_of({"fig10_sliding_014rad_bare.toml", "fig10_pid_014rad_bare.toml"})), changes,
@@ -131,6 +134,33 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
     REQUIRE(fits_lane(scenarios.back()));
   }
   require_the_same(scenarios);
+}
+
+TEST_CASE("lanes: the same with a motor that answers late, by another time in every trial, be it as strong as it may") {
+  std::mt19937_64 random(20);
+  const auto decades = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution(0.0, 1.0)(random));
+  };
+  for (const char* law : {"fig10_sliding_014rad_bare.toml", "fig10_pid_014rad_bare.toml"})
+    for (const std::string motor : {"actuator_lag.time_constant_s={}", "actuator_delay.delay_s={}",
+                                    "dc_motor={{resistance_ohm={},torque_constant_Nm_per_A=0.05}}"}) {
+      std::vector<Scenario> scenarios;
+      for (int k = 0; k < 16; ++k) {
+        const double number = motor.starts_with("dc") ? decades(0.3, 30.0) : decades(1e-6, 9e-4);
+        scenarios.push_back(varied(
+            load_scenario(shipped(law),
+                          {{"run.solver=taylor", "run.duration_s=0.8", "metrics.from_s=0",
+                            "effect." + fmt::format(fmt::runtime(motor), number),
+                            k % 2 == 0 ? "effect.torque_saturation.limit_Nm=0.04" : "effect.torque_gain.share=0.1"}},
+                          Purpose::run),
+            random, 0.2));
+        const auto run = lane_run(scenarios.back());
+        INFO(motor << " with " << number);
+        REQUIRE(run);
+        REQUIRE(run->tape() == nullptr);
+      }
+      require_the_same(scenarios);
+    }
 }
 
 TEST_CASE("lanes: the same where only some of the trials are noisy, count or are disturbed") {

@@ -10,13 +10,13 @@
 #include "core/numbers/sine_cosine.hpp"
 #include "core/worm_drive.hpp"
 #include "events/taylor/accuracy.hpp"
-#include "events/taylor/arm.hpp"
-#include "events/taylor/equation.hpp"
 #include "events/taylor/input.hpp"
-#include "events/taylor/leap.hpp"
-#include "events/taylor/nominal_effects.hpp"
+#include "events/taylor/nominal/arm.hpp"
+#include "events/taylor/nominal/driven.hpp"
+#include "events/taylor/nominal/effects.hpp"
+#include "events/taylor/nominal/equation.hpp"
+#include "events/taylor/nominal/stribeck.hpp"
 #include "events/taylor/series_step.hpp"
-#include "events/taylor/stribeck.hpp"
 
 namespace wormdrive {
 
@@ -31,9 +31,10 @@ class NominalFlow {
 template <class Load>
 concept NominalLoad = std::is_same_v<Load, GravityLoad> || std::is_same_v<Load, TimedLoad>;
 
-/// The motion of a drive by formulas of its own, where the motor's torque is affine in command and speed, an arm under
-/// gravity or a torque over time loads it, its bearings are dry and viscous, and friction between the teeth depends on
-/// the mode or falls with the speed: what SeriesFlow finds for any drive, many times faster.
+/// The motion of a drive by formulas of its own, where the motor's torque is affine in command and speed, at once or
+/// with a lag, an arm under gravity or a torque over time loads it, its bearings are dry and viscous, and friction
+/// between the teeth depends on the mode or falls with the speed: what SeriesFlow finds for any drive, many times
+/// faster.
 template <NominalLoad Load>
 class NominalFlow<WormDrive<double, Load>> {
  public:
@@ -45,12 +46,13 @@ class NominalFlow<WormDrive<double, Load>> {
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
   explicit NominalFlow(const System& system)
-      : motor_(system.motor_piece()),
+      : input_(system.motor_input()),
+        motor_(system.motor_piece()),
         disturbance_(system.disturbance()),
         load_(system.load()),
         late_(system.effects().delay()),
         surface_(system.surface()) {
-    if constexpr (swings) offset_ = sine_and_cosine(load_.offset);
+    if constexpr (swings) arm_angle_ = ArmAngle(load_.offset);
     const NominalEffects<swings> effects(system);
     covers_ = effects.are_covered;
     response_ = effects.response;
@@ -64,13 +66,16 @@ class NominalFlow<WormDrive<double, Load>> {
   /// False with an effect that this flow does not know.
   bool covers() const { return covers_; }
 
-  /// Whether leaps are in closed form: torques are held.
+  /// Whether leaps are in closed form: torques are held, and one that lags decays to what is.
   bool inputs_are_constant() const {
     if constexpr (swings)
       return motor_.is_constant();
     else
       return motor_.is_constant() && load_.piece.is_constant();
   }
+
+  /// Whether the motor's torque follows its command with a lag.
+  bool lags() const { return input_.lags(); }
 
   /// Whether the load alone changes between samples: then a tape takes leaps that have no closed form here.
   bool load_alone_varies() const {
@@ -83,7 +88,10 @@ class NominalFlow<WormDrive<double, Load>> {
   /// Whether a moving drive goes on in the latest mode after its inputs were set from outside: its torques are clear of
   /// the switching surface. Otherwise the equations of core/ have to decide.
   bool goes_on(const Instant& now) {
-    return inputs_are_constant() && mode_->driven.held.goes_on(now.x[1], held_torques(*mode_), arm_at(now.x[0]));
+    if (!inputs_are_constant()) return false;
+    HeldTorques held = held_torques(*mode_);
+    if (input_.lags()) held = held + mode_->driven.of_decaying(input_.decaying(now.t));
+    return mode_->driven.held.goes_on(now.x[1], held, arm_at(now.x[0]));
   }
   /// A moving mode under held commands and the present load, where a leap is in closed form.
   std::optional<DrivenMotion> driven(Mode mode) const {
@@ -101,7 +109,7 @@ class NominalFlow<WormDrive<double, Load>> {
   /// What the motor makes of a command.
   const AffineMotor& response() const { return response_; }
   /// How the arm is turned against the gear.
-  const SineAndCosine& arm_offset() const { return offset_; }
+  const SineAndCosine& arm_offset() const { return arm_angle_.offset(); }
 
   /// The latest mode.
   Mode mode() const { return mode_->mode; }
@@ -118,7 +126,11 @@ class NominalFlow<WormDrive<double, Load>> {
     const HeldTorques held = held_torques(*mode_);
     const SineAndCosine& arm = arm_at(now.x[0]);
     double h = next - now.t, &theta = now.x[0], &omega = now.x[1];
-    if (curve_.falls()) {
+    if (input_.lags()) {
+      const LaggingTorqueOf<double> lagging{mode_->driven.of_decaying(input_.decaying(now.t)),
+                                            DecayOf<double>(h / input_.lag())};
+      if (!mode_->driven.held.template leap<swings>(theta, omega, h, held, lagging, arm, accuracy)) return false;
+    } else if (curve_.falls()) {
       if (!FallingLeap<double>::take<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
         return false;
     } else if (mode_->rubs) {
@@ -151,7 +163,7 @@ class NominalFlow<WormDrive<double, Load>> {
     const NominalEquation& m = *mode_;
     if constexpr (falls) fall_.begin(m.fall, m.driven.held.motion, now.x[1]);
     const int last = accuracy.order();
-    expand_input(motor_, now.t - late_, last, response_.gain, worm_torque_);
+    expand_motor(now.t, last);
     worm_torque_[0] += response_.offset + disturbance_;
     if constexpr (swings) {
       arm_.begin(arm_at(now.x[0]));
@@ -199,6 +211,13 @@ class NominalFlow<WormDrive<double, Load>> {
     if constexpr (falls) e.step = longest(e.step, [&](double s) { return fall_.holds(last, s); });
   }
 
+  /// Coefficients of the torque that the motor makes of its command, but for its offset.
+  [[gnu::always_inline]] void expand_motor(double t, int last) {
+    if (!input_.lags()) return expand_input(motor_, t - late_, last, response_.gain, worm_torque_);
+    expand_torque(input_, t, last, worm_torque_.data());
+    for (int k = 0; k <= last; ++k) worm_torque_[k] *= response_.gain;
+  }
+
   static int index(int motion, int flank) { return (motion > 0 ? 3 : 0) + flank + 1; }
   const NominalEquation& equation(Mode mode) const { return equations_[index(sign(mode.motion), sign(mode.flank))]; }
   /// What is held beside the command.
@@ -218,7 +237,8 @@ class NominalFlow<WormDrive<double, Load>> {
 
   /// Terms of coefficient k <= 2 of the torques on both sides where the latest step begins.
   Terms worm_terms(double t, int k) const {
-    return {std::abs(worm_torque_[k]), std::abs(response_.gain) * most_of_input(motor_, t - late_, k) +
+    const double decaying = input_.lags() ? std::abs(input_.decaying(t)) * std::pow(1.0 / input_.lag(), k) : 0.0;
+    return {std::abs(worm_torque_[k]), std::abs(response_.gain) * (most_of_input(motor_, t - late_, k) + decaying) +
                                            (k == 0 ? std::abs(response_.offset) + std::abs(disturbance_) : 0.0)};
   }
   Terms gear_terms(const Motion& e, double t, int k) const {
@@ -235,17 +255,9 @@ class NominalFlow<WormDrive<double, Load>> {
     else
       return 0.0;
   }
-  /// Works out sine and cosine of the arm's angle. At the end of a leap they would be known as well, but stand in the
-  /// way of the controller, which waits for the angle and nothing else: that costs a tenth of the time of a sample.
-  [[gnu::always_inline]] void look(double theta_g) {
-    if constexpr (swings) {
-      arm_now_ = of_sum(sine_and_cosine(theta_g), offset_);
-      arm_now_at_ = theta_g;
-    }
-  }
   const SineAndCosine& arm_at(double theta_g) {
-    if (theta_g != arm_now_at_) look(theta_g);
-    return arm_now_;
+    if constexpr (!swings) return arm_angle_.latest();
+    return arm_angle_.at(theta_g);
   }
 
   /// Angle and guards to the order to which the speed is known, from coefficient first on.
@@ -265,6 +277,7 @@ class NominalFlow<WormDrive<double, Load>> {
     return k == 0 ? distance + m.friction.beyond : distance;
   }
 
+  const MotorInput<double>& input_;
   const Piece& motor_;
   const double& disturbance_;  ///< of the worm's shaft, beside the motor [N m]
   const Load& load_;
@@ -276,12 +289,10 @@ class NominalFlow<WormDrive<double, Load>> {
   std::array<NominalEquation, 6> equations_{};
   const NominalEquation* mode_ = &equations_[0];  ///< that of the latest mode
   StribeckCurve curve_;
-  FallSeriesOf<double, highest_order + 2> fall_;                  ///< of friction in the latest step
-  Coefficients worm_torque_{}, gear_torque_{};                    ///< of the inputs in the latest step
-  ArmSeries arm_;                                                 ///< the arm's angle in the latest step
-  SineAndCosine offset_{0.0, 1.0};                                ///< of the arm against the gear
-  SineAndCosine arm_now_{};                                       ///< of the arm at the latest gear angle ...
-  double arm_now_at_ = std::numeric_limits<double>::quiet_NaN();  ///< ... [rad]
+  FallSeriesOf<double, highest_order + 2> fall_;  ///< of friction in the latest step
+  Coefficients worm_torque_{}, gear_torque_{};    ///< of the inputs in the latest step
+  ArmSeries arm_;                                 ///< the arm's angle in the latest step
+  ArmAngle arm_angle_;
 };
 
 }  // namespace wormdrive

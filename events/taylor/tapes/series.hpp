@@ -8,7 +8,7 @@
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/sine_cosine.hpp"
 #include "events/taylor/polynomial.hpp"
-#include "events/taylor/tape.hpp"
+#include "events/taylor/tapes/tape.hpp"
 
 namespace wormdrive {
 
@@ -47,6 +47,12 @@ struct SectionOf {
   V low, high, begin, value, slope, second, third;
 };
 
+/// The constants of an operation.
+template <class V>
+struct LineOf {
+  V factor, offset;
+};
+
 /// What a leap needs of a drive in one mode beside the operations of its tape, of one drive or of several at once. It
 /// consists of V alone. All in SI.
 template <class V>
@@ -75,8 +81,8 @@ class TapeSeriesOf {
   TapeSeriesOf(const TapeCode& code, double* memory, int stride) : code_(&code), stride_(stride) {
     motion_ = reinterpret_cast<TapedMotionOf<V>*>(memory);
     waves_ = reinterpret_cast<WaveOf<V>*>(motion_ + 1);
-    constants_ = reinterpret_cast<V*>(waves_ + code.waves);
-    least_ = constants_ + code.operations;
+    lines_ = reinterpret_cast<LineOf<V>*>(waves_ + code.waves);
+    least_ = reinterpret_cast<V*>(lines_ + code.operations);
     sections_ = reinterpret_cast<SectionOf<V>*>(least_ + code.bounds);
     radii_ = reinterpret_cast<V*>(sections_ + code.sections);
     coefficients_ = radii_ + code.places;
@@ -84,9 +90,10 @@ class TapeSeriesOf {
   /// How many numbers describe a drive ...
   static std::size_t numbers(const TapeCode& code) {
     return (sizeof(TapedMotionOf<V>) + sizeof(SectionOf<V>) * static_cast<std::size_t>(code.sections) +
-            sizeof(WaveOf<V>) * static_cast<std::size_t>(code.waves)) /
+            sizeof(WaveOf<V>) * static_cast<std::size_t>(code.waves) +
+            sizeof(LineOf<V>) * static_cast<std::size_t>(code.operations)) /
                sizeof(V) +
-           static_cast<std::size_t>(code.operations + code.bounds);
+           static_cast<std::size_t>(code.bounds);
   }
   /// ... and how many V there are in all.
   static std::size_t room(const TapeCode& code, int stride) {
@@ -97,7 +104,7 @@ class TapeSeriesOf {
   TapedMotionOf<V>& motion() { return *motion_; }
   const TapedMotionOf<V>& motion() const { return *motion_; }
   WaveOf<V>& wave(int k) { return waves_[k]; }
-  V& constant(int step) { return constants_[step]; }
+  LineOf<V>& line(int step) { return lines_[step]; }
   V& least_of(int bound) { return least_[bound]; }
   SectionOf<V>& section(int k) { return sections_[k]; }
   const SectionOf<V>& section(int k) const { return sections_[k]; }
@@ -129,7 +136,8 @@ class TapeSeriesOf {
   int stride_;
   TapedMotionOf<V>* motion_;
   WaveOf<V>* waves_;
-  V *constants_, *least_;
+  LineOf<V>* lines_;
+  V* least_;
   SectionOf<V>* sections_;
   V *radii_, *coefficients_;
 };

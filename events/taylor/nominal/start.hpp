@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "events/taylor/leave_rest.hpp"
-#include "events/taylor/nominal.hpp"
+#include "events/taylor/nominal/flow.hpp"
 
 namespace wormdrive {
 

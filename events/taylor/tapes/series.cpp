@@ -1,10 +1,10 @@
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/tapes/series.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "events/taylor/tape_operations.hpp"
+#include "events/taylor/tapes/operations.hpp"
 
 namespace wormdrive {
 

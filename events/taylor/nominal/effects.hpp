@@ -3,9 +3,9 @@
 #include <type_traits>
 
 #include "core/worm_drive.hpp"
-#include "events/taylor/affine_motor.hpp"
-#include "events/taylor/equation.hpp"
-#include "events/taylor/stribeck.hpp"
+#include "events/taylor/nominal/affine_motor.hpp"
+#include "events/taylor/nominal/equation.hpp"
+#include "events/taylor/nominal/stribeck.hpp"
 
 namespace wormdrive {
 
@@ -82,6 +82,8 @@ struct NominalEffects {
         are_covered = false;
     });
     bearings_.worm_viscous += response.brake * system.mesh().i;
+    const bool rubs = bearings_.worm_viscous != 0.0 || bearings_.gear_viscous != 0.0 || uneven_.coefficient != 0.0;
+    are_covered = are_covered && !(system.motor_input().lags() && (rubs || curve.falls()));
   }
 
   /// The equation of a moving mode. amplitude: of an arm under gravity [N m]; surface: Jw i/Jg.
@@ -102,7 +104,8 @@ struct NominalEffects {
   template <class E>
   static constexpr bool contained = std::is_same_v<E, TorqueSaturation<double>> ||
                                     std::is_same_v<E, ActuatorDelay<double>> ||
-                                    std::is_same_v<E, WormInertia<double>> || std::is_same_v<E, GearInertia<double>> ||
+                                    std::is_same_v<E, ActuatorLag<double>> || std::is_same_v<E, WormInertia<double>> ||
+                                    std::is_same_v<E, GearInertia<double>> ||
                                     (!swings && std::is_same_v<E, LoadAngle<double>>) ||
                                     std::is_same_v<E, StaticFriction<double>> || E::place == Place::sensor;
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/tapes/series.hpp"
 
 // What the operations on a tape do. Included where they are compiled: for a drive alone, and for each kind of lanes.
 
@@ -53,9 +53,9 @@ void TapeSeriesOf<V>::work_out(int k, int operations, Functions&& functions) {
   using namespace tape_operations;
   const double share = 1.0 / static_cast<double>(k);
   int section = 0;
-  const V* constant = constants_;
+  const LineOf<V>* line = lines_;
   const Tape::Step* step = code_->steps;
-  for (const Tape::Step* const end = step + operations; step != end; ++step, ++constant) {
+  for (const Tape::Step* const end = step + operations; step != end; ++step, ++line) {
     const V* const a = (*this)[step->a];
     const V* const b = (*this)[step->b];
     V* const r = (*this)[step->result];
@@ -63,13 +63,12 @@ void TapeSeriesOf<V>::work_out(int k, int operations, Functions&& functions) {
       case Operation::add: r[k] = a[k] + b[k]; break;
       case Operation::subtract: r[k] = a[k] - b[k]; break;
       case Operation::multiply: r[k] = product(a, b, k); break;
-      case Operation::shift: r[k] = k == 0 ? a[0] + *constant : a[k]; break;
-      case Operation::scale: r[k] = *constant * a[k]; break;
+      case Operation::affine: r[k] = k == 0 ? line->factor * a[0] + line->offset : line->factor * a[k]; break;
       case Operation::divide:
       case Operation::invert: {
         const bool inverts = step->operation == Operation::invert;
         const V* const divisor = inverts ? a : b;
-        V rest = !inverts ? a[k] : k == 0 ? *constant : V(0.0);
+        V rest = !inverts ? a[k] : k == 0 ? line->factor : V(0.0);
         for (int j = 0; j < k; ++j) rest = rest - r[j] * divisor[k - j];
         r[k] = rest / divisor[0];
         break;
@@ -123,17 +122,16 @@ void TapeSeriesOf<V>::work_out_discs() {
   using namespace tape_operations;
   const auto size = [this](int place) { return abs((*this)[place][0]); };
   const SectionOf<V>* section = sections_;
-  const V* constant = constants_;
+  const LineOf<V>* line = lines_;
   const Tape::Step* s = code_->steps;
-  for (const Tape::Step* const end = s + code_->operations; s != end; ++s, ++constant) {
+  for (const Tape::Step* const end = s + code_->operations; s != end; ++s, ++line) {
     const V ra = radius(s->a), rb = radius(s->b);
     V& r = radius(s->result);
     switch (s->operation) {
       case Operation::add:
       case Operation::subtract: r = ra + rb; break;
       case Operation::multiply: r = size(s->a) * rb + ra * (size(s->b) + rb); break;
-      case Operation::shift: r = ra; break;
-      case Operation::scale: r = abs(*constant) * ra; break;
+      case Operation::affine: r = abs(line->factor) * ra; break;
       case Operation::divide:
       case Operation::invert: {
         const bool inverts = s->operation == Operation::invert;
@@ -184,8 +182,7 @@ V TapeSeriesOf<V>::shrinking() const {
       case Operation::add:
       case Operation::subtract:
       case Operation::multiply:
-      case Operation::shift:
-      case Operation::scale: break;
+      case Operation::affine: break;
     }
   return factor;
 }

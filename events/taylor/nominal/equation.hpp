@@ -5,9 +5,9 @@
 
 #include "core/mesh.hpp"
 #include "core/mode.hpp"
-#include "events/taylor/affine_motor.hpp"
-#include "events/taylor/leap.hpp"
-#include "events/taylor/stribeck.hpp"
+#include "events/taylor/nominal/affine_motor.hpp"
+#include "events/taylor/nominal/driven.hpp"
+#include "events/taylor/nominal/stribeck.hpp"
 
 namespace wormdrive {
 

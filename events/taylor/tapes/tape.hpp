@@ -20,9 +20,8 @@ class Tape {
     subtract,
     multiply,
     divide,
-    shift,        ///< a + constant
-    scale,        ///< constant a
-    invert,       ///< constant / a
+    affine,       ///< factor a + offset
+    invert,       ///< factor / a
     sine_cosine,  ///< sine, and cosine in the place behind it
     exponential,
     square_root,
@@ -31,7 +30,7 @@ class Tape {
   struct Step {
     Operation operation;
     int a, b, result;
-    double constant;
+    double factor, offset;
     const CubicTable* table;
   };
   /// A place whose value the equations hold for only while it is above a least one.
@@ -57,7 +56,8 @@ class Tape {
 
   // ---- while the equations are recorded --------------------------------------------------------------------------
 
-  Taped record(Operation operation, int a, int b = 0, double constant = 0.0, const CubicTable* table = nullptr);
+  Taped record(Operation operation, int a, int b = 0, double factor = 0.0, double offset = 0.0,
+               const CubicTable* table = nullptr);
   void hold(const Condition& condition) { conditions_.push_back(condition); }
   /// Of a comparison that cannot be recorded, an answer all the same.
   bool give_up() { return complete_ = false; }
@@ -69,7 +69,8 @@ class Tape {
   bool complete_ = true;
 };
 
-/// A number in equations that are recorded: a constant, or the place of a result.
+/// A number in equations that are recorded: a constant, or a factor times the result in a place, and a constant. Sums
+/// and products with constants are recorded as one operation, and not before another operation asks for them.
 class Taped {
  public:
   Taped() = default;
@@ -81,27 +82,27 @@ class Taped {
   friend Taped operator+(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ + b.constant_;
     if (!a.tape_) return b + a;
-    if (b.tape_) return a.tape_->record(Operation::add, a.place_, b.place_);
-    return b.constant_ == 0.0 ? a : a.tape_->record(Operation::shift, a.place_, 0, b.constant_);
+    if (b.tape_) return a.tape_->record(Operation::add, a.place(), b.place());
+    return b.constant_ == 0.0 ? a : Taped(a.tape_, a.place_, a.factor_, a.constant_ + b.constant_);
   }
   friend Taped operator-(const Taped& a, const Taped& b) {
     if (!b.tape_) return a + Taped(-b.constant_);
-    return a.tape_ ? a.tape_->record(Operation::subtract, a.place_, b.place_) : -b + a;
+    return a.tape_ ? a.tape_->record(Operation::subtract, a.place(), b.place()) : -b + a;
   }
   friend Taped operator*(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ * b.constant_;
     if (!a.tape_) return b * a;
-    if (b.tape_) return a.tape_->record(Operation::multiply, a.place_, b.place_);
+    if (b.tape_) return a.tape_->record(Operation::multiply, a.place(), b.place());
     if (b.constant_ == 0.0) return 0.0;
-    return a.tape_->record(Operation::scale, a.place_, 0, b.constant_);  // even 1: in another mode it may be -1
+    return {a.tape_, a.place_, a.factor_ * b.constant_, a.constant_ * b.constant_};
   }
   friend Taped operator/(const Taped& a, const Taped& b) {
     if (!b.tape_) return a.tape_ ? a * Taped(1.0 / b.constant_) : Taped(a.constant_ / b.constant_);
-    if (!a.tape_) return b.tape_->record(Operation::invert, b.place_, 0, a.constant_);
-    return a.tape_->record(Operation::divide, a.place_, b.place_);
+    if (!a.tape_) return b.tape_->record(Operation::invert, b.place(), 0, a.constant_);
+    return a.tape_->record(Operation::divide, a.place(), b.place());
   }
   friend Taped sin(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::sine_cosine, x.place_) : Taped(sine_and_cosine(x.constant_).sine);
+    return x.tape_ ? x.tape_->record(Operation::sine_cosine, x.place()) : Taped(sine_and_cosine(x.constant_).sine);
   }
   friend Taped cos(const Taped& x) {
     if (!x.tape_) return sine_and_cosine(x.constant_).cosine;
@@ -110,19 +111,19 @@ class Taped {
     return cosine;
   }
   friend Taped exp(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::exponential, x.place_) : Taped(portable::exp(x.constant_));
+    return x.tape_ ? x.tape_->record(Operation::exponential, x.place()) : Taped(portable::exp(x.constant_));
   }
   friend Taped sqrt(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::square_root, x.place_) : Taped(std::sqrt(x.constant_));
+    return x.tape_ ? x.tape_->record(Operation::square_root, x.place()) : Taped(std::sqrt(x.constant_));
   }
   /// x, which stays above a limit.
   friend Taped at_least(const Taped& x, double least) {
     if (!x.tape_) return at_least(x.constant_, least);
-    x.tape_->hold({x.place_, least});
+    x.tape_->hold({x.place(), least});
     return x;
   }
   friend Taped look_up(const CubicTable& table, const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::table, x.place_, 0, 0.0, &table) : Taped(table(x.constant_));
+    return x.tape_ ? x.tape_->record(Operation::table, x.place(), 0, 0.0, 0.0, &table) : Taped(table(x.constant_));
   }
   friend bool operator<(const Taped& a, const Taped& b) {
     for (const Taped* x : {&a, &b})
@@ -142,10 +143,18 @@ class Taped {
   using Operation = Tape::Operation;
 
   Taped(Tape* tape, int place) : tape_(tape), place_(place) {}
+  Taped(Tape* tape, int place, double factor, double constant)
+      : tape_(tape), place_(place), is_plain_(false), factor_(factor), constant_(constant) {}
+
+  /// Where it stands; recorded even where it is the same, because in another mode it may be its negative.
+  int place() const {
+    return is_plain_ ? place_ : tape_->record(Operation::affine, place_, 0, factor_, constant_).place_;
+  }
 
   Tape* tape_ = nullptr;  ///< none: a constant
   int place_ = 0;
-  double constant_ = 0.0;
+  bool is_plain_ = true;
+  double factor_ = 1.0, constant_ = 0.0;
 };
 
 template <>
@@ -156,18 +165,17 @@ struct ConstantOfScalar<Taped> {
 inline Taped Tape::input(int place) { return {this, place}; }
 
 inline int Tape::place(const Taped& result) {
-  if (result.tape_) return result.place_;
-  const Taped nothing = record(Operation::scale, 0, 0, 0.0);
-  return record(Operation::shift, nothing.place_, 0, result.constant_).place_;
+  return result.tape_ ? result.place() : record(Operation::affine, 0, 0, 0.0, result.constant_).place_;
 }
 
 /// What has been worked out before is not worked out again.
-inline Taped Tape::record(Operation operation, int a, int b, double constant, const CubicTable* table) {
+inline Taped Tape::record(Operation operation, int a, int b, double factor, double offset, const CubicTable* table) {
   for (const Step& s : steps_)
-    if (s.operation == operation && s.a == a && s.b == b && s.constant == constant && s.table == table)
+    if (s.operation == operation && s.a == a && s.b == b && s.factor == factor && s.offset == offset &&
+        s.table == table)
       return {this, s.result};
   const bool two = operation == Operation::sine_cosine || operation == Operation::table;
-  steps_.push_back({operation, a, b, places_, constant, table});
+  steps_.push_back({operation, a, b, places_, factor, offset, table});
   places_ += two ? 2 : 1;
   return {this, steps_.back().result};
 }

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "core/worm_drive.hpp"
+#include "events/taylor/input.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
-#include "events/taylor/taped_leap.hpp"
+#include "events/taylor/tapes/leap.hpp"
 
 namespace wormdrive {
 
@@ -169,7 +170,7 @@ class TapedFlow<WormDrive<double, Load>> {
       leap.emplace(TapeSeriesOf<double>(code, memory.data(), stride));
       TapeSeriesOf<double>& series = leap->series();
       for (std::size_t k = 0; k < tape_.steps().size(); ++k)
-        series.constant(static_cast<int>(k)) = tape_.steps()[k].constant;
+        series.line(static_cast<int>(k)) = {tape_.steps()[k].factor, tape_.steps()[k].offset};
       for (std::size_t k = 0; k < bounded_.size(); ++k)
         series.least_of(static_cast<int>(k)) = tape_.conditions()[k].least;
       TapedMotionOf<double>& motion = series.motion();
@@ -253,11 +254,7 @@ class TapedFlow<WormDrive<double, Load>> {
   /// The series of the motor's command.
   void expand_command(double t, int order) {
     course_->command_moves = true;
-    const MotorInput<double>& motor = system_.motor_input();
-    double* const c = course_->leap->series()[In::command];
-    if (motor.lags() && motor.piece().is_constant()) return expand_decay(motor.decaying(t), motor.lag(), order, c);
-    const auto torque = motor(OpenSeries<double>::variable(t, order));
-    std::copy(torque.c.begin(), torque.c.begin() + order + 1, c);
+    expand_torque(system_.motor_input(), t, order, course_->leap->series()[In::command]);
   }
 
   /// How long the argument of a table stays in its section, within the step [s].

@@ -1,7 +1,8 @@
 #pragma once
+#include "core/numbers/decay.hpp"
 #include "events/taylor/accuracy.hpp"
-#include "events/taylor/leap.hpp"
-#include "events/taylor/tape_series.hpp"
+#include "events/taylor/tapes/series.hpp"
+#include "events/taylor/terms.hpp"
 
 namespace wormdrive {
 
@@ -20,14 +21,6 @@ template <class V>
   const V disc = 2.25 * lag + elapsed;
   return {(1.0 / leaps_in_disc) * disc, disc, leaps_in_disc};
 }
-/// Its coefficients from the first on, where so much of the torque before is left [N m].
-template <class V>
-[[gnu::always_inline]] inline void expand_decay(const V& left, const V& lag, int order, V* c) {
-  const V rate = -1.0 / lag;
-  V term = left;
-  for (int k = 1; k <= order; ++k) c[k] = term = term * rate * one_over(k);
-}
-
 /// One step of a drive whose equations are on a tape, without a search for events: of one drive or of several at once.
 template <class V>
 class TapedLeapOf {

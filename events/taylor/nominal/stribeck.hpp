@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "core/numbers/exponential.hpp"
-#include "events/taylor/arm.hpp"
-#include "events/taylor/leap.hpp"
+#include "events/taylor/nominal/arm.hpp"
+#include "events/taylor/nominal/leap.hpp"
 
 namespace wormdrive {
 
@@ -36,8 +36,7 @@ struct FallOf {
   /// How much of the drop is left, e(x^p).
   V left(const V& to_power) const {
     if (has_tail) return 1.0 / (1.0 + to_power);
-    constexpr double furthest = 707.0;  // as decay() has it
-    return select(to_power > V(furthest), V(0.0), exponential(-least<V>(to_power, V(furthest))));
+    return decay(to_power);
   }
 };
 
@@ -46,7 +45,8 @@ template <class V, int size>
 class FallSeriesOf {
  public:
   /// Begins at a speed; time_unit [s] is that of the coefficients.
-  void begin(const FallOf<V>& fall, const V& motion, const V& omega, double time_unit = 1.0) {
+  template <class H = double>
+  void begin(const FallOf<V>& fall, const V& motion, const V& omega, const H& time_unit = 1.0) {
     fall_ = fall;
     scale_ = motion * fall.per_speed / time_unit;
     const V x = fall.per_speed * (motion * omega), e = fall.left(fall.power(x));
@@ -121,9 +121,9 @@ class FallingLeap {
  public:
   /// Moves angle and speed on by h, if it is certain beforehand that no guard falls through zero in it and how far the
   /// series must go, and returns where it is. Elsewhere nothing has changed.
-  template <bool swings>
-  [[gnu::always_inline]] static Mask take(const HeldMotionOf<V>& m, const FallOf<V>& fall, V& theta, V& omega, double h,
-                                          const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm,
+  template <bool swings, class H>
+  [[gnu::always_inline]] static Mask take(const HeldMotionOf<V>& m, const FallOf<V>& fall, V& theta, V& omega,
+                                          const H& h, const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm,
                                           const TaylorAccuracy& accuracy) {
     const TermsOf<V> terms = foresee(m, fall, omega, h, held, arm, accuracy);
     if (terms.most == 0) return terms.suffice;
@@ -134,7 +134,7 @@ class FallingLeap {
     std::array<V, longest + 1> speed;
     series.begin(fall, m.motion, omega, h);
     V push = held.push, beyond = held.beyond, angle = omega * h, change = 0.0;
-    const double square = h * h;
+    const H square = h * h;
     const V drag = m.drag * h, skew = m.skew / h;
     turning.begin(arm);
     speed[0] = angle;
@@ -169,8 +169,9 @@ class FallingLeap {
   /// How many coefficients of the acceleration a step needs. Bounds hold for complex times up to a radius within which
   /// |e| stays bounded, and so does the acceleration; by Cauchy's estimate its k-th coefficient is at most that bound
   /// over the radius^k.
+  template <class H>
   [[gnu::always_inline]] static TermsOf<V> foresee(const HeldMotionOf<V>& m, const FallOf<V>& fall, const V& omega,
-                                                   double h, const HeldTorquesOf<V>& held,
+                                                   const H& h, const HeldTorquesOf<V>& held,
                                                    const SineAndCosineOf<V>& arm, const TaylorAccuracy& accuracy) {
     const V x = fall.per_speed * (m.motion * omega), e = fall.left(fall.power(x));
     const Disc d = fall.has_tail ? disc_with_tail(fall, x, e) : disc_without_tail(fall, x, e);
