@@ -143,14 +143,9 @@ class LaneRunOf final : public LaneRun {
     LaneTrial<double> trial = lane.read();
     if (sample != next_) {
       long restarts = sample - next_, leaps = restarts;
-      if (taped_) {
-        const TapedMotionOf<double> motion = tape_.motion();
-        leaps = static_cast<long>(motion.leaps);
-        if (tape_.lags()) drive_.resume_motor(t, motion.torque);
-      } else if (response() != MotorResponse::at_once) {
-        if (response() == MotorResponse::after_delay) leaps = restarts *= 2;
-        drive_.resume_motor(t, trial.torque);
-      }
+      if (taped_) leaps = static_cast<long>(tape_.motion().leaps);
+      if (response() == MotorResponse::after_delay) leaps = restarts *= 2;
+      if (response() != MotorResponse::at_once) drive_.resume_motor(t, trial.torque);
       solver_.count_leaps(restarts, leaps);
       progress_.timetable.skip_to_sample(sample);
       progress_.now.t = t;
@@ -232,10 +227,10 @@ class LaneRunOf final : public LaneRun {
     const typename Drive::Instant& now = progress_.now;
     trial.theta = now.x[0];
     trial.omega = now.x[1];
+    if (response() != MotorResponse::at_once) trial.torque = drive_.motor_input()(now.t);
     if (taped_)
       return tape_.leave(Drive::at_rest(now.mode) ? nullptr : solver_.taped().code(now.mode),
-                         [&] { return solver_.taped().numbers(now.t, drive_.next_knot(now.t)); });
-    if (response() != MotorResponse::at_once) trial.torque = drive_.motor_input()(now.t);
+                         [&] { return solver_.taped().numbers(drive_.next_knot(now.t)); });
     if constexpr (has_formulas) {
       trial.drive = Drive::at_rest(now.mode) ? DrivenMotion{} : *solver_.nominal().driven(now.mode);
       if (Drive::at_rest(now.mode) || !falls()) return;
@@ -246,6 +241,7 @@ class LaneRunOf final : public LaneRun {
       trial.speed_of_fall = fall.speed;
     }
   }
+
   const Scenario& scenario_;
   RunListeners nobody_;
   Drive drive_;

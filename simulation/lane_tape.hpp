@@ -14,7 +14,6 @@ class LaneTape {
   LaneTape(const TapeCode& code, double* numbers, int lanes)
       : code_(&code), numbers_(numbers), lanes_(static_cast<std::size_t>(lanes)) {}
 
-  bool lags() const { return code_->lags; }
   TapedMotionOf<double> motion() const { return from_lane<TapedMotionOf<double>>(numbers_, lanes_); }
 
   /// Leaves the numbers of a mode there, which numbers() returns; nullptr for a mode that has no operations, as at

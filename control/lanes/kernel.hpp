@@ -88,14 +88,14 @@ class LaneKernel {
     const V command = record.applied + 0.0;  // the motor adds its signal, none
     LaneMask<Width> known;
     if constexpr (variant.taped) {
-      known = TapedPlant<Width>(batch, r).step(sample, theta, omega, command, disturbance);
+      known = TapedPlant<Width>(batch, r).step(sample, x, theta, omega, command, disturbance);
     } else {
       const HeldTorquesOf<V> held = torques_under<variant>(batch, x, command, disturbance);
       const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
       if (variant.ideal || batch.variant.response == MotorResponse::at_once) [[likely]]
         known = leap<variant>(batch, x, theta, omega, sample.step, held, arm);
       else if (batch.variant.response == MotorResponse::after_delay)
-        known = leap_after_delay<variant>(batch, sample, r, x, theta, omega, command, disturbance, arm);
+        known = leap_after_delay<variant>(batch, sample, r, x, theta, omega, command, disturbance, held, arm);
       else if constexpr (!variant.rubs && variant.falls == 0)
         known = leap_with_lag<variant>(batch, sample, x, theta, omega, command, held, arm);
     }
@@ -132,11 +132,12 @@ class LaneKernel {
       return goes_on & m.template leap<variant.swings, variant.rubs>(theta, omega, h, held, arm, batch.accuracy);
     }
   }
-  /// Two steps: under the torque of the command before, and under that of this one from when it arrives.
+  /// Two steps: under the torque of the command before, and under that of this one, held, from when it arrives.
   template <LaneVariant variant>
   [[gnu::noinline]] static LaneMask<Width> leap_after_delay(const LaneBatch& batch, const LaneSample& sample, int r,
                                                             LaneTrial<V>& x, V& theta, V& omega, const V& command,
-                                                            const V& disturbance, const SineAndCosineOf<V>& arm) {
+                                                            const V& disturbance, const HeldTorquesOf<V>& held,
+                                                            const SineAndCosineOf<V>& arm) {
     const V arrival = sample.t + x.behind;
     const LaneMask<Width> is_within =
         (arrival > V(sample.t)) & (arrival < V(sample.next)) & (V(sample.step) > V(0.0));  // not where all go on alone
@@ -144,8 +145,7 @@ class LaneKernel {
                                                       torques_under<variant>(batch, x, x.torque, disturbance), arm);
     const SineAndCosineOf<V> then =
         variant.swings ? of_sum(sine_and_cosine(batch, r, theta), x.arm_offset) : SineAndCosineOf<V>{0.0, 1.0};
-    known = known & leap<variant>(batch, x, theta, omega, sample.next - arrival,
-                                  torques_under<variant>(batch, x, command, disturbance), then);
+    known = known & leap<variant>(batch, x, theta, omega, sample.next - arrival, held, then);
     x.torque = select(known, command, x.torque);
     return known;
   }

@@ -25,13 +25,13 @@ class TapedPlant {
                               TapedLeapOf<V>::stride)) {}
 
   /// Moves angle and speed on to the next sample where that is certain beforehand, and returns where it is.
-  [[gnu::always_inline]] Mask step(const LaneSample& sample, V& theta, V& omega, const V& command,
+  [[gnu::always_inline]] Mask step(const LaneSample& sample, LaneTrial<V>& x, V& theta, V& omega, const V& command,
                                    const V& disturbance) {
     TapedMotionOf<V>& motion = leap_.series().motion();
     const Mask moves = motion.motion != V(0.0), ahead = V(sample.t + 2.0 * sample.step) < motion.next_knot;
     V t = sample.t, length = sample.step;
     active_ = set_bits(moves & ahead) & batch_.alive[r_];
-    MotorTorque motor(*this, motion, sample.t, command);
+    MotorTorque motor(*this, x, sample.t, command);
     leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
     Mask known = ahead & leap_.goes_on(), going = known;
     V taken = motion.leaps;
@@ -92,42 +92,41 @@ class TapedPlant {
   /// The torque that the motors give on a command that they hold: at once, or with a lag.
   class MotorTorque {
    public:
-    [[gnu::always_inline]] MotorTorque(const TapedPlant& plant, TapedMotionOf<V>& motion, double sample,
-                                       const V& command)
+    [[gnu::always_inline]] MotorTorque(const TapedPlant& plant, LaneTrial<V>& trial, double sample, const V& command)
         : plant_(plant),
-          motion_(motion),
+          trial_(trial),
           lags_(plant.batch_.tapes.code->lags),
           sample_(sample),
           command_(command),
-          begin_(motion.torque - command),
+          begin_(trial.torque - command),
           left_(0.0) {
       turn_to(sample);
     }
     [[gnu::always_inline]] void turn_to(const V& t) {
-      if (lags_) left_ = begin_ * plant_.exp((sample_ - t) / motion_.lag);
+      if (lags_) left_ = begin_ * plant_.exp((sample_ - t) / trial_.behind);
     }
     [[gnu::always_inline]] V now() const { return lags_ ? command_ + left_ : command_; }
     [[gnu::always_inline]] CommandReach<V> reach(const V& t) const {
       constexpr double never = std::numeric_limits<double>::infinity();
-      return lags_ ? reach_of_lag<V>(motion_.lag, t - sample_)
+      return lags_ ? reach_of_lag<V>(trial_.behind, t - sample_)
                    : CommandReach<V>{V(never), V(never), TapedLeapOf<V>::farthest};
     }
     [[gnu::always_inline]] V change_within(const V& seconds) const {
-      return lags_ ? abs(left_) * (plant_.exp(seconds * (1.0 / motion_.lag)) - 1.0) : V(0.0);
+      return lags_ ? abs(left_) * (plant_.exp(seconds * (1.0 / trial_.behind)) - 1.0) : V(0.0);
     }
     [[gnu::always_inline]] void expand(V* c) const {
-      if (lags_) expand_decay(left_, motion_.lag, TapedLeapOf<V>::longest, c);
+      if (lags_) expand_decay(left_, trial_.behind, TapedLeapOf<V>::longest, c);
     }
     /// Keeps what the torque has become at the next sample.
     [[gnu::always_inline]] void end_sample(const Mask& known, double next) {
       if (!lags_) return;
       turn_to(next);
-      motion_.torque = select(known, now(), motion_.torque);
+      trial_.torque = select(known, now(), trial_.torque);
     }
 
    private:
     const TapedPlant& plant_;
-    TapedMotionOf<V>& motion_;
+    LaneTrial<V>& trial_;
     bool lags_;
     V sample_, command_;
     V begin_, left_;  ///< of the torque before, at the sample and now

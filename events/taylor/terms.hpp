@@ -1,6 +1,6 @@
 #pragma once
 #include "core/numbers/lanes.hpp"
-#include "core/numbers/portable.hpp"
+#include "events/taylor/polynomial.hpp"
 
 namespace wormdrive {
 

@@ -1,5 +1,6 @@
 #include "core/numbers/decay.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -221,6 +221,18 @@ Comparison compare_random_stribeck(Dice& dice) {
   return compare(drive(p, arm, motor, on), {0, {dice.between(-3, 3), omega}, {}});
 }
 
+/// Torques that are held for milliseconds, each by so much at most from the one before and within a limit [N m].
+Signal held_torques(Dice& dice, double change, double limit) {
+  Samples held;
+  double torque = 0.0;
+  for (double t = 0.0; t < duration; t += 0.005) {
+    torque = std::clamp(torque + dice.between(-change, change), -limit, limit);
+    held.times.push_back(t);
+    held.values.push_back(torque);
+  }
+  return {{held}};
+}
+
 /// Any load and effects, tables too, under torques that are held for milliseconds, as a controller holds them: most
 /// steps are leaps of which it is proved beforehand that no event falls into them.
 Comparison compare_random_held(Dice& dice) {
@@ -234,14 +246,7 @@ Comparison compare_random_held(Dice& dice) {
   if (dice.one_in(4))
     std::get<std::optional<ActuatorLag<double>>>(on.list) = {1e-4 * std::pow(10.0, dice.between(0, 3))};
   if (dice.one_in(4)) std::get<std::optional<DcMotor<double>>>(on.list) = {dice.between(1, 3), dice.between(0.02, 0.1)};
-  Samples held;
-  double torque = 0.0;
-  for (double t = 0.0; t < duration; t += 0.005) {
-    torque = std::clamp(torque + dice.between(-0.008, 0.008), -0.04, 0.04);
-    held.times.push_back(t);
-    held.values.push_back(torque);
-  }
-  const Signal motor{{held}};
+  const Signal motor = held_torques(dice, 0.008, 0.04);
   const typename WormDrive<double, GravityLoad>::Instant start{0, {dice.between(-3, 3), dice.between(-2, 2)}, {}};
   GravityArm arm;
   arm.amplitude = dice.between(-0.1, 0.1);
@@ -277,19 +282,13 @@ Comparison compare_random_motor(Dice& dice) {
   maybe(dice, on, WormCoulomb<double>{dice.between(0, 0.01)});
   maybe(dice, on, GearInertia<double>{decades(1e-5, 3e-3)});
   maybe(dice, on, TorqueSaturation<double>{dice.between(0.02, 0.04)});
-  Samples held;
-  double torque = 0.0;
-  for (double t = 0.0; t < duration; t += 0.005) {
-    torque = std::clamp(torque + dice.between(-0.02, 0.02), -0.05, 0.05);
-    held.times.push_back(t);
-    held.values.push_back(torque);
-  }
+  const Signal motor = held_torques(dice, 0.02, 0.05);
   const typename WormDrive<double, GravityLoad>::Instant start{0, {dice.between(-3, 3), dice.between(-2, 2)}, {}};
-  if (dice.one_in(4)) return compare(drive(p, constant(dice.between(-0.1, 0.1)), Signal{{held}}, on), {0, start.x, {}});
+  if (dice.one_in(4)) return compare(drive(p, constant(dice.between(-0.1, 0.1)), motor, on), {0, start.x, {}});
   GravityArm arm;
   arm.amplitude = dice.between(-1, 1) < 0.0 ? -decades(1e-3, 1.0) : decades(1e-3, 1.0);
   arm.offset = dice.between(-3, 3);
-  return compare(drive(p, arm, Signal{{held}}, on), start);
+  return compare(drive(p, arm, motor, on), start);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ class NominalFlow<WormDrive<double, Load>> {
   bool goes_on(const Instant& now) {
     if (!inputs_are_constant()) return false;
     HeldTorques held = held_torques(*mode_);
-    if (input_.lags()) held = held + mode_->driven.of_decaying(input_.decaying(now.t));
+    if (input_.lags()) held = held + decaying_torques(now.t);
     return mode_->driven.held.goes_on(now.x[1], held, arm_at(now.x[0]));
   }
   /// A moving mode under held commands and the present load, where a leap is in closed form.
@@ -127,8 +127,7 @@ class NominalFlow<WormDrive<double, Load>> {
     const SineAndCosine& arm = arm_at(now.x[0]);
     double h = next - now.t, &theta = now.x[0], &omega = now.x[1];
     if (input_.lags()) {
-      const LaggingTorqueOf<double> lagging{mode_->driven.of_decaying(input_.decaying(now.t)),
-                                            DecayOf<double>(h / input_.lag())};
+      const LaggingTorqueOf<double> lagging{decaying_torques(now.t), DecayOf<double>(h / input_.lag())};
       if (!mode_->driven.held.template leap<swings>(theta, omega, h, held, lagging, arm, accuracy)) return false;
     } else if (curve_.falls()) {
       if (!FallingLeap<double>::take<swings>(mode_->driven.held, mode_->fall, theta, omega, h, held, arm, accuracy))
@@ -234,6 +233,8 @@ class NominalFlow<WormDrive<double, Load>> {
     const HeldTorques rest = uncommanded_torques(m, disturbance_);  // nothing but the command is left to wait for
     return {motor_.constant * m.driven.per_command + rest.push, motor_.constant * m.driven.gain + rest.beyond};
   }
+
+  HeldTorques decaying_torques(double t) const { return mode_->driven.of_decaying(input_.decaying(t)); }
 
   /// Terms of coefficient k <= 2 of the torques on both sides where the latest step begins.
   Terms worm_terms(double t, int k) const {

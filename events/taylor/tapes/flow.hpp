@@ -77,13 +77,11 @@ class TapedFlow<WormDrive<double, Load>> {
 
   /// The operations in a mode; nullptr where its equations cannot be recorded.
   const TapeCode* code(Mode mode) { return covers(mode) ? &course_->code : nullptr; }
-  /// The numbers of the latest mode and of the inputs that hold from a time until they become others [s].
-  const double* numbers(double t, double next_knot) {
+  /// The numbers of the latest mode and of the inputs that hold until they become others [s].
+  const double* numbers(double next_knot) {
     read_inputs();
     TapedMotionOf<double>& m = course_->leap->series().motion();
     m.next_knot = next_knot;
-    m.lag = system_.motor_input().lag();
-    m.torque = system_.motor_input()(t);
     m.leaps = 0.0;
     return course_->memory.data();
   }

@@ -21,6 +21,7 @@ template <class V>
   const V disc = 2.25 * lag + elapsed;
   return {(1.0 / leaps_in_disc) * disc, disc, leaps_in_disc};
 }
+
 /// One step of a drive whose equations are on a tape, without a search for events: of one drive or of several at once.
 template <class V>
 class TapedLeapOf {

@@ -64,7 +64,6 @@ struct TapedMotionOf {
   V load, slope, start;  ///< of the load over time: load + slope (t - start) + its waves
   V steepness, fastest;  ///< of these the most slope and the highest angular frequency
   V next_knot;           ///< when the inputs become others
-  V lag, torque;         ///< of a motor that lags: its time constant, and its torque when the latest command came
   V leaps;               ///< that a lane has taken
 };
 
