@@ -15,7 +15,8 @@ namespace wormdrive {
 
 /// Friction over the sliding speed after ANSI/AGMA 6034-B92, in place of the mesh's own: 0.150 at rest and falling.
 ///
-/// The standard's fit jumps at rest and at 0.0508 m/s; a monotone cubic through its values joins the parts.
+/// The standard's fit jumps at rest and at 0.0508 m/s; cubics with its values and slopes, within 0.06 % of it, join
+/// the parts.
 template <class T>
 struct Agma {
   static constexpr std::string_view id = "agma";
@@ -34,7 +35,7 @@ struct Agma {
   }
   /// The standard's coefficient of friction at a sliding speed v > 0 [m/s].
   static double standard(double v) {
-    const double V = v / 0.00508;  // [ft/min]
+    const double V = v / foot_per_minute;
     return V > 10.0 ? 0.103 * portable::exp(-0.110 * portable::pow(V, 0.450)) + 0.012
                     : 0.124 * portable::exp(-0.074 * portable::pow(V, 0.645));
   }
@@ -49,16 +50,25 @@ struct Agma {
   }
 
  private:
-  static constexpr double at_rest = 0.150;
+  static constexpr double at_rest = 0.150, foot_per_minute = 0.00508;  // [m/s]
+  /// The standard's coefficient over the sliding speed, differentiated [s/m].
+  static double standard_slope(double v) {
+    const double V = v / foot_per_minute;
+    return V > 10.0 ? (standard(v) - 0.012) * -0.110 * 0.450 * portable::pow(V, -0.550) / foot_per_minute
+                    : standard(v) * -0.074 * 0.645 * portable::pow(V, -0.355) / foot_per_minute;
+  }
+  /// Values and slopes of the standard at few points: a run stops at each that the speed passes.
   static const CubicTable& table() {
     static const CubicTable made = [] {
-      std::vector<double> v{0.0508}, mu{at_rest};  // 10 ft/min, where the fit changes
-      for (const double decade : {0.001, 0.01, 0.1, 1.0, 10.0})
-        for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) v.push_back(decade * step);
-      std::sort(v.begin(), v.end());
-      for (const double speed : v) mu.push_back(standard(speed));
+      std::vector<double> v{0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.0508,  // 10 ft/min, where the fit changes
+                            0.06,  0.1,   0.2,   0.3,  0.5,  0.75, 1.0,    1.5,  2.0, 3.0,
+                            4.0,   5.0,   7.5,   10.0, 15.0, 20.0, 30.0,   50.0, 80.0};
+      std::vector<double> mu, slope;
+      for (const double speed : v) mu.push_back(standard(speed)), slope.push_back(standard_slope(speed));
+      slope.insert(slope.begin(), 0.0);  // at rest, of which the standard says no more than the value
       v.insert(v.begin(), 0.0);
-      return CubicTable(v, mu);
+      mu.insert(mu.begin(), at_rest);
+      return CubicTable(v, mu, slope);
     }();
     return made;
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace wormdrive {
@@ -12,6 +13,10 @@ class CubicTable {
  public:
   CubicTable() = default;
   CubicTable(std::vector<double> x, std::vector<double> y);
+  /// With the slopes of what is tabulated, which may then have fewer points: the cubics are as monotone as it is where
+  /// no slope exceeds three times that of the chord beside it.
+  CubicTable(std::vector<double> x, std::vector<double> y, std::vector<double> slopes)
+      : x_(std::move(x)), y_(std::move(y)), slopes_(std::move(slopes)) {}
 
   /// One of the cubics: value + s (slope + s (second + s third)), s = x - begin, up to where the next one begins.
   struct Cubic {
