@@ -3,8 +3,8 @@
 
 plan_sweep.py [--trials 1e9] [--cpu-us 131] ... : every number of the plan is an option; --help lists them.
 
-All ranks share the trials. When a node fails, mpirun ends the job; it is submitted again, waits in the queue, reads
-what is done and goes on without the rows of the last second. The same happens at the limit of a job's time. With
+All ranks share the trials. When a node fails, mpirun ends the job; it is submitted again, waits in the queue and goes on
+without the rows of the last second. The same happens at the limit of a job's time. With
 --shards every node runs shards of its own, and only its own have to be submitted again. At the end the parts are merged.
 """
 
@@ -19,14 +19,13 @@ def asked():
     for name, default, what in [
         ("trials", 1e9, "number of trials"),
         ("cpu-us", 131.0, "CPU time of a trial [us], which the line `run` of a small sweep prints"),
-        ("row-bytes", 88.0, "bytes of a row: size of the file of a small sweep over its trials"),
+        ("row-bytes", 297.0, "bytes of a row: size of the file of a small sweep over its trials"),
         ("nodes", 16, "number of nodes"),
         ("cores", 64, "cores of a node"),
         ("mtbf-days", 300.0, "mean time between failures of a node"),
         ("limit-hours", 24.0, "limit of the time of a job"),
         ("queue-minutes", 30.0, "time in the queue before a job begins"),
-        ("read-rows", 5e6, "rows per second that a resumed sweep looks through"),
-        ("merge-rows", 1e6, "rows per second that are merged"),
+        ("merge-rows", 1.2e5, "rows per second that are merged, with their summary"),
         ("jobs", 1000, "number of simulated jobs"),
     ]:
         parser.add_argument(f"--{name}", type=float, default=default, help=f"{what} ({default:g})")
@@ -39,7 +38,7 @@ def run(plan, nodes, trials, chance):
     rate = nodes * plan.cores / (1e-6 * plan.cpu_us)  # trials per second
     time, done, stops = 0.0, 0.0, 0
     while True:
-        time += 60.0 * plan.queue_minutes + done / plan.read_rows
+        time += 60.0 * plan.queue_minutes
         needs = (trials - done) / rate
         lasts = min(chance.expovariate(nodes / (86400.0 * plan.mtbf_days)), 3600.0 * plan.limit_hours)
         if needs <= lasts:

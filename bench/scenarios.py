@@ -12,8 +12,6 @@ import sys
 import time
 from pathlib import Path
 
-import numpy
-
 import wormdrive
 
 SCENARIOS = Path(__file__).resolve().parent.parent / "scenarios"
