@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is `taylor` ever slower than CVODE? Every shipped scenario, and of every shipped study the drive that it varies.
+"""Is `taylor` ever slower than CVODE? Every shipped scenario by every solver; the studies vary those of fig. 10.
 
 PYTHONPATH=build/release/python bench/scenarios.py [SCENARIO...]
 
@@ -21,7 +21,7 @@ ROUNDS, LEAST = 3, 0.05  # at least so many runs of each, and until they have ta
 
 
 def drives(paths):
-    """Every drive that can be run, by name; a study's is that of its first trial."""
+    """Every drive that can be run, by name."""
     for path in paths:
         try:
             yield path.name, wormdrive.Scenario(path)
