@@ -4,8 +4,8 @@
 plan_sweep.py [--trials 1e9] [--cpu-us 131] ... : every number of the plan is an option; --help lists them.
 
 All ranks share the trials. When a node fails, mpirun ends the job; it is submitted again, waits in the queue and goes on
-without the rows of the last second. The same happens at the limit of a job's time. With
---shards every node runs shards of its own, and only its own have to be submitted again. At the end the parts are merged.
+without the rows of the last second. The same happens at the limit of a job's time. With --shards every node runs shards
+of its own, and only these have to be submitted again. At the end the parts are merged.
 """
 
 import argparse
@@ -18,7 +18,7 @@ def asked():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name, default, what in [
         ("trials", 1e9, "number of trials"),
-        ("cpu-us", 131.0, "CPU time of a trial [us], which the line `run` of a small sweep prints"),
+        ("cpu-us", 131.0, "CPU time of a trial [us]: that in the line `cost` of a small sweep over its trials"),
         ("row-bytes", 297.0, "bytes of a row: size of the file of a small sweep over its trials"),
         ("nodes", 16, "number of nodes"),
         ("cores", 64, "cores of a node"),

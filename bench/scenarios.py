@@ -20,15 +20,6 @@ SOLVERS = {"taylor": {"solver": "taylor"}, "adams": {"solver": "cvode", "method"
 ROUNDS, LEAST = 3, 0.05  # at least so many runs of each, and until they have taken so long [s]
 
 
-def drives(paths):
-    """Every drive that can be run, by name."""
-    for path in paths:
-        try:
-            yield path.name, wormdrive.Scenario(path)
-        except wormdrive.InputError as fault:
-            print(f"{path.name}: {str(fault).splitlines()[0]}", file=sys.stderr)
-
-
 def measure(runs):
     """The least CPU time of a run [s], by solver."""
     least, spent, rounds = {name: float("inf") for name in runs}, 0.0, 0
@@ -42,29 +33,35 @@ def measure(runs):
     return least
 
 
-def error(scenario, judge):
-    """Largest difference of the gear's angle at the reports of both [rad]."""
-    ours, theirs = (dict(zip(at.time, at.gear_angle)) for at in (scenario.run().trajectory, judge.run().trajectory))
+def angles(run):
+    """The gear's angle at the reports [rad], by time."""
+    trajectory = run.run().trajectory
+    return dict(zip(trajectory.time, trajectory.gear_angle))
+
+
+def apart(ours, theirs):
+    """Largest difference at the reports of both [rad]."""
     return max(abs(ours[t] - theirs[t]) for t in ours.keys() & theirs.keys())
 
 
 def main():
-    shipped = sorted(SCENARIOS.glob("*.toml"))
     print("| scenario | taylor [ms] | adams [ms] | bdf [ms] | taylor / the faster of CVODE | error of taylor | adams | bdf |")
     print("|---|---|---|---|---|---|---|---|")
-    for name, drive in drives([Path(word) for word in sys.argv[1:]] or shipped):
+    for path in [Path(word) for word in sys.argv[1:]] or sorted(SCENARIOS.glob("*.toml")):
         try:
+            drive = wormdrive.Scenario(path)
             runs = {solver: wormdrive.Scenario(drive, run=how) for solver, how in SOLVERS.items()}
         except wormdrive.InputError as fault:
-            print(f"{name}: {fault}", file=sys.stderr)
+            print(f"{path.name}: {fault}", file=sys.stderr)
             continue
-        tight = {solver: wormdrive.Scenario(drive, run={**how, "relative_tolerance": 1e-12})
-                 for solver, how in SOLVERS.items()}
         least = measure(runs)
-        errors = [error(run, tight["bdf" if solver == "taylor" else "taylor"]) for solver, run in runs.items()]
+        found = {solver: angles(run) for solver, run in runs.items()}
+        judges = {solver: angles(wormdrive.Scenario(runs[solver], run={"relative_tolerance": 1e-12}))
+                  for solver in ("taylor", "bdf")}
+        errors = [apart(found[solver], judges["bdf" if solver == "taylor" else "taylor"]) for solver in SOLVERS]
         cells = [f"{1e3 * least[solver]:.3g}" for solver in SOLVERS]
         cells.append(f"{least['taylor'] / min(least['adams'], least['bdf']):.2g}")
-        print(f"| {name} | " + " | ".join(cells + [f"{size:.1e}" for size in errors]) + " |", flush=True)
+        print(f"| {path.name} | " + " | ".join(cells + [f"{size:.1e}" for size in errors]) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -34,11 +33,7 @@ struct Agma {
                             Presence::optional}};
   }
   /// The standard's coefficient of friction at a sliding speed v > 0 [m/s].
-  static double standard(double v) {
-    const double V = v / foot_per_minute;
-    return V > 10.0 ? 0.103 * portable::exp(-0.110 * portable::pow(V, 0.450)) + 0.012
-                    : 0.124 * portable::exp(-0.074 * portable::pow(V, 0.645));
-  }
+  static double standard(double v) { return fit_at(v).value(v / foot_per_minute); }
   /// Coefficient of friction, whatever that of the mesh is.
   template <class S>
   S friction(const S&, const SlidingContact<S>& at) const {
@@ -51,23 +46,29 @@ struct Agma {
 
  private:
   static constexpr double at_rest = 0.150, foot_per_minute = 0.00508;  // [m/s]
-  /// The standard's coefficient over the sliding speed, differentiated [s/m].
-  static double standard_slope(double v) {
-    const double V = v / foot_per_minute;
-    return V > 10.0 ? (standard(v) - 0.012) * -0.110 * 0.450 * portable::pow(V, -0.550) / foot_per_minute
-                    : standard(v) * -0.074 * 0.645 * portable::pow(V, -0.355) / foot_per_minute;
+  /// A part of the standard's fit, over the sliding speed V [ft/min].
+  struct Fit {
+    double factor, decay, exponent, least;
+    double value(double V) const { return factor * portable::exp(-decay * portable::pow(V, exponent)) + least; }
+    double slope(double V) const {
+      return (value(V) - least) * -decay * exponent * portable::pow(V, exponent - 1.0);  // [min/ft]
+    }
+  };
+  static Fit fit_at(double v) {
+    return v / foot_per_minute > 10.0 ? Fit{0.103, 0.110, 0.450, 0.012} : Fit{0.124, 0.074, 0.645, 0.0};
   }
   /// Values and slopes of the standard at few points: a run stops at each that the speed passes.
   static const CubicTable& table() {
     static const CubicTable made = [] {
-      std::vector<double> v{0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.0508,  // 10 ft/min, where the fit changes
-                            0.06,  0.1,   0.2,   0.3,  0.5,  0.75, 1.0,    1.5,  2.0, 3.0,
-                            4.0,   5.0,   7.5,   10.0, 15.0, 20.0, 30.0,   50.0, 80.0};
-      std::vector<double> mu, slope;
-      for (const double speed : v) mu.push_back(standard(speed)), slope.push_back(standard_slope(speed));
-      slope.insert(slope.begin(), 0.0);  // at rest, of which the standard says no more than the value
-      v.insert(v.begin(), 0.0);
-      mu.insert(mu.begin(), at_rest);
+      const std::vector<double> v{
+          0.0,  0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.0508,  // 10 ft/min, where the fit changes
+          0.06, 0.1,   0.2,   0.3,   0.5,  0.75, 1.0,  1.5,    2.0, 3.0,
+          4.0,  5.0,   7.5,   10.0,  15.0, 20.0, 30.0, 50.0,   80.0};
+      std::vector<double> mu{at_rest}, slope{0.0};  // at rest the standard states a value and no slope
+      for (std::size_t k = 1; k < v.size(); ++k) {
+        mu.push_back(standard(v[k]));
+        slope.push_back(fit_at(v[k]).slope(v[k] / foot_per_minute) / foot_per_minute);
+      }
       return CubicTable(v, mu, slope);
     }();
     return made;

@@ -55,7 +55,7 @@ std::vector<std::string> nominal(Dice& dice, const Loop& on) {
   return words;
 }
 
-/// Up to five of the effects, loads, sensors and motors that run in lanes.
+/// Up to five effects, loads, sensors and motors; an asymmetry comes with the friction that it belongs to.
 std::vector<std::string> additions(Dice& dice, const Loop& on) {
   const double tau = on.torque() * 1e-3 * dice.decades(0.1, 10.0), resistance = dice.decades(0.1, 100.0);
   std::vector<std::string> all{
@@ -113,7 +113,7 @@ std::vector<std::string> additions(Dice& dice, const Loop& on) {
   const auto on_it = [&](const char* table) {
     return std::ranges::any_of(chosen, [&](const std::string& word) { return word.starts_with(table); });
   };
-  if (on_it("effect.bearing_asymmetry") && !on_it("effect.worm_coulomb"))  // whose asymmetry it is
+  if (on_it("effect.bearing_asymmetry") && !on_it("effect.worm_coulomb"))
     chosen.push_back(fmt::format("effect.worm_coulomb.torque_Nm={}", tau));
   return chosen;
 }
@@ -131,7 +131,7 @@ TEST_CASE("lanes: 200 random drives with up to five effects are what CVODE finds
     std::vector<std::string> words = nominal(dice, loop);
     const std::vector<std::string> further = additions(dice, loop);
     words.insert(words.end(), further.begin(), further.end());
-    INFO("drive " << index << ": " << fmt::format("{}", fmt::join(words, " ")));
+    INFO(fmt::format("drive {}: {}", index, fmt::join(words, " ")));
     std::mt19937_64 random(index);
     std::vector<Scenario> trials;
     for (int k = 0; k < 3; ++k) {
