@@ -23,4 +23,11 @@ struct CommandedMoment : Moment<S> {
   S command;
 };
 
+/// The same of a drive in a state that says since when the gear has been at rest, if it is. M: any moment.
+template <class M, class Instant>
+M resting(M at, const Instant& now) {
+  if (now.mode.motion == Motion::stuck) at.rest = at.t - decltype(at.t)(now.since);
+  return at;
+}
+
 }  // namespace wormdrive

@@ -229,11 +229,6 @@ class WormDrive : public TorqueBalance<T, Load> {
     return resting(at, now);
   }
 
-  template <class S, template <class> class M>
-  static M<S> resting(M<S> at, const Instant& now) {
-    if (now.mode.motion == Motion::stuck) at.rest = at.t - S(now.since);
-    return at;
-  }
   static constexpr int deciding = 3;  ///< order of the series that decide what happens just after an event
 
   /// Whether a stop holds the gear in a direction.

@@ -53,16 +53,25 @@ class BendWatch {
     return first;
   }
 
-  /// The first bend within h [s] of a motion by power series of an order.
-  template <class M>
-  std::optional<double> first_within(const M& motion, const Mode& mode, int order, double h, RootSearch& search) const {
+  /// The first bend within h [s] of a motion along which the quantities are power series of an order.
+  std::optional<double> first_within(const std::vector<Coefficients>& series, int order, double h,
+                                     RootSearch& search) const {
     std::optional<double> first;
-    for (const auto& b : watched(motion, mode)) {
-      const std::size_t terms = static_cast<std::size_t>(order) + 1;
-      const auto fall = search.first_fall({b.c.data(), terms}, first.value_or(h), true).at;
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      Coefficients b = series[k];
+      for (double& c : b) c *= sides_[k].sign;
+      b[0] += sides_[k].floor;
+      const auto fall = search.first_fall({b.data(), static_cast<std::size_t>(order) + 1}, first.value_or(h), true).at;
       if (fall && *fall < h) first = fall;
     }
     return first;
+  }
+  /// The quantities along a motion by power series.
+  template <class M>
+  std::vector<Coefficients> along(const M& motion, const Mode& mode) const {
+    std::vector<Coefficients> all;
+    visit(motion, mode, [&](const auto& b) { all.push_back(b.c); });
+    return all;
   }
   /// How long [s] from now on, at a bend, rounding may hide on which side of it the motion is. A series has the
   /// equations of the side that it begins on, so the next one begins behind that.
@@ -90,6 +99,7 @@ class BendWatch {
   /// Not inline: few drives have bends, and all have segments.
   [[gnu::noinline]] void find_sides(const Instant& now) {
     if constexpr (Foresees<System>) {
+      if (find_by_far(now)) return;
       const double resolution = time_resolution(now.t);
       std::size_t k = 0;
       visit(system_.template ahead<4, Rounded>(now), now.mode, [&](const auto& b) {
@@ -108,6 +118,22 @@ class BendWatch {
         if (sides_[k].floor > 0.0 && here_[k][1] > 0.0)
           unsure_ = std::min(unsure_, 2.0 * sides_[k].floor / here_[k][1]);
     }
+  }
+
+  /// The same where value and rate tell all of them from zero, at a fraction of the cost.
+  bool find_by_far(const Instant& now) {
+    const double resolution = time_resolution(now.t);
+    bool far = true;
+    here_.clear();
+    visit(system_.template ahead<1, Rounded>(now), now.mode, [&](const auto& b) {
+      const double size = std::abs(b[0].value), sign = b[0].value > 0.0 ? 1.0 : -1.0;
+      far = far && size > std::max(2.0 * blur(b, 0, resolution), std::numeric_limits<double>::min());
+      sides_[here_.size()] = {sign, 0.0};
+      here_.emplace_back(size);
+      here_.back()[1] = sign * b[1].value;
+    });
+    unsure_ = never;
+    return far;
   }
 
   /// Where the values of a series go, whatever their rounding; up where all are zero.

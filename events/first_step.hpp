@@ -48,7 +48,7 @@ class FirstStep {
     }
     if (BendWatch<System> bends(system); !bends.none()) {
       bends.begin(now);
-      h = bends.first_within(at, now.mode, order, h, search_).value_or(h);
+      h = bends.first_within(bends.along(at, now.mode), order, h, search_).value_or(h);
     }
     h = longest(h, [&](double s) { return holds(s); });
     end_ = h < limit - now.t ? now.t + h : limit;

@@ -53,6 +53,8 @@ class RestWatch {
       if (first) return first;
       a = b;
       left = right;
+      for (std::size_t g = 0; g < floor_.size(); ++g)
+        if (left[g][0] > 2.0 * floor_[g]) left[g][0] -= std::exchange(floor_[g], 0.0);
     }
     return std::nullopt;
   }
@@ -86,7 +88,7 @@ class RestWatch {
 
   const System& system_;
   Instant now_;
-  std::array<double, System::guard_count> floor_{};  ///< of a guard that starts at zero
+  std::array<double, System::guard_count> floor_{};  ///< of a guard that starts at zero, until it is well above
 };
 
 }  // namespace wormdrive

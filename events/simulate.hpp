@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <utility>
 
 #include "events/event_log.hpp"
@@ -24,13 +25,41 @@ struct Cause {
   double torque = 0.0;   ///< held from a sample on [N m], once the controller has answered
 };
 
-/// Stays at rest until next or until a guard releases the system, which is returned, else no_guard.
+/// Stays at rest. When a guard releases the system is found once for all reports on the way, so that they decide
+/// nothing.
 template <class System>
-int rest(const System& system, typename System::Instant& now, double next) {
-  const auto released = RestWatch<System>(system, now).first_crossing(next);
-  now.t = released ? released->t : next;
-  return released ? released->guard : no_guard;
-}
+class Rest {
+ public:
+  /// Forgets what was found, for another rest or other inputs.
+  void restart() { known_ = false; }
+  /// Stays until next (<= limit, past which nothing is evaluated) or until a guard releases the system, which is
+  /// returned, else no_guard.
+  int advance(const System& system, typename System::Instant& now, double next, double limit) {
+    if (!known_) look_ahead(system, now, next, limit);
+    const bool falls = released_.t <= next;
+    now.t = falls ? released_.t : next;
+    return falls ? released_.guard : no_guard;
+  }
+
+ private:
+  void look_ahead(const System& system, const typename System::Instant& now, double next, double limit) {
+    const auto until = [&](double end) {
+      return RestWatch<System>(system, now).first_crossing(end).value_or(Crossing{never, no_guard});
+    };
+    try {
+      released_ = until(limit);
+      known_ = true;
+    } catch (const SolverFault&) {  // fails no sooner than it has to
+      if (next == limit) throw;
+      released_ = until(next);
+      known_ = released_.guard != no_guard;
+    }
+  }
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  bool known_ = false;
+  Crossing released_{never, no_guard};  ///< where it is known
+};
 
 /// The mode after the inputs have changed; a solver may find it from what it needs anyway.
 template <class System, class Solver>
@@ -74,6 +103,7 @@ template <class System, class Solver, class Controller, class Recorder>
   typename System::Instant& now = progress.now;
   EventLog& log = progress.log;
   Cause& cause = progress.cause;
+  Rest<System> rest;
   const auto tell = [&] {
     if constexpr (std::invocable<Recorder&, const System&, const typename System::Instant&, const Cause&>)
       record(system, now, cause);
@@ -116,12 +146,13 @@ template <class System, class Solver, class Controller, class Recorder>
     }
     if (cause.reason != Reason::report && cause.reason != Reason::latch) {
       tell();
-      if (!System::at_rest(now.mode)) solver.restart(now);
+      System::at_rest(now.mode) ? rest.restart() : solver.restart(now);
     }
     const double next = timetable.next_time();
     int guard = no_guard;
     try {
-      guard = System::at_rest(now.mode) ? rest(system, now, next) : solver.advance(now, next, timetable.next_stop());
+      const double limit = timetable.next_stop();
+      guard = System::at_rest(now.mode) ? rest.advance(system, now, next, limit) : solver.advance(now, next, limit);
     } catch (const SolverFault& fault) {
       throw log.halt(now.t, now.mode, fault.what());
     }

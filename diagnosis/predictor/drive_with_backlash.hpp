@@ -172,7 +172,8 @@ class DriveWithBacklash {
       const auto margins = drive_.guards(drive_.moment(at), at.mode);
       return std::all_of(margins.begin(), margins.end(), [](double m) { return m > 0.0; });
     };
-    if (drive_.load().fastest() > 0.0 || !holds(now) || !holds(then)) return rest(drive_, now, stop);
+    if (drive_.load().fastest() > 0.0 || !holds(now) || !holds(then))
+      return Rest<Drive>{}.advance(drive_, now, stop, stop);
     now.t = stop;
     return no_guard;
   }

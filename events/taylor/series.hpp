@@ -3,15 +3,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/numbers/rounded.hpp"
 #include "events/segment_start.hpp"
 #include "events/taylor/accuracy.hpp"
 #include "events/taylor/series_step.hpp"
+#include "events/taylor/tapes/traced.hpp"
 
 namespace wormdrive {
 
-/// The motion of any drive as power series: the equations of core/ themselves, with a series for a scalar.
+/// The motion of any drive as power series: the equations of core/ themselves, recorded where a step begins, or where a
+/// tie does not let that be, with a series for a scalar.
 ///
 /// A branch that an equation takes behind the start, as a table does at its points, is not in the series. So every
 /// step is tried: where acceleration and guards on the way are not those of the series, it ends at the branch.
@@ -23,24 +26,26 @@ class SeriesFlow {
   using Motion = Expansion<System::guard_count, effect_states>;
 
   /// The motion from now on, accurate over a step of at most h.
-  static void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
+  void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     constexpr int lowest = 8, higher = 6;
+    const bool traced = is_traced_ = traced_.begin(system, now);
     for (int order = lowest;; order += higher) {
-      const auto at = system.ahead(now, order + 1);
-      const auto guards = system.guards(at, now.mode);
-      e.order = order;
-      std::copy_n(at.theta_g.c.begin(), order + 2, e.theta.begin());
-      std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
-      for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
-      if constexpr (effect_states > 0)
-        for (int k = 0; k < effect_states; ++k) std::copy_n(at.states[k].c.begin(), order + 1, e.states[k].begin());
+      traced ? traced_.extend(order, e) : look_ahead(system, now, order, e);
       e.step = h;
       if (accuracy.suffices(e, h)) break;
       if (order + higher <= highest_order && order < accuracy.order()) continue;
       e.step = accuracy.step(e, h);
       break;
     }
-    end_where_it_fails(system, now, accuracy, e);
+    if (!(traced && traced_.remain(e.step))) end_where_it_fails(system, now, accuracy, e);
+  }
+
+  /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
+  std::vector<Coefficients> bends(const System& system, const Instant& now, const Motion& e) {
+    if (is_traced_) return traced_.bends();
+    std::vector<Coefficients> all;
+    system.for_each_bend(along(system, now, e), now.mode.motion, [&](const auto& b) { all.push_back(b.c); });
+    return all;
   }
 
   /// The state s after the start of a series.
@@ -54,8 +59,9 @@ class SeriesFlow {
 
   /// Ends the step where the equations are no longer those of the series.
   static void end_where_it_fails(const System& system, const Instant& now, const TaylorAccuracy& accuracy, Motion& e) {
+    const Rates rates = rates_of(e);
     const auto step = [&](const Roundings& inputs) {
-      return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, inputs); });
+      return longest(e.step, [&](double s) { return holds(system, now, s, accuracy, e, rates, inputs); });
     };
     const double whole = e.step;
     if (step({}) == whole) return;
@@ -66,6 +72,32 @@ class SeriesFlow {
   }
 
  private:
+  /// All that equations may depend on, along a motion.
+  static auto along(const System& system, const Instant& now, const Motion& e) {
+    using S = OpenSeries<double>;
+    std::array<S, System::state_size> x;
+    const auto know = [&e](S& to, const Coefficients& from) {
+      std::copy_n(from.begin(), e.order + 1, to.c.begin());
+      to.know(e.order);
+    };
+    know(x[0], e.theta);
+    know(x[1], e.omega);
+    for (int k = 0; k < effect_states; ++k) know(x[2 + k], e.states[k]);
+    return resting(system.moment_at(S::variable(now.t, e.order), x), now);
+  }
+
+  /// The same by the equations with a series for a scalar.
+  static void look_ahead(const System& system, const Instant& now, int order, Motion& e) {
+    const auto at = system.ahead(now, order + 1);
+    const auto guards = system.guards(at, now.mode);
+    e.order = order;
+    std::copy_n(at.theta_g.c.begin(), order + 2, e.theta.begin());
+    std::copy_n(at.omega_g.c.begin(), order + 1, e.omega.begin());
+    for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
+    if constexpr (effect_states > 0)
+      for (int k = 0; k < effect_states; ++k) std::copy_n(at.states[k].c.begin(), order + 1, e.states[k].begin());
+  }
+
   /// What acceleration [rad/s^2], rates of states and guards [their units] may differ by because inputs and torques are
   /// rounded.
   struct Roundings {
@@ -85,35 +117,46 @@ class SeriesFlow {
     return of;
   }
 
+  /// The rates of speed and states.
+  using Rates = std::array<Coefficients, 1 + effect_states>;
+  static Rates rates_of(const Motion& e) {
+    Rates rates{};
+    for (int k = 1; k <= e.order; ++k) {
+      rates[0][k - 1] = k * e.omega[k];
+      for (int j = 0; j < effect_states; ++j) rates[1 + j][k - 1] = k * e.states[j][k];
+    }
+    return rates;
+  }
+
   /// Whether the equations at s are those that the series was made from.
   static bool holds(const System& system, const Instant& now, double s, const TaylorAccuracy& accuracy, const Motion& e,
-                    const Roundings& inputs) {
+                    const Rates& rates, const Roundings& inputs) {
     const double t = now.t + s;
     const auto near = [&](double found, Polynomial c, double allowed) {
+      const double expected = value(c, s), error = std::abs(found - expected);
+      // its terms together are no smaller than the value
+      if (error <= allowed + (accuracy.relative() + rounding) * std::abs(expected)) return true;
       double size = 0.0, rate = 0.0, power = 1.0;
       for (std::size_t k = 0; k < c.size(); ++k, power *= s) {
         size += std::abs(c[k]) * power;
         if (k + 1 < c.size()) rate += static_cast<double>(k + 1) * std::abs(c[k + 1]) * power;
       }
       // the inputs know the time to its own rounding only
-      return std::abs(found - value(c, s)) <=
-             allowed + (accuracy.relative() + rounding) * size + 4.0 * epsilon * std::abs(t) * rate;
+      return error <= allowed + (accuracy.relative() + rounding) * size + 4.0 * epsilon * std::abs(t) * rate;
     };
     Instant then = now;
     then.t = t;
     then.x = state_after(e, s);
     const auto there = system.moment(then);
-    const auto follows = [&](double found, const Coefficients& c, double value_there, double rounded) {
-      Coefficients rate{};
-      for (int k = 1; k <= e.order; ++k) rate[k - 1] = k * c[k];
-      const double allowed = e.order * accuracy.allowed(value_there) + rounded;
-      return near(found, {rate.data(), static_cast<std::size_t>(e.order)}, allowed);
+    const auto follows = [&](double found, const Coefficients& rate, double value_there, double rounded) {
+      return near(found, {rate.data(), static_cast<std::size_t>(e.order)},
+                  e.order * accuracy.allowed(value_there) + rounded);
     };
-    if (!follows(system.acceleration(there, now.mode), e.omega, there.omega_g, inputs.acceleration)) return false;
+    if (!follows(system.acceleration(there, now.mode), rates[0], there.omega_g, inputs.acceleration)) return false;
     if constexpr (effect_states > 0) {
-      const auto rates = system.derivative(t, then.x, now.mode);
+      const auto found = system.state_rates(there, now.mode);
       for (int k = 0; k < effect_states; ++k)
-        if (!follows(rates[2 + k], e.states[k], then.x[2 + k], inputs.states[k])) return false;
+        if (!follows(found[k], rates[1 + k], then.x[2 + k], inputs.states[k])) return false;
     }
     const auto guards = system.guards(there, now.mode);
     const auto terms = system.guard_terms(there, now.mode);
@@ -123,6 +166,9 @@ class SeriesFlow {
   }
 
   static constexpr double epsilon = std::numeric_limits<double>::epsilon(), rounding = 64.0 * epsilon;
+
+  TracedMotion<System> traced_;
+  bool is_traced_ = false;  ///< the latest motion
 };
 
 }  // namespace wormdrive

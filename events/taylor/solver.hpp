@@ -199,13 +199,12 @@ class TaylorSolver {
       length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
-    if (const auto bend = bends_.none()
-                              ? std::nullopt
-                              : bends_.first_within(system_.ahead(now, series_.order + 1), now.mode, series_.order,
-                                                    length_ + time_resolution(end_), search_)) {
+    if (const auto bend = bends_.none() ? std::nullopt
+                                        : bends_.first_within(flow_.bends(system_, now, series_), series_.order,
+                                                              length_ + time_resolution(end_), search_)) {
       // Of a bend and a guard that falls there the bend comes first: behind it the guard may be another one. What has
-      // stepped behind it goes on by the equations of that side.
-      end_ = std::min(now.t + *bend, limit);
+      // stepped behind it goes on by the equations of that side, also where the clock would not have seen it pass.
+      end_ = std::min(std::max(now.t + *bend, brief ? now.t : std::nextafter(now.t, limit)), limit);
       length_ = brief ? *bend : end_ - now.t;
       end_ = std::min(end_ + bends_.hidden_for(at(end_)), limit);
       if (!brief) length_ = end_ - now.t;
@@ -242,8 +241,8 @@ class TaylorSolver {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
     if constexpr (TapedFlow<System>::known)
-      if (taped_.covers(now.mode)) return taped_.expand(now, h, accuracy_, series_);
-    SeriesFlow<System>::expand(system_, now, h, accuracy_, series_);
+      if (bends_.none() && taped_.covers(now.mode)) return taped_.expand(now, h, accuracy_, series_);
+    flow_.expand(system_, now, h, accuracy_, series_);
   }
 
   /// Whether nothing decides what a guard does just after the start of a segment; a motion that has no speed yet goes
@@ -280,6 +279,7 @@ class TaylorSolver {
   double max_step_;
   NominalFlow<System> nominal_;
   TapedFlow<System> taped_;
+  SeriesFlow<System> flow_;
   BendWatch<System> bends_;
   typename SeriesFlow<System>::Motion series_;
   Instant begin_{};      ///< of the present step

@@ -121,4 +121,32 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a load that turns ever so slowly one way and is pulled the other way gets across its bend") {
+  // It hangs on a gear that starts, so that the speed of the load grows with the third power of time; its own torque
+  // bends where it turns.
+  near_ties::Dice dice(20261129, 0);
+  Fan fan;
+  fan.rated_torque = 0.1;
+  fan.rated_speed = 1.0;
+  constexpr int twist = 2 + int{StateLayout<EffectList<double>>::first<LoadCoupling<double>>()};
+  for (int drawn = 0; drawn < 40; ++drawn) {
+    const double push = dice.sign() * dice.decades(1e-2, 10.0), start = dice.decades(1e-3, 1e3);
+    const LoadCoupling<double> coupling{dice.decades(1e-3, 1.0), dice.decades(0.1, 100.0)};
+    const auto end_with = [&](double speed, By by) {
+      auto d =
+          drive_with_states(GearMesh<double>::without_teeth(1.0), LoadSum{{fan}}, constant(push), effects(coupling));
+      d.enter(start);
+      typename decltype(d)::Instant from{start};
+      from.x[twist + 1] = speed;
+      return run(d, Timetable(start, start + 0.5, 0.5), from, tight(by, 1e-10)).end.x;
+    };
+    for (const By by : every_solver) {
+      const auto expected = end_with(0.0, by);
+      const double speed = -dice.decades(1e-300, 1e-12) * (push > 0.0 ? 1.0 : -1.0);
+      INFO("solver " << int(by.solver) << ", load speed " << speed << ", push " << push << ", from " << start << " s");
+      REQUIRE((end_with(speed, by) - expected).norm() <= 1e-7 * expected.norm());
+    }
+  }
+}
+
 }  // namespace wormdrive::test::events_bends

@@ -57,7 +57,7 @@ TEST_CASE("a drive with a Stribeck curve has the series of the equations of core
           flow.begin(now);
           Polynomials own, general;
           flow.expand(now, 0.5, accuracy, own);
-          SeriesFlow<System>::expand(drive, now, 0.5, accuracy, general);
+          SeriesFlow<System>{}.expand(drive, now, 0.5, accuracy, general);
           const int order = std::min(own.order, general.order);
           INFO("exponent " << shape.exponent << ", tail " << shape.tail << ", drop " << drop << ", speed " << speed);
           REQUIRE(order >= 8);

@@ -1,6 +1,10 @@
 #pragma once
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/numbers/cubic_table.hpp"
@@ -11,8 +15,9 @@ namespace wormdrive {
 class Taped;
 
 /// The operations of which equations consist, one after the other: what they do to numbers they do to power series,
-/// coefficient by coefficient, and to discs of complex numbers around them. The equations are recorded once, with Taped
-/// for a scalar; what they do with an effect that is off leaves no trace.
+/// coefficient by coefficient, and to discs of complex numbers around them. The equations are recorded with Taped for a
+/// scalar; what they do with an effect that is off leaves no trace. Where the inputs have values, comparisons are
+/// decided by them.
 class Tape {
  public:
   enum class Operation {
@@ -40,33 +45,43 @@ class Tape {
   };
 
   /// Places of inputs come first.
-  explicit Tape(int inputs) : places_(inputs) {}
+  explicit Tape(int inputs) { clear(inputs); }
   Tape(const Tape&) = delete;  // scalars point to it
   Tape& operator=(const Tape&) = delete;
+  /// Begins anew.
+  void clear(int inputs);
 
-  Taped input(int place);
+  /// Without a value one that is not known beforehand.
+  Taped input(int place, double value = std::numeric_limits<double>::quiet_NaN());
   /// Where a result stands, a constant as well.
   int place(const Taped& result);
 
   const std::vector<Step>& steps() const { return steps_; }
   const std::vector<Condition>& conditions() const { return conditions_; }
+  /// Places whose signs have decided a comparison.
+  const std::vector<int>& decisions() const { return decisions_; }
   int places() const { return places_; }
   /// False where the equations compare what is not known beforehand.
   bool is_complete() const { return complete_; }
 
   // ---- while the equations are recorded --------------------------------------------------------------------------
 
-  Taped record(Operation operation, int a, int b = 0, double factor = 0.0, double offset = 0.0,
+  Taped record(Operation operation, double value, int a, int b = 0, double factor = 0.0, double offset = 0.0,
                const CubicTable* table = nullptr);
+  void decide_by(const Taped& difference);
   void hold(const Condition& condition) { conditions_.push_back(condition); }
   /// Of a comparison that cannot be recorded, an answer all the same.
   bool give_up() { return complete_ = false; }
 
  private:
+  static std::size_t hash(const Step& s);
+
   std::vector<Step> steps_;
   std::vector<Condition> conditions_;
+  std::vector<int> decisions_;
+  std::array<std::uint16_t, 1024> found_;  ///< by their hashes, numbers of steps from 1 on
   int places_;
-  bool complete_ = true;
+  bool complete_;
 };
 
 /// A number in equations that are recorded: a constant, or a factor times the result in a place, and a constant. Sums
@@ -74,7 +89,7 @@ class Tape {
 class Taped {
  public:
   Taped() = default;
-  Taped(double constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor): a scalar
+  Taped(double constant) : constant_(constant), value_(constant) {}  // NOLINT(google-explicit-constructor): a scalar
 
   Taped& operator+=(const Taped& b) { return *this = *this + b; }
   Taped& operator-=(const Taped& b) { return *this = *this - b; }
@@ -82,79 +97,85 @@ class Taped {
   friend Taped operator+(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ + b.constant_;
     if (!a.tape_) return b + a;
-    if (b.tape_) return a.tape_->record(Operation::add, a.place(), b.place());
-    return b.constant_ == 0.0 ? a : Taped(a.tape_, a.place_, a.factor_, a.constant_ + b.constant_);
+    if (b.tape_) return a.tape_->record(Operation::add, a.value_ + b.value_, a.place(), b.place());
+    if (b.constant_ == 0.0) return a;
+    return {a.tape_, a.place_, a.factor_, a.constant_ + b.constant_, a.value_ + b.constant_};
   }
   friend Taped operator-(const Taped& a, const Taped& b) {
     if (!b.tape_) return a + Taped(-b.constant_);
-    return a.tape_ ? a.tape_->record(Operation::subtract, a.place(), b.place()) : -b + a;
+    return a.tape_ ? a.tape_->record(Operation::subtract, a.value_ - b.value_, a.place(), b.place()) : -b + a;
   }
   friend Taped operator*(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ * b.constant_;
     if (!a.tape_) return b * a;
-    if (b.tape_) return a.tape_->record(Operation::multiply, a.place(), b.place());
+    if (b.tape_) return a.tape_->record(Operation::multiply, a.value_ * b.value_, a.place(), b.place());
     if (b.constant_ == 0.0) return 0.0;
-    return {a.tape_, a.place_, a.factor_ * b.constant_, a.constant_ * b.constant_};
+    return {a.tape_, a.place_, a.factor_ * b.constant_, a.constant_ * b.constant_, a.value_ * b.constant_};
   }
   friend Taped operator/(const Taped& a, const Taped& b) {
     if (!b.tape_) return a.tape_ ? a * Taped(1.0 / b.constant_) : Taped(a.constant_ / b.constant_);
-    if (!a.tape_) return b.tape_->record(Operation::invert, b.place(), 0, a.constant_);
-    return a.tape_->record(Operation::divide, a.place(), b.place());
+    if (!a.tape_) return b.tape_->record(Operation::invert, a.constant_ / b.value_, b.place(), 0, a.constant_);
+    return a.tape_->record(Operation::divide, a.value_ / b.value_, a.place(), b.place());
   }
-  friend Taped sin(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::sine_cosine, x.place()) : Taped(sine_and_cosine(x.constant_).sine);
-  }
-  friend Taped cos(const Taped& x) {
-    if (!x.tape_) return sine_and_cosine(x.constant_).cosine;
-    Taped cosine = sin(x);
-    ++cosine.place_;
-    return cosine;
-  }
+  friend Taped sin(const Taped& x) { return sine_then_cosine(x)[0]; }
+  friend Taped cos(const Taped& x) { return sine_then_cosine(x)[1]; }
   friend Taped exp(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::exponential, x.place()) : Taped(portable::exp(x.constant_));
+    const double y = portable::exp(x.value_);
+    return x.tape_ ? x.tape_->record(Operation::exponential, y, x.place()) : Taped(y);
   }
   friend Taped sqrt(const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::square_root, x.place()) : Taped(std::sqrt(x.constant_));
-  }
-  /// x, which stays above a limit.
-  friend Taped at_least(const Taped& x, double least) {
-    if (!x.tape_) return at_least(x.constant_, least);
-    x.tape_->hold({x.place(), least});
-    return x;
+    const double y = std::sqrt(x.value_);
+    return x.tape_ ? x.tape_->record(Operation::square_root, y, x.place()) : Taped(y);
   }
   friend Taped look_up(const CubicTable& table, const Taped& x) {
-    return x.tape_ ? x.tape_->record(Operation::table, x.place(), 0, 0.0, 0.0, &table) : Taped(table(x.constant_));
+    const double y = table(x.value_);
+    return x.tape_ ? x.tape_->record(Operation::table, y, x.place(), 0, 0.0, 0.0, &table) : Taped(y);
   }
-  friend bool operator<(const Taped& a, const Taped& b) {
-    for (const Taped* x : {&a, &b})
-      if (x->tape_) return x->tape_->give_up();
-    return a.constant_ < b.constant_;
+  /// x, which stays above a limit where it has no value.
+  friend Taped at_least(const Taped& x, double least) {
+    if (!std::isnan(x.value_)) return x < Taped(least) ? Taped(least) : x;
+    if (x.tape_) x.tape_->hold({x.place(), least});
+    return x;
   }
+  friend bool operator<(const Taped& a, const Taped& b) { return decided(a, b, a.value_ < b.value_); }
   friend bool operator>(const Taped& a, const Taped& b) { return b < a; }
-  friend bool operator<=(const Taped& a, const Taped& b) {
-    for (const Taped* x : {&a, &b})
-      if (x->tape_) return x->tape_->give_up();
-    return a.constant_ <= b.constant_;
-  }
+  friend bool operator<=(const Taped& a, const Taped& b) { return decided(a, b, a.value_ <= b.value_); }
   friend bool operator>=(const Taped& a, const Taped& b) { return b <= a; }
+  /// At zero it takes the coefficients that follow to tell.
+  friend bool is_positive(const Taped& x) { return x.tape_ && x.value_ == 0.0 ? x.tape_->give_up() : x > Taped(0.0); }
 
  private:
   friend class Tape;
   using Operation = Tape::Operation;
 
-  Taped(Tape* tape, int place) : tape_(tape), place_(place) {}
-  Taped(Tape* tape, int place, double factor, double constant)
-      : tape_(tape), place_(place), is_plain_(false), factor_(factor), constant_(constant) {}
+  Taped(Tape* tape, int place, double value) : tape_(tape), place_(place), value_(value) {}
+  Taped(Tape* tape, int place, double factor, double constant, double value)
+      : tape_(tape), place_(place), is_plain_(false), factor_(factor), constant_(constant), value_(value) {}
 
   /// Where it stands; recorded even where it is the same, because in another mode it may be its negative.
   int place() const {
-    return is_plain_ ? place_ : tape_->record(Operation::affine, place_, 0, factor_, constant_).place_;
+    return is_plain_ ? place_ : tape_->record(Operation::affine, value_, place_, 0, factor_, constant_).place_;
+  }
+  static std::array<Taped, 2> sine_then_cosine(const Taped& x) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto [sine, cosine] = std::isnan(x.value_) ? SineAndCosine{unknown, unknown} : sine_and_cosine(x.value_);
+    if (!x.tape_) return {sine, cosine};
+    const Taped first = x.tape_->record(Operation::sine_cosine, sine, x.place());
+    return {first, Taped(x.tape_, first.place_ + 1, cosine)};
+  }
+  static bool decided(const Taped& a, const Taped& b, bool decision) {
+    Tape* const tape = a.tape_ ? a.tape_ : b.tape_;
+    if (!tape) return decision;
+    if (std::isnan(a.value_) || std::isnan(b.value_)) return tape->give_up();
+    tape->decide_by(a - b);
+    return decision;
   }
 
   Tape* tape_ = nullptr;  ///< none: a constant
   int place_ = 0;
   bool is_plain_ = true;
   double factor_ = 1.0, constant_ = 0.0;
+  double value_ = 0.0;  ///< not a number where it is not known beforehand
 };
 
 template <>
@@ -162,22 +183,52 @@ struct ConstantOfScalar<Taped> {
   using type = double;
 };
 
-inline Taped Tape::input(int place) { return {this, place}; }
+inline void Tape::clear(int inputs) {
+  steps_.clear();
+  conditions_.clear();
+  decisions_.clear();
+  found_.fill(0);
+  places_ = inputs;
+  complete_ = true;
+}
+
+inline Taped Tape::input(int place, double value) { return {this, place, value}; }
 
 inline int Tape::place(const Taped& result) {
-  return result.tape_ ? result.place() : record(Operation::affine, 0, 0, 0.0, result.constant_).place_;
+  return result.tape_ ? result.place()
+                      : record(Operation::affine, result.constant_, 0, 0, 0.0, result.constant_).place_;
+}
+
+inline void Tape::decide_by(const Taped& difference) {
+  if (difference.tape_) decisions_.push_back(difference.place());
+}
+
+inline std::size_t Tape::hash(const Step& s) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t part :
+       {static_cast<std::uint64_t>(s.operation), static_cast<std::uint64_t>(s.a), static_cast<std::uint64_t>(s.b),
+        std::bit_cast<std::uint64_t>(s.factor), std::bit_cast<std::uint64_t>(s.offset)})
+    sum = (sum ^ part) * 0x9e3779b97f4a7c15U;  // Fibonacci hashing: the high bits have seen all of it
+  return sum >> 54U;
 }
 
 /// What has been worked out before is not worked out again.
-inline Taped Tape::record(Operation operation, int a, int b, double factor, double offset, const CubicTable* table) {
-  for (const Step& s : steps_)
+inline Taped Tape::record(Operation operation, double value, int a, int b, double factor, double offset,
+                          const CubicTable* table) {
+  const Step step{operation, a, b, places_, factor, offset, table};
+  std::size_t at = hash(step);
+  for (; found_[at] != 0; at = (at + 1) % found_.size()) {
+    const Step& s = steps_[found_[at] - 1U];
     if (s.operation == operation && s.a == a && s.b == b && s.factor == factor && s.offset == offset &&
         s.table == table)
-      return {this, s.result};
+      return {this, s.result, value};
+  }
   const bool two = operation == Operation::sine_cosine || operation == Operation::table;
-  steps_.push_back({operation, a, b, places_, factor, offset, table});
+  steps_.push_back(step);
+  // what would leave no room to look is recorded again
+  if (steps_.size() < found_.size() / 2) found_[at] = static_cast<std::uint16_t>(steps_.size());
   places_ += two ? 2 : 1;
-  return {this, steps_.back().result};
+  return {this, step.result, value};
 }
 
 }  // namespace wormdrive
