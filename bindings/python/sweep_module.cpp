@@ -52,7 +52,7 @@ std::string summary(const std::string& path, const SummarySettings& settings) {
   const py::gil_scoped_release others_may_run;
   const SweepSoFar so_far(path);
   const SweepReader sweep(so_far.path());
-  return summary_json(sweep, summarise(sweep, settings), so_far.running())
+  return summary_json(sweep, summary_of(sweep, settings), so_far.running())
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -181,7 +181,7 @@ std::string verdict(const SweepSummary& summary) {
 
 ReportPage report_of_sweep(const ResultFile& file) {
   const SweepReader sweep(file.path());
-  const SweepSummary summary = summarise(sweep, {.worst = 10});
+  const SweepSummary summary = summary_of(sweep, {.worst = 10});
   const Study& study = sweep.study();
   ReportPage page;
   page.summary = fmt::format("{} of {} trials{}, {} parameters; {} done, {} refused, {} halted", summary.trials,

@@ -117,7 +117,13 @@ struct SummarySettings {
   bool done_only = false;      ///< leave out refused and halted trials, which else count as the worst
 };
 
-/// Throws InputFault if the metric by which trials are to be ranked does not exist.
+/// Works it out from the trials. Throws InputFault if the metric by which trials are to be ranked does not exist.
 SweepSummary summarise(const SweepReader& sweep, const SummarySettings& settings);
+
+/// The same as /summary of a complete sweep tells it, whatever the number of trials; nothing where that holds other
+/// things than are asked for: another ranking, more of the worst trials, indices of a design that is made for them.
+std::optional<SweepSummary> stored_summary(const SweepReader& sweep, const SummarySettings& settings);
+/// As stored, or else worked out.
+SweepSummary summary_of(const SweepReader& sweep, const SummarySettings& settings);
 
 }  // namespace wormdrive

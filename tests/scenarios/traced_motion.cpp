@@ -44,16 +44,17 @@ void compare(Deviation& apart, const Found& found, const Expected& expected, con
   if (most > 0.0) apart.add(most / std::max(size, parts));
 }
 
-/// The largest deviation of the equations themselves from a series on its way over h [s], as a share of what they are
-/// made of.
+/// The largest deviation of the equations themselves from a series on its way over h [s], beyond what the tolerances
+/// let pass, as a share of what they are made of.
 Deviation deviation(const System& drive, const System::Instant& now, const Motion& e,
-                    const MomentOfEffects<Series<Rounded, 1>>& rounded, double h) {
+                    const MomentOfEffects<Series<Rounded, 1>>& rounded, double h, const TaylorAccuracy& accuracy) {
   Deviation away;
   const auto add = [&](double found, const Coefficients& c, const Series<Rounded, 1>& start, double s) {
     double rate = 0.0;
     const double size = start[1].rounding / Rounded::unit;
     for (int k = order; k >= 1; --k) rate = rate * s + k * c[k];
-    if (found != rate) away.add((found - rate) / std::max(size, std::abs(found)));
+    const double excess = std::abs(found - rate) - accuracy.allowed(c[0]);
+    if (!(excess <= 0.0)) away.add(excess / std::max(size, std::abs(found)));
   };
   for (int k = 1; k <= 16; ++k) {
     const double s = h * k / 16;
@@ -88,7 +89,7 @@ void look(Compared& all, const System& drive, const System::Instant& now, const 
   for (std::size_t k = 0; k < e.states.size(); ++k) compare(all.apart, e.states[k], at.states[k], rounded.states[k], h);
   for (std::size_t g = 0; g < e.guards.size(); ++g) compare(all.apart, e.guards[g], guards[g], rounded_guards[g], h);
 
-  const Deviation away = deviation(drive, now, e, rounded, h);
+  const Deviation away = deviation(drive, now, e, rounded, h, accuracy);
   if (traced.remain(h)) {
     ++all.remain;
     all.away.add(away.size);

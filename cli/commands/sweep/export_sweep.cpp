@@ -23,7 +23,7 @@ int export_sweep(const ExportOptions& options) {
     if (options.what == "trials")
       write_trials_csv(sweep, put);
     else
-      put(summary_csv(sweep, summarise(sweep, {.ranked_by = options.metric, .done_only = options.done_only})));
+      put(summary_csv(sweep, summary_of(sweep, {.ranked_by = options.metric, .done_only = options.done_only})));
   };
   if (options.output.empty()) {
     write([](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); });

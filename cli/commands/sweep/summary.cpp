@@ -176,7 +176,7 @@ int summary_command(const SummaryOptions& options) {
   const SweepSoFar so_far(options.sweep);
   const SweepReader sweep(so_far.path());
   const SweepSummary summary =
-      summarise(sweep, {.ranked_by = options.metric, .worst = options.worst, .done_only = options.done_only});
+      summary_of(sweep, {.ranked_by = options.metric, .worst = options.worst, .done_only = options.done_only});
   if (options.json) {
     print_json(summary_json(sweep, summary, so_far.running()));
     return 0;

@@ -78,10 +78,11 @@ class TracedMotion {
   }
 
   /// Whether the equations certainly remain these within h [s]: no comparison turns out otherwise, no table goes on to
-  /// its next section, and there are no exponentials, whose terms may be too small to be seen at first.
+  /// its next section, and no exponential changes so much that its terms may be too small to be seen at first.
   bool remain(double h) {
-    if (has_exponential_) return false;
     const TapeSeriesOf<double> series = this->series();
+    for (const int place : exponents_)
+      if (!(most_change(series[place], h) <= 1.0)) return false;
     for (const int place : tape_.decisions())
       if (!(std::abs(series[place][0]) > most_change(series[place], h))) return false;
     for (std::size_t k = 0; k < arguments_.size(); ++k) {
@@ -99,9 +100,9 @@ class TracedMotion {
   /// Prepares the memory for the operations that are recorded.
   void lay_out() {
     arguments_.clear();
-    has_exponential_ = false;
+    exponents_.clear();
     for (const Tape::Step& s : tape_.steps()) {
-      has_exponential_ = has_exponential_ || s.operation == Tape::Operation::exponential;
+      if (s.operation == Tape::Operation::exponential) exponents_.push_back(s.a);
       if (s.operation == Tape::Operation::table) arguments_.push_back(s.a);
     }
     code_ = {};
@@ -132,8 +133,7 @@ class TracedMotion {
   std::array<int, System::guard_count> guards_{};
   std::vector<int> bends_;
   TapeCode code_{};
-  std::vector<int> arguments_;  ///< of tables
-  bool has_exponential_ = false;
+  std::vector<int> arguments_, exponents_;  ///< of tables, of exponentials
   std::vector<double> memory_;
   TapeTables tables_;
   Instant begin_{};
