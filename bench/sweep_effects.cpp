@@ -105,6 +105,45 @@ std::vector<Addition> additions(const Scenario& with_pid) {
        }},
       {"actuator_delay", [](Scenario& s, double x) { put(s, ActuatorDelay<double>{2e-4 * x}); }},
       {"actuator_lag", [](Scenario& s, double x) { put(s, ActuatorLag<double>{5e-4 * x}); }},
+      {"torque_map",
+       [](Scenario& s, double x) {
+         put(s, TorqueMap<double>{MapAxis::worm_speed, x, {{-40, -10, 0, 10, 40}, {1e-3, 8e-4, 0, -8e-4, -1e-3}}});
+       }},
+      // with states
+      {"winding",
+       [](Scenario& s, double x) {
+         put(s, DcMotor<double>{.resistance = 0.8, .torque_constant = 0.04, .inductance = 6e-4 * x});
+       }},
+      {"current loop",
+       [](Scenario& s, double x) {
+         put(s, DcMotor<double>{.resistance = 0.8,
+                                .torque_constant = 0.04,
+                                .inductance = 6e-4,
+                                .supply_voltage = 24.0,
+                                .current_bandwidth = 400.0 * x,
+                                .current_limit = 8.0});
+       }},
+      {"warm winding",
+       [](Scenario& s, double x) {
+         put(s, DcMotor<double>{.resistance = 0.8,
+                                .torque_constant = 0.04,
+                                .heat_capacity = 20.0 * x,
+                                .temperature_coefficient = 0.004});
+       }},
+      {"bristles",
+       [](Scenario& s, double x) { put(s, WormLuGre<double>{.coulomb_torque = 2e-3, .stiffness = 0.5 * x}); }},
+      {"warm gearbox",
+       [](Scenario& s, double x) {
+         put(s, GearboxHeat<double>{.friction_decay = 5e-3 * x, .heat_capacity = 100.0, .thermal_resistance = 1.0});
+       }},
+      {"twisting coupling",
+       [](Scenario& s, double x) {
+         put(s, LoadCoupling<double>{1e-3, 200.0 * x, 0.01});
+       }},
+      {"hard stops",
+       [](Scenario& s, double x) {
+         put(s, HardStops<double>{-6.0 * x, 6.0 * x});
+       }},
   };
 }
 
