@@ -30,14 +30,15 @@ class RestWatch {
 
   /// The first crossing in [now.t, end].
   std::optional<Crossing> first_crossing(double end) {
-    const auto starts = guard_starts(system_, now_, guards_at(now_.t));
+    Guards left = guards_at(now_.t);
+    const auto starts = guard_starts(system_, now_, left);
     if (starts.fallen != no_guard) return Crossing{now_.t, starts.fallen};
     floor_ = starts.floor;
-    Guards left = guards_at(now_.t);
-    BendWatch<System> bends(system_);
-    bends.begin(now_);
+    for (std::size_t g = 0; g < floor_.size(); ++g) left[g][0] += floor_[g];
     // Torques that neither swing nor rise stay as they are; most samples of a drive at rest end here.
     if (fastest_change(system_, now_) == 0.0 && steady(left) && steady(guards_at(end))) return std::nullopt;
+    BendWatch<System> bends(system_);
+    bends.begin(now_);
     for (double a = now_.t; a < end;) {
       const double step = step_from(a, end);
       const double b = a + step > a ? std::min(end, a + step) : end;  // within an ulp of a report there is one step
