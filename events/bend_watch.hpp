@@ -59,8 +59,7 @@ class BendWatch {
     std::optional<double> first;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       Coefficients b = series[k];
-      for (double& c : b) c *= sides_[k].sign;
-      b[0] += sides_[k].floor;
+      turn(b, sides_[k]);
       const auto fall = search.first_fall({b.data(), static_cast<std::size_t>(order) + 1}, first.value_or(h), true).at;
       if (fall && *fall < h) first = fall;
     }
@@ -158,15 +157,20 @@ class BendWatch {
     else if constexpr (requires { system_.template bend_count<System::template MomentHere>(); })
       system_.for_each_bend(moment, mode.motion, use);
   }
+  /// Lets the coefficients of a quantity be positive where it began.
+  template <class C>
+  static void turn(C& coefficients, const Side& side) {
+    for (double& c : coefficients) c *= side.sign;
+    coefficients[0] += side.floor;
+  }
   /// The quantities along a motion, each positive where it began.
   template <class M>
   auto watched(const M& moment, const Mode& mode) const {
     using S = decltype(moment.theta_g);
     std::vector<S> all;
     visit(moment, mode, [&](const S& b) {
-      const Side& side = sides_[all.size()];
-      all.push_back(side.sign * b);
-      all.back()[0] += side.floor;
+      all.push_back(b);
+      turn(all.back().c, sides_[all.size() - 1]);
     });
     return all;
   }

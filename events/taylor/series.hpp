@@ -28,25 +28,20 @@ class SeriesFlow {
   /// The motion from now on, accurate over a step of at most h.
   void expand(const System& system, const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     constexpr int lowest = 8, higher = 6;
-    const bool traced = is_traced_ = traced_.begin(system, now);
+    is_traced_ = traced_.begin(system, now);
     for (int order = lowest;; order += higher) {
-      traced ? traced_.extend(order, e) : look_ahead(system, now, order, e);
+      is_traced_ ? traced_.extend(order, e) : look_ahead(system, now, order, e);
       e.step = h;
       if (accuracy.suffices(e, h)) break;
       if (order + higher <= highest_order && order < accuracy.order()) continue;
       e.step = accuracy.step(e, h);
       break;
     }
-    if (!(traced && traced_.remain(e.step))) end_where_it_fails(system, now, accuracy, e);
+    if (!(is_traced_ && traced_.remain(e.step))) end_where_it_fails(system, now, accuracy, e);
   }
 
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
-  std::vector<Coefficients> bends(const System& system, const Instant& now, const Motion& e) {
-    if (is_traced_) return traced_.bends();
-    std::vector<Coefficients> all;
-    system.for_each_bend(along(system, now, e), now.mode.motion, [&](const auto& b) { all.push_back(b.c); });
-    return all;
-  }
+  std::vector<Coefficients> bends() { return is_traced_ ? traced_.bends() : bends_; }
 
   /// The state s after the start of a series.
   static typename System::State state_after(const Motion& e, double s) {
@@ -72,22 +67,8 @@ class SeriesFlow {
   }
 
  private:
-  /// All that equations may depend on, along a motion.
-  static auto along(const System& system, const Instant& now, const Motion& e) {
-    using S = OpenSeries<double>;
-    std::array<S, System::state_size> x;
-    const auto know = [&e](S& to, const Coefficients& from) {
-      std::copy_n(from.begin(), e.order + 1, to.c.begin());
-      to.know(e.order);
-    };
-    know(x[0], e.theta);
-    know(x[1], e.omega);
-    for (int k = 0; k < effect_states; ++k) know(x[2 + k], e.states[k]);
-    return resting(system.moment_at(S::variable(now.t, e.order), x), now);
-  }
-
-  /// The same by the equations with a series for a scalar.
-  static void look_ahead(const System& system, const Instant& now, int order, Motion& e) {
+  /// Angle, speed, states and guards to an order, and the bends, by the equations with a series for a scalar.
+  void look_ahead(const System& system, const Instant& now, int order, Motion& e) {
     const auto at = system.ahead(now, order + 1);
     const auto guards = system.guards(at, now.mode);
     e.order = order;
@@ -96,6 +77,8 @@ class SeriesFlow {
     for (int g = 0; g < System::guard_count; ++g) std::copy_n(guards[g].c.begin(), order + 1, e.guards[g].begin());
     if constexpr (effect_states > 0)
       for (int k = 0; k < effect_states; ++k) std::copy_n(at.states[k].c.begin(), order + 1, e.states[k].begin());
+    bends_.clear();
+    system.for_each_bend(at, now.mode.motion, [this](const auto& b) { bends_.push_back(b.c); });
   }
 
   /// What acceleration [rad/s^2], rates of states and guards [their units] may differ by because inputs and torques are
@@ -168,7 +151,8 @@ class SeriesFlow {
   static constexpr double epsilon = std::numeric_limits<double>::epsilon(), rounding = 64.0 * epsilon;
 
   TracedMotion<System> traced_;
-  bool is_traced_ = false;  ///< the latest motion
+  bool is_traced_ = false;           ///< the latest motion, else it was looked ahead ...
+  std::vector<Coefficients> bends_;  ///< ... and so were these
 };
 
 }  // namespace wormdrive

@@ -200,7 +200,7 @@ class TaylorSolver {
       fired_ = g;
     }
     if (const auto bend = bends_.none() ? std::nullopt
-                                        : bends_.first_within(flow_.bends(system_, now, series_), series_.order,
+                                        : bends_.first_within(flow_.bends(), series_.order,
                                                               length_ + time_resolution(end_), search_)) {
       // Of a bend and a guard that falls there the bend comes first: behind it the guard may be another one. What has
       // stepped behind it goes on by the equations of that side, also where the clock would not have seen it pass.

@@ -127,6 +127,7 @@ std::optional<SweepSummary> stored_summary(const SweepReader& sweep, const Summa
       (!settings.ranked_by.empty() && settings.ranked_by != ranked_by) || has_own_indices(study.design))
     return std::nullopt;
   const Hdf5Handle file = open_hdf5(sweep.path());
+  if (read_text_attribute(open_object(file, "summary"), "ranked_by") != ranked_by) return std::nullopt;
   SweepSummary summary;
   summary.trials = sweep.trials();
   summary.sample = is_sample(study.design);

@@ -148,19 +148,16 @@ class TapedFlow<WormDrive<double, Load>> {
       code.beyond = tape_.place(system.beyond_surface(tau, at));
       code.worm = tape_.place(tau.worm);
       code.gear = tape_.place(tau.gear);
-      for (const Tape::Step& s : tape_.steps()) {
-        has_exponential = has_exponential || s.operation == Tape::Operation::exponential;
-        if (s.operation == Tape::Operation::table) arguments_.push_back(s.a);
-      }
       if (!tape_.is_complete()) return;
+      has_exponential = !tape_.exponents().empty();
       for (const Tape::Condition& c : tape_.conditions()) bounded_.push_back(c.place);
       code.steps = tape_.steps().data();
       code.operations = static_cast<int>(tape_.steps().size());
       code.places = tape_.places();
       code.bounded = bounded_.data();
-      code.arguments = arguments_.data();
+      code.arguments = tape_.arguments().data();
       code.bounds = static_cast<int>(bounded_.size());
-      code.sections = static_cast<int>(arguments_.size());
+      code.sections = static_cast<int>(tape_.arguments().size());
       code.lags = system.motor_input().lags();
       if (const TimedLoad* const timed = over_time(system.load()))
         code.waves = static_cast<int>(timed->signal.terms.size());
@@ -209,7 +206,7 @@ class TapedFlow<WormDrive<double, Load>> {
     }
 
     Tape tape_{In::count};
-    std::vector<int> bounded_, arguments_;
+    std::vector<int> bounded_;
   };
 
   /// What of a load depends on time alone, or nullptr.

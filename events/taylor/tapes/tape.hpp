@@ -58,6 +58,9 @@ class Tape {
 
   const std::vector<Step>& steps() const { return steps_; }
   const std::vector<Condition>& conditions() const { return conditions_; }
+  /// Places of the arguments of tables and of exponentials.
+  const std::vector<int>& arguments() const { return arguments_; }
+  const std::vector<int>& exponents() const { return exponents_; }
   /// Places whose signs have decided a comparison.
   const std::vector<int>& decisions() const { return decisions_; }
   int places() const { return places_; }
@@ -78,7 +81,7 @@ class Tape {
 
   std::vector<Step> steps_;
   std::vector<Condition> conditions_;
-  std::vector<int> decisions_;
+  std::vector<int> arguments_, exponents_, decisions_;
   std::array<std::uint16_t, 1024> found_;  ///< by their hashes, numbers of steps from 1 on
   int places_;
   bool complete_;
@@ -186,7 +189,7 @@ struct ConstantOfScalar<Taped> {
 inline void Tape::clear(int inputs) {
   steps_.clear();
   conditions_.clear();
-  decisions_.clear();
+  for (std::vector<int>* const places : {&arguments_, &exponents_, &decisions_}) places->clear();
   found_.fill(0);
   places_ = inputs;
   complete_ = true;
@@ -225,6 +228,8 @@ inline Taped Tape::record(Operation operation, double value, int a, int b, doubl
   }
   const bool two = operation == Operation::sine_cosine || operation == Operation::table;
   steps_.push_back(step);
+  if (operation == Operation::table) arguments_.push_back(a);
+  if (operation == Operation::exponential) exponents_.push_back(a);
   // what would leave no room to look is recorded again
   if (steps_.size() < found_.size() / 2) found_[at] = static_cast<std::uint16_t>(steps_.size());
   places_ += two ? 2 : 1;

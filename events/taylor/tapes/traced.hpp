@@ -81,12 +81,12 @@ class TracedMotion {
   /// its next section, and no exponential changes so much that its terms may be too small to be seen at first.
   bool remain(double h) {
     const TapeSeriesOf<double> series = this->series();
-    for (const int place : exponents_)
+    for (const int place : tape_.exponents())
       if (!(most_change(series[place], h) <= 1.0)) return false;
     for (const int place : tape_.decisions())
       if (!(std::abs(series[place][0]) > most_change(series[place], h))) return false;
-    for (std::size_t k = 0; k < arguments_.size(); ++k) {
-      const double* const x = series[arguments_[k]];
+    for (std::size_t k = 0; k < tape_.arguments().size(); ++k) {
+      const double* const x = series[tape_.arguments()[k]];
       const SectionOf<double>& section = series.section(static_cast<int>(k));
       if (!(std::min(section.high - x[0], x[0] - section.low) > most_change(x, h))) return false;
     }
@@ -99,17 +99,11 @@ class TracedMotion {
 
   /// Prepares the memory for the operations that are recorded.
   void lay_out() {
-    arguments_.clear();
-    exponents_.clear();
-    for (const Tape::Step& s : tape_.steps()) {
-      if (s.operation == Tape::Operation::exponential) exponents_.push_back(s.a);
-      if (s.operation == Tape::Operation::table) arguments_.push_back(s.a);
-    }
     code_ = {};
     code_.steps = tape_.steps().data();
     code_.operations = static_cast<int>(tape_.steps().size());
     code_.places = tape_.places();
-    code_.sections = static_cast<int>(arguments_.size());
+    code_.sections = static_cast<int>(tape_.arguments().size());
     const std::size_t room = TapeSeriesOf<double>::room(code_, stride);
     if (memory_.size() < room) memory_.resize(room);
     TapeSeriesOf<double> series = this->series();
@@ -133,7 +127,6 @@ class TracedMotion {
   std::array<int, System::guard_count> guards_{};
   std::vector<int> bends_;
   TapeCode code_{};
-  std::vector<int> arguments_, exponents_;  ///< of tables, of exponentials
   std::vector<double> memory_;
   TapeTables tables_;
   Instant begin_{};
