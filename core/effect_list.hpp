@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <tuple>
 
@@ -24,9 +25,11 @@
 #include "core/effects/load_angle.hpp"
 #include "core/effects/load_coupling.hpp"
 #include "core/effects/load_crank.hpp"
+#include "core/effects/load_four_bar.hpp"
 #include "core/effects/load_magnitude.hpp"
 #include "core/effects/load_spring.hpp"
 #include "core/effects/mesh_friction.hpp"
+#include "core/effects/mesh_lugre.hpp"
 #include "core/effects/position_friction.hpp"
 #include "core/effects/static_friction.hpp"
 #include "core/effects/stribeck.hpp"
@@ -41,6 +44,7 @@
 #include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_lugre.hpp"
 #include "core/effects/worm_viscous.hpp"
+#include "core/moment.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
@@ -61,12 +65,19 @@ using EffectList =
     Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,     // actuator
              WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,  // worm shaft
              Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
-             FrictionDrift, StaticFriction, GearboxHeat, TransmissionError, ToothCompliance, Backlash,     // mesh
+             FrictionDrift, StaticFriction, GearboxHeat, MeshLuGre,                                        // mesh
+             TransmissionError, ToothCompliance, Backlash,                                                 // mesh
              GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia, HardStops,                          // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadCoupling,                                // load
+             LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadFourBar, LoadCoupling,                   // load
              EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor
 
 /// How many states all effects may have together.
 inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;
+
+/// A moment with the states of the effects.
+template <class S>
+struct MomentOfEffects : Moment<S> {
+  std::array<S, effect_state_count> states{};
+};
 
 }  // namespace wormdrive

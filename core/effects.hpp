@@ -5,18 +5,13 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 
 #include "core/effect_list.hpp"
 #include "core/hook.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
-
-/// A moment with the states of the effects.
-template <class S>
-struct MomentOfEffects : Moment<S> {
-  std::array<S, effect_state_count> states{};
-};
 
 /// The effects of a drive, asked place by place; an effect answers only where it has a hook.
 template <class T>
@@ -129,12 +124,14 @@ struct Effects {
       return sum + e.worm_inertia();
     });
   }
-  /// Coefficient of friction between the teeth out of the mesh's own. M as above.
-  template <class S, template <class> class M>
+  /// Coefficient of friction between the teeth out of the mesh's own; where they slide on bristles, also that under
+  /// which these do. M as above.
+  template <bool under_bristles = false, class S, template <class> class M>
   S friction(const S& mesh, const SlidingContact<S>& contact, const M<S>& at) const {
     return through(
         list, mesh,
         []<class E>(const E& e, const S& mu, const auto& teeth, const auto& now) -> decltype(e.friction(mu, teeth)) {
+          if constexpr (under_bristles && std::is_same_v<E, MeshLuGre<T>>) return mu;
           if constexpr (MayHaveStates<E> && requires { now.states; })
             if (has_states(e)) return e.friction(mu, teeth, EffectStates::template of<E>(now.states));
           return e.friction(mu, teeth);

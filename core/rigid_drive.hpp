@@ -17,7 +17,6 @@
 #include "core/load.hpp"
 #include "core/mesh.hpp"
 #include "core/signal.hpp"
-#include "core/states/first_with_states.hpp"
 #include "core/unit.hpp"
 #include "core/worm_drive.hpp"
 
@@ -67,24 +66,19 @@ constexpr bool continuous(const Field<Owner, Value>& field) {
 }
 
 /// Every parameter by which the motion has a derivative: of the initial state, of the mesh and of the effects that are
-/// on. Throws std::invalid_argument where the teeth are elastic, for such a drive is not rigid, or an effect has a
-/// state, or torques bend.
+/// on, where it is stated. Throws std::invalid_argument where the teeth are elastic, for such a drive is not rigid.
 inline std::vector<Parameter> continuous_parameters(const RigidDrive& drive) {
   if (has_elastic_teeth(drive.effects)) throw std::invalid_argument("a drive with elastic teeth is not rigid");
-  if (const auto effect = first_with_states(drive.effects))
-    throw std::invalid_argument("effect." + std::string(effect->id) +
-                                " has a state, which sensitivities do not follow");
-  if (std::get<std::optional<FrictionUnderLoad<double>>>(drive.effects.list) ||
-      WormDrive<double, SummedLoad>(drive.mesh, make_load(drive.load), drive.effects, drive.motor)
-              .bend_count<Moment>() > 0)
-    throw std::invalid_argument(
-        "the torques bend where a stop is met or a load changes its sign (end_stops, effect.friction_under_load), "
-        "which sensitivities do not follow");
   std::vector<Parameter> all;
   for_each_table(drive, [&]<class P>(std::string_view table, const P& parameters) {
     for_each_field<P>([&](const auto& field) {
-      if constexpr (std::is_same_v<decltype(field.member), double P::*>)
-        if (continuous(field)) all.push_back({table, field.name, field.unit, parameters.*field.member});
+      const auto& stated = parameters.*field.member;
+      using Value = std::remove_cvref_t<decltype(stated)>;
+      if constexpr (std::is_same_v<Value, double>) {
+        if (continuous(field)) all.push_back({table, field.name, field.unit, stated});
+      } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+        if (continuous(field) && stated) all.push_back({table, field.name, field.unit, *stated});
+      }
     });
   });
   return all;
@@ -150,9 +144,9 @@ inline RigidDrive changed(RigidDrive drive, std::span<const Parameter> to) {
 
 /// A drive and its initial state that carry the derivatives by some of the parameters; T is a ceres::Jet of at least as
 /// many, and the k-th partial derivative is that by the k-th parameter.
-template <class T>
+template <class T, bool with_states>
 struct SeededDrive {
-  WormDrive<T, SummedLoad> drive;
+  WormDrive<T, SummedLoad, with_states> drive;
   InitialState<T> initial;
 
   SeededDrive(const RigidDrive& stated, std::span<const Parameter> by)

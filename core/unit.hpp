@@ -22,6 +22,7 @@ inline constexpr Unit share{"share", "1"};
 inline constexpr Unit second{"s", "s"};
 inline constexpr Unit hertz{"Hz", "Hz"};
 inline constexpr Unit metre{"m", "m"};
+inline constexpr Unit per_metre{"per_m", "1/m"};
 inline constexpr Unit metre_per_second{"m_per_s", "m/s"};
 inline constexpr Unit kilogram{"kg", "kg"};
 inline constexpr Unit newton{"N", "N"};

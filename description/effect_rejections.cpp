@@ -111,6 +111,11 @@ std::string refusal(const WormLuGre<double>& friction, const Scenario&) {
   return "";
 }
 
+std::string refusal(const MeshLuGre<double>&, const Scenario& scenario) {
+  if (make_mesh(scenario, Motion::forward).mu > 0.0) return "";
+  return "needs friction under which its bristles slide, but mesh.friction is 0";
+}
+
 std::string refusal(const HardStops<double>& stops, const Scenario& scenario) {
   const Spelling low = spellings("angle_low", unit::degrees, scenario.axis).front(),
                  high = spellings("angle_high", unit::degrees, scenario.axis).front();
@@ -133,6 +138,23 @@ std::string refusal(const LoadCrank<double>& crank, const Scenario& scenario) {
   if (!crank.rod || *crank.rod >= shortest) return "";
   return fmt::format("has a rod of {:.6g} m, which must be at least {} times as long as the crank, {:.6g} m",
                      *crank.rod, LoadCrank<double>::shortest_rod, shortest);
+}
+
+std::string refusal(const LoadFourBar<double>& linkage, const Scenario& scenario) {
+  if (scenario.axis == Axis::linear) return "needs a gear that turns, but the axis is linear";
+  const double least = LoadFourBar<double>::least_clearance * linkage.crank, clearance = linkage.clearance();
+  if (clearance >= least) return "";
+  const double longest_way = linkage.crank + linkage.base, reach = linkage.coupler + linkage.rocker;
+  if (longest_way + least > reach)
+    return fmt::format(
+        "has a crank that does not come round: crank_m + base_m = {:.6g} m must be less than coupler_m + rocker_m = "
+        "{:.6g} m by at least {} times the crank",
+        longest_way, reach, LoadFourBar<double>::least_clearance);
+  return fmt::format(
+      "has a crank that does not come round: |crank_m - base_m| = {:.6g} m must be more than |coupler_m - rocker_m| = "
+      "{:.6g} m by at least {} times the crank",
+      std::abs(linkage.crank - linkage.base), std::abs(linkage.coupler - linkage.rocker),
+      LoadFourBar<double>::least_clearance);
 }
 
 std::string refusal(const LoadCoupling<double>& coupling, const Scenario&) {

@@ -272,7 +272,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
       if (claimed && !all[f.candidate].of_recording &&
           std::none_of(d.causes.begin(), d.causes.end(),
                        [&](const EstimatedEffect& cause) { return cause.effect == all[f.candidate].effect; }))
-        switch_off(found_effects, all[f.candidate].effect);
+        withdraw(found_effects, scenario.effects, all[f.candidate]);
     d.extended = extended_scenario(scenario, found_effects, last.noise.impact, d.remarks);
   }
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);

@@ -59,4 +59,11 @@ inline void silence_cvode([[maybe_unused]] SUNContext context, [[maybe_unused]] 
 #endif
 }
 
+/// One of the numbers that CVODE counts.
+inline long cvode_count(void* memory, int (*of)(void*, long*)) {
+  long number = 0;
+  check_cvode(of(memory, &number));
+  return number;
+}
+
 }  // namespace wormdrive

@@ -72,27 +72,27 @@ class CvodeSolver {
     ahead_ = now;
     fired_ = no_guard;
     finite_ = true;
-    first_.reset();
-    first_steps_ = 0;
-    waited_ = 0.0;
-    if constexpr (Foresees<System>) leaves_rest_ = system_.leaves_rest(now) || creeps<System>(now, settings_);
-    if (!leaves_rest_) begin();
+    first_.restart(system_, now, settings_);
+    if (!first_.leaves_rest()) begin();
   }
 
   /// Integrates to next (<= limit, past which nothing is evaluated); returns the guard that stopped it earlier, or
   /// no_guard.
   int advance(Instant& now, double next, double limit) {
     if constexpr (Foresees<System>)
-      if ((leaves_rest_ || first_) && first_step(now, next, limit))
-        return now.t < first_->end() ? no_guard : first_->fired();
+      if (first_.any()) {
+        if (first_.advance(now, next, settings_, [&](const Instant& from) { return first_step(from, limit); }))
+          return first_.fired(now.t);
+        ahead_ = now;
+        begin();
+      }
     if (already_there(now.t, next)) {
       now.t = next;
       return no_guard;
     }
-    if (limit != limit_) check_cvode(CVodeSetStopTime(memory(), (limit_ = limit) - origin_));
     for (long steps = 0; ahead_.t < next && fired_ == no_guard; ++steps) {
       if (steps == max_steps) throw SolverFault(cvode_reason(CV_TOO_MUCH_WORK));
-      step(now, next);
+      step(now, next, limit);
     }
     const bool is_end = ahead_.t <= next;  // of the latest step, or of what an event left of it
     if (is_end) {
@@ -108,10 +108,10 @@ class CvodeSolver {
   /// What the solver did since it was made.
   SolverStatistics statistics() const {
     SolverStatistics sum = total_;
-    sum.steps += count(CVodeGetNumSteps);
-    sum.evaluations += count(CVodeGetNumRhsEvals);
-    if (linear_) sum.jacobians += count(CVodeGetNumJacEvals);
-    sum.error_test_failures += count(CVodeGetNumErrTestFails);
+    sum.steps += cvode_count(memory(), CVodeGetNumSteps);
+    sum.evaluations += cvode_count(memory(), CVodeGetNumRhsEvals);
+    if (linear_) sum.jacobians += cvode_count(memory(), CVodeGetNumJacEvals);
+    sum.error_test_failures += cvode_count(memory(), CVodeGetNumErrTestFails);
     return sum;
   }
 
@@ -144,54 +144,22 @@ class CvodeSolver {
   }
   /// Whether the error test is busy with rounding: its failures tell, or steps that are many and short.
   bool meets_rounding() {
-    const long before = std::exchange(failures_, count(CVodeGetNumErrTestFails));
+    const long before = std::exchange(failures_, cvode_count(memory(), CVodeGetNumErrTestFails));
     if (failures_ - before > usual_error_test_failures) return true;
-    return count(CVodeGetNumSteps) % 1000 == 0 && mostly_rounding(system_, ahead_, settings_, step_);
+    return cvode_count(memory(), CVodeGetNumSteps) % 1000 == 0 && mostly_rounding(system_, ahead_, settings_, step_);
   }
-  long count(int (*of)(void*, long*)) const {
-    long number = 0;
-    check_cvode(of(memory(), &number));
-    return number;
+  FirstStep<System> first_step(const Instant& now, double limit) requires Foresees<System> {
+    FirstStep<System> step(system_, now, limit, longest_step(now, ripple_rate(system_, now.x)),
+                           for_each_speed(system_, now, settings_));
+    total_.evaluations += step.evaluations();
+    ++total_.steps;
+    return step;
   }
-  /// Goes on by the first step of the motion from rest; false where that is over, and CVODE has begun behind it.
-  bool first_step(Instant& now, double next, double limit) requires Foresees<System> {
-    do {
-      if (!first_) {
-        first_.emplace(system_, now, limit, longest_step(now, ripple_rate(system_, now.x)),
-                       for_each_speed(system_, now, settings_));
-        total_.evaluations += first_->evaluations();
-        ++total_.steps;
-      }
-      leaves_rest_ = false;
-      if (const double brief = first_->brief(); brief > 0.0) {
-        now = first_->at(now.t);
-        if (first_->fired() != no_guard) return true;
-        waited_ += brief;
-        const double late = now.t + waited_;
-        if (late > now.t) waited_ = 0.0;
-        now.t = std::min(late, next);
-      } else if (now.t < first_->end()) {
-        now = first_->at(std::min(next, first_->end()));
-        if (now.t == next || first_->fired() != no_guard) return true;
-      }
-      first_.reset();
-    } while (creeps<System>(now, settings_) && ++first_steps_ < most_first_steps);
-    ahead_ = now;
-    begin();
-    return false;
-  }
-  static constexpr int most_first_steps = 1000;  ///< at a standstill of that length CVODE may try
-
   /// Lets CVODE begin at ahead_.
   void begin() {
-    total_ = statistics();
-    Eigen::Map<State>(N_VGetArrayPointer(y_.get())) = integrated_state(system_, ahead_.x);
-    origin_ = ahead_.t;
-    check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
-    failures_ = 0;
-    rounding_counts_ = false;
+    start_clock();
+    bend_at_ = std::numeric_limits<double>::infinity();
     if constexpr (Foresees<System>) friction_changes_ = system_.effects().change_friction();
-    limit_ = std::numeric_limits<double>::quiet_NaN();
     floor_.fill(0.0);
     const auto starts = guard_starts(system_, ahead_, guards_at(ahead_));
     floor_ = starts.floor;
@@ -199,8 +167,27 @@ class CvodeSolver {
     guards_ = guards_at(ahead_);
     bends_.begin(ahead_);
   }
+  void start_clock() {
+    total_ = statistics();
+    Eigen::Map<State>(N_VGetArrayPointer(y_.get())) = integrated_state(system_, ahead_.x);
+    origin_ = ahead_.t;
+    check_cvode(CVodeReInit(memory(), clock_ = 0.0, y_.get()));
+    failures_ = 0;
+    rounding_counts_ = false;
+    limit_ = std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Takes the latest step back to where the clock showed `from`, to go on to a bend in it without a look behind: a
+  /// polynomial through a bend is nowhere in its step as near to the motion as the error of its end.
+  void approach_bend(double from) {
+    ahead_ = at(from);
+    start_clock();
+    guards_ = guards_at(ahead_);
+    if (already_there(ahead_.t, bend_at_)) fired_ = bends_.guard;
+  }
   /// One step of CVODE, and the first guard that falls through zero in it.
-  void step(Instant& now, double next) {
+  void step(Instant& now, double next, double limit) {
+    if (const double stop = std::min(limit, bend_at_); stop != limit_)
+      check_cvode(CVodeSetStopTime(memory(), (limit_ = stop) - origin_));
     const double from = clock_, before = ripple_rate(system_, ahead_.x);
     double longest = longest_step(ahead_, before);
     if constexpr (Foresees<System>)
@@ -220,10 +207,12 @@ class CvodeSolver {
     for (double part = 1.0, left = from; part <= parts && fired_ == no_guard; ++part) {
       const double right = part == parts ? clock_ : from + step_ * (part / parts);
       find_event(left, right, part == parts ? ahead_ : at(right));
+      if (fired_ == no_guard && bend_at_ < ahead_.t) return approach_bend(from);
       left = right;
     }
+    if (fired_ == no_guard && ahead_.t >= bend_at_) fired_ = bends_.guard;
   }
-  /// The first guard that falls through zero within a part of the latest step.
+  /// The first guard that falls through zero within a part of the latest step, unless a bend comes before it.
   void find_event(double left, double right, const Instant& end) {
     const Guards there = guards_at(end);
     double first = right;
@@ -236,10 +225,14 @@ class CvodeSolver {
       fired_ = g;
     }
     guards_ = there;
-    const auto bend = bends_.first_between([this](double clock) { return at(clock); }, left, right, end);
-    if (bend && *bend <= first + time_resolution(origin_ + first)) first = *bend, fired_ = bends_.guard;
-    if (fired_ == no_guard) return;
-    ahead_ = at(first);
+    if (std::isinf(bend_at_)) {
+      const auto bend = bends_.first_between([this](double clock) { return at(clock); }, left, right, end);
+      if (bend && *bend <= first + time_resolution(origin_ + first)) {
+        fired_ = no_guard;
+        bend_at_ = origin_ + *bend;
+      }
+    }
+    if (fired_ != no_guard) ahead_ = at(first);
   }
   /// Where the motion was when the clock showed a time of the latest step.
   Instant at(double clock) {
@@ -280,16 +273,14 @@ class CvodeSolver {
   Instant ahead_{};                                  ///< how far CVODE has gone without a guard firing ...
   int fired_ = no_guard;                             ///< ... or the guard that fired there, a bend's among them
   bool finite_ = true;                               ///< every acceleration since the latest restart was a number
-  bool leaves_rest_ = false;                         ///< the first step is still to be made
-  std::optional<FirstStep<System>> first_;           ///< before CVODE begins, where there is one
-  int first_steps_ = 0;                              ///< so many since the latest restart
+  FirstSteps<System> first_;                         ///< before CVODE begins, where there are any
   long failures_ = 0;                                ///< of the error test since then
   bool rounding_counts_ = false;                     ///< in the error test
   bool friction_changes_ = false;                    ///< so the longest step may be another one after each
-  double waited_ = 0.0;                              ///< how long the clock has stood for first steps [s]
   Guards guards_{};                                  ///< where CVODE is ...
   std::array<double, System::guard_count> floor_{};  ///< ... with the rounding of those that start at zero
   BendWatch<System> bends_{system_};
+  double bend_at_ = 0.0;  ///< where the next bend is known to be [s], else infinity
   double limit_ = std::numeric_limits<double>::quiet_NaN();
   double origin_ = 0.0;  ///< where CVODE's clock began [s] ...
   double clock_ = 0.0;   ///< ... what it shows [s] ...

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "events/bend_watch.hpp"
 #include "events/simulate.hpp"
 
 namespace wormdrive {
@@ -15,10 +16,12 @@ class EventSequence {
     Cause cause;
     Instant before, after;  ///< left and right limit, at one time
     double disturbance{};   ///< of the worm's shaft from here on [N m]
+    double hidden{};        ///< for so long [s] rounding hides on which side of a bend the motion is
 
     /// Only looked at: nothing changes at a report and at the end.
     bool passed() const { return cause.reason == Reason::report || cause.reason == Reason::end; }
     bool changes_mode() const { return !(before.mode == after.mode); }
+    bool is_bend() const { return cause.reason == Reason::guard && cause.guard == BendWatch<System>::guard; }
   };
 
   /// begin: what the run is started with.
@@ -28,6 +31,7 @@ class EventSequence {
     Stop stop{cause, now, now};
     if constexpr (requires { system.disturbance(); }) stop.disturbance = system.disturbance();
     if (open_) stop.before = left_;
+    if (stop.is_bend()) stop.hidden = BendWatch<System>(system).hidden_for(now);
     if (open_ || stop.passed()) stops_.push_back(stop);
     open_ = !open_ && !stop.passed();
     left_ = now;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "events/bend_watch.hpp"
 #include "events/segment_start.hpp"
@@ -160,5 +161,55 @@ bool creeps(const typename System::Instant& now, const SolverSettings& settings)
     if (now.x[speed] != 0.0 && std::abs(now.x[speed]) < 100.0 * settings.absolute_tolerance) return true;
   return false;
 }
+
+/// First steps of a segment one behind the other, while it leaves rest or creeps; then an integrator begins.
+template <class System>
+class FirstSteps {
+ public:
+  using Instant = typename System::Instant;
+
+  void restart(const System& system, const Instant& now, const SolverSettings& settings) {
+    first_.reset();
+    made_ = 0;
+    waited_ = 0.0;
+    if constexpr (Foresees<System>) leaves_rest_ = system.leaves_rest(now) || creeps<System>(now, settings);
+  }
+  /// Whether one is to be made, or is on its way.
+  bool any() const { return leaves_rest_ || first_; }
+  bool leaves_rest() const { return leaves_rest_; }
+
+  /// Goes on to a time, unless a guard falls through zero before; false where they are over. make(now): the first step
+  /// from there on.
+  template <class Make>
+  bool advance(Instant& now, double next, const SolverSettings& settings, const Make& make) {
+    do {
+      if (!first_) first_.emplace(make(now));
+      leaves_rest_ = false;
+      if (const double brief = first_->brief(); brief > 0.0) {
+        now = first_->at(now.t);
+        if (first_->fired() != no_guard) return true;
+        waited_ += brief;
+        const double late = now.t + waited_;
+        if (late > now.t) waited_ = 0.0;
+        now.t = std::min(late, next);
+      } else if (now.t < first_->end()) {
+        now = first_->at(std::min(next, first_->end()));
+        if (now.t == next || first_->fired() != no_guard) return true;
+      }
+      first_.reset();
+    } while (creeps<System>(now, settings) && ++made_ < most);
+    return false;
+  }
+  /// The guard that has fallen through zero, or no_guard.
+  int fired(double t) const { return t < first_->end() ? no_guard : first_->fired(); }
+
+ private:
+  static constexpr int most = 1000;  ///< at a standstill of that length an integrator may try
+
+  std::optional<FirstStep<System>> first_;
+  int made_ = 0;
+  bool leaves_rest_ = false;  ///< the first one is still to be made
+  double waited_ = 0.0;       ///< how long the clock has stood for them [s]
+};
 
 }  // namespace wormdrive

@@ -8,7 +8,7 @@
 #include "output/event_counter.hpp"
 #include "simulation/replay.hpp"
 #include "simulation/run_scenario.hpp"
-#include "simulation/starting_state.hpp"
+#include "core/states/starting_state.hpp"
 
 namespace wormdrive {
 

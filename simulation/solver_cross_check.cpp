@@ -9,7 +9,7 @@
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
 #include "simulation/run_scenario.hpp"
-#include "simulation/starting_state.hpp"
+#include "core/states/starting_state.hpp"
 
 namespace wormdrive {
 namespace {

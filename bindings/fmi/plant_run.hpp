@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bindings/fmi/shown.hpp"
-#include "simulation/starting_state.hpp"
+#include "core/states/starting_state.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 
 namespace wormdrive {

@@ -6,10 +6,13 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 
 #include "core/field.hpp"
 #include "core/moment.hpp"
 #include "core/numbers/crossing.hpp"
+#include "core/numbers/jet.hpp"
+#include "core/numbers/series.hpp"
 #include "core/place.hpp"
 #include "core/states/effect_states.hpp"
 
@@ -65,10 +68,10 @@ struct LoadCoupling {
   /// of the load where it is x ahead of the gear [N m], with so many periods per radian, 0 for none. Relaxed where no
   /// twist carries it, as under a spring that pushes further than the coupling pulls.
   template <class Torque>
-  std::array<double, 2> start(const Moment<double>& at, const Torque& tau_l, double ripple) const {
-    const auto missing = [&](double x) { return *stiffness * x - tau_l(x); };
+  std::array<T, 2> start(const Moment<T>& at, const Torque& tau_l, double ripple) const {
+    const auto missing = [&](double x) { return value_of(T(*stiffness * T(x) - tau_l(T(x)))); };
     const double relaxed = missing(0.0);
-    double before = 0.0, x = -relaxed / *stiffness;
+    double before = 0.0, x = -relaxed / value_of(*stiffness);
     if (ripple > 0.0 && std::abs(x) > 0.1 / ripple) {  // in looks between which a torque does not come and go
       const double look = std::copysign(0.1 / ripple, x);
       constexpr int looks = 1'000'000;
@@ -82,7 +85,16 @@ struct LoadCoupling {
     const bool carries = relaxed * missing(x) < 0.0 || missing(x) == 0.0;
     if (!carries) before = x = 0.0;
     const auto [low, high] = std::minmax({before, x});
-    return {root_between(FunctionView<double>(missing), low, missing(low), high, missing(high)), at.omega_g};
+    const double twist = root_between(FunctionView<double>(missing), low, missing(low), high, missing(high));
+    if constexpr (std::is_same_v<T, double>) {
+      return {twist, at.omega_g};
+    } else {  // a step of Newton has the derivatives
+      if (!carries) return {T(twist), at.omega_g};
+      using Ahead = Series<T, 1>;
+      const Ahead ahead = Ahead::variable(T(twist));
+      const Ahead left = *stiffness * ahead - tau_l(ahead);
+      return {T(twist) - (left[0] - T(value_of(left[0]))) / T(value_of(left[1])), at.omega_g};
+    }
   }
 
   // ---- what it does -------------------------------------------------------------------------------------------

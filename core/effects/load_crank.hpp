@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -7,17 +6,12 @@
 #include <tuple>
 
 #include "core/field.hpp"
+#include "core/loads/varying_inertia.hpp"
 #include "core/numbers/jet.hpp"
 #include "core/numbers/portable.hpp"
 #include "core/place.hpp"
 
 namespace wormdrive {
-
-/// An inertia [kg m^2] that depends on the angle, and its slope over it [kg m^2/rad].
-template <class S>
-struct VaryingInertia {
-  S inertia, slope;
-};
 
 /// A crank on the gear pushes a mass to and fro, by a connecting rod or without one in a slot (Scotch yoke): the gear
 /// feels the inertia of the mass as the square of the way per angle.
@@ -69,11 +63,9 @@ struct LoadCrank {
   }
   /// The greatest inertia that the gear feels [kg m^2], between the dead centres.
   double greatest_inertia() const {
-    constexpr int angles = 10'000;  // in half a turn: the greatest of these is too small by a share of 1e-7
-    double most = 0.0;
-    for (int k = 0; k < angles; ++k)
-      most = std::max(most, value_of(inertia_at(T(k * std::numbers::pi / angles) - shift).inertia));
-    return most;
+    LoadCrank from_dead_centre = *this;
+    from_dead_centre.shift = T(0.0);
+    return greatest_inertia_within(from_dead_centre, std::numbers::pi);
   }
   /// Highest number of periods per radian of the gear: twice a turn, and faster where the rod is hardly longer than the
   /// crank.

@@ -31,8 +31,9 @@ bool is_at_stop(const Effects<T>& effects, const S& theta_g, Motion motion) {
 }
 
 /// What an impact comes to: the impulse that stops the gear, the one that drives it back, and its speed then.
+template <class T>
 struct ImpactOnStop {
-  double stopping, driving, speed;
+  T stopping, driving, speed;
 };
 
 /// A part of this that the mesh passes on is rounding: such a gear locks itself.
@@ -48,17 +49,19 @@ Mode driven_by_worm(const Drive& drive, Motion way, bool worm) {
 /// An impact on a stop. While it stops the gear the worm drives that against the stop, and while it drives it
 /// back the gear drives the worm, with the friction of the mesh: one that locks itself stays. A share restitution^2 of
 /// the energy that the stop takes comes back (Stronge), as from a spring that becomes ever stiffer.
-template <class Drive, class M>
-ImpactOnStop impact_on_stop(const Drive& drive, const M& at, Motion into) {
-  using Torques = typename Drive::template SideTorques<double>;
-  const double away = -sign(into), speed = std::abs(at.omega_g);
-  const auto gives = [&](Mode mode) {  // speed per impulse [1/(kg m^2)]
-    return away * (drive.acceleration(Torques{0.0, away}, at, mode) - drive.acceleration(Torques{0.0, 0.0}, at, mode));
+template <class Drive, class T, template <class> class M>
+ImpactOnStop<T> impact_on_stop(const Drive& drive, const M<T>& at, Motion into) {
+  using std::sqrt;  // Jets have their own
+  using Torques = typename Drive::template SideTorques<T>;
+  const T away(-sign(into)), none(0.0), speed = T(sign(into)) * at.omega_g;
+  const auto gives = [&](Mode mode) -> T {  // speed per impulse [1/(kg m^2)]
+    return away *
+           (drive.acceleration(Torques{none, away}, at, mode) - drive.acceleration(Torques{none, none}, at, mode));
   };
   const Motion out = into == Motion::forward ? Motion::backward : Motion::forward;
-  const double taken = gives(driven_by_worm(drive, into, true)), given = gives(driven_by_worm(drive, out, false));
-  if (given <= rounding_of_mesh * taken) return {speed / taken, 0.0, 0.0};
-  const double back = hard_stops(drive.effects())->restitution * speed * std::sqrt(given / taken);
+  const T taken = gives(driven_by_worm(drive, into, true)), given = gives(driven_by_worm(drive, out, false));
+  if (given <= T(rounding_of_mesh) * taken) return {speed / taken, none, none};
+  const T back = hard_stops(drive.effects())->restitution * speed * sqrt(given / taken);
   return {speed / taken, back / given, back};
 }
 
@@ -77,16 +80,22 @@ bool is_back_at_once(const Drive& drive, const Instant& now, Motion into) {
   return 2.0 * speed / pull <= resolution * std::abs(now.t) || 0.5 * speed * speed / pull <= least * size;
 }
 
-/// Lets the gear hit the stop ahead.
+/// Lets the gear hit the stop ahead, which throws it back as long as that makes a difference: comes_back(state) tells.
+template <class Drive, class Instant, class ComesBack>
+void strike(const Drive& drive, Instant& now, const ComesBack& comes_back) {
+  using T = typename Drive::State::Scalar;
+  const Motion into = now.mode.motion;
+  now.x[0] = *hard_stops(drive.effects())->ahead(into);
+  const ImpactOnStop<T> impact = impact_on_stop(drive, drive.moment(now), into);
+  now.x[1] = T(-sign(into)) * impact.speed;
+  if (now.x[1] != T(0.0) && !comes_back(now)) now.x[1] = T(0.0);
+  now.x[2 + StateLayout<EffectList<T>>::template first<HardStops<T>>()] -=
+      T(sign(into)) * (now.x[1] != T(0.0) ? impact.stopping + impact.driving : impact.stopping);
+}
 template <class Drive, class Instant>
 void strike(const Drive& drive, Instant& now) {
   const Motion into = now.mode.motion;
-  now.x[0] = *hard_stops(drive.effects())->ahead(into);
-  const ImpactOnStop impact = impact_on_stop(drive, drive.moment(now), into);
-  now.x[1] = -sign(into) * impact.speed;
-  if (now.x[1] != 0.0 && is_back_at_once(drive, now, into)) now.x[1] = 0.0;
-  now.x[2 + StateLayout<EffectList<double>>::first<HardStops<double>>()] -=
-      sign(into) * (impact.stopping + (now.x[1] != 0.0 ? impact.driving : 0.0));
+  strike(drive, now, [&](const Instant& then) { return !is_back_at_once(drive, then, into); });
 }
 
 /// Takes a gear that is beyond a stop by what a solver errs back to it.

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/effects.hpp"
+#include "core/mesh.hpp"
 
 namespace wormdrive {
 
@@ -30,11 +31,12 @@ std::array<S, 2> behind_coupling(const Effects<T>& effects, const LoadCoupling<T
                               S(T(load.inertia()) + J.inertia), at, states);
 }
 
-/// Rates of the states of effects, for a command [N m] and a load; friction_loss() is the power that friction takes
-/// [W].
+/// Rates of the states of effects, for a command [N m], a mesh and a load; friction_loss() is the power that friction
+/// takes [W].
 template <class T, class S, class Load, class Loss>
-std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S& command, const Load& load,
-                                              const MomentOfEffects<S>& at, Motion motion, Loss&& friction_loss) {
+std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S& command, const GearMesh<T>& mesh,
+                                              const Load& load, const MomentOfEffects<S>& at, Motion motion,
+                                              Loss&& friction_loss) {
   using EffectStates = StateLayout<EffectList<T>>;
   std::array<S, effect_state_count> rates{};
   effects.for_each([&]<class E>(const std::optional<E>& effect) {
@@ -44,7 +46,10 @@ std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S
       const auto own = [&] {
         if constexpr (std::is_same_v<E, LoadCoupling<T>>)
           return behind_coupling<T, S>(effects, *effect, load, at, states);
-        else if constexpr (requires { effect->state_rates(command, states); })
+        else if constexpr (std::is_same_v<E, MeshLuGre<T>>) {
+          const SlidingContact<S> teeth{at, motion, mesh.sliding_speed(at.omega_w)};
+          return effect->state_rates(effects.template friction<true>(S(mesh.mu), teeth, at), teeth, states);
+        } else if constexpr (requires { effect->state_rates(command, states); })
           return effect->state_rates(friction_loss(), states);
         else
           return effect->state_rates(command, at, motion, states);
@@ -57,11 +62,11 @@ std::array<S, effect_state_count> state_rates(const Effects<T>& effects, const S
 
 /// The states of effects with which a run starts at a moment, under a load: 0, unless an effect states another one, or
 /// is a coupling that carries it.
-template <class Load>
-std::array<double, effect_state_count> starting_states(const Effects<double>& effects, const Load& load,
-                                                       const Moment<double>& at) {
-  using EffectStates = StateLayout<EffectList<double>>;
-  std::array<double, effect_state_count> all{};
+template <class T, class Load>
+std::array<T, effect_state_count> starting_states(const Effects<T>& effects, const Load& load, const Moment<T>& at) {
+  using EffectStates = StateLayout<EffectList<T>>;
+  std::array<T, effect_state_count> all;
+  all.fill(T(0.0));
   effects.for_each([&]<class E>(const std::optional<E>& effect) {
     if constexpr (requires { effect->starting_states(); })
       if (effect) std::ranges::copy(effect->starting_states(), all.begin() + EffectStates::template first<E>());
@@ -69,11 +74,12 @@ std::array<double, effect_state_count> starting_states(const Effects<double>& ef
   if (const auto* const coupling = effects.twisting_coupling()) {
     const auto own = coupling->start(
         at,
-        [&](double twist) {
-          return torque_behind(effects, load, coupling->at_load(at, {twist, at.omega_g}));
+        [&]<class S>(const S& twist) {
+          const Moment<S> gear{S(at.t), S(at.theta_g), S(at.omega_g), S(at.omega_w), S(at.theta_w)};
+          return torque_behind(effects, load, coupling->at_load(gear, std::array{twist, gear.omega_g}));
         },
         load.ripple());
-    std::copy(own.begin(), own.end(), all.begin() + EffectStates::first<LoadCoupling<double>>());
+    std::copy(own.begin(), own.end(), all.begin() + EffectStates::template first<LoadCoupling<T>>());
   }
   return all;
 }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
-#include <fmt/format.h>
-
-#include "core/states/first_with_states.hpp"
 #include "diagnosis/candidates/kinds.hpp"
+#include "diagnosis/candidates/stated_parts.hpp"
 
 namespace wormdrive {
 
@@ -163,8 +162,10 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     all.back().starts[0].chosen = {{"friction_drift", "time", m.duration}};
     all.push_back(static_friction(m));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
-    all.push_back(backlash());
-    if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
+    if (!is_followed_with_states(stated)) {
+      all.push_back(backlash());
+      if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
+    }
     all.push_back(linear("gear_coulomb", "torque", 0.02 * gear_torque, 0.0, gear_torque));
     all.push_back(
         linear("gear_viscous", "coefficient", 0.01 * gear_torque / m.gear_speed, 0.0, gear_torque / m.gear_speed));
@@ -176,6 +177,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     all.back().coordinates.push_back(plain_coordinate("load_spring", "angle", 0.1, -10.0, 10.0));
     all.back().starts[0].values.push_back(0.0);
   }
+  std::ranges::move(stated_parts(stated), std::back_inserter(all));
   for (const Coordinate& c : toleranced) {
     Candidate s = linear(c.effect, c.field, c.scale, c.low, c.high);
     s.coordinates[0] = c;
@@ -189,30 +191,29 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
   return all;
 }
 
+void withdraw(Effects<double>& effects, const Effects<double>& stated, const Candidate& candidate) {
+  if (!field_of(stated, candidate.effect, candidate.coordinates.front().field).on)
+    return switch_off(effects, candidate.effect);
+  std::vector<double> values;
+  for (const Coordinate& c : candidate.coordinates) values.push_back(c.centre);
+  apply(effects, candidate.coordinates, values);
+}
+
 std::string why_not_diagnosed(const Effects<double>& stated) {
-  if (const auto effect = first_with_states(stated))
-    return fmt::format("a diagnosis predicts drives whose effects have no states, but effect.{} has one; {}",
-                       effect->id, effect->without);
-  if (stated.inertia_varies())
-    return "a diagnosis predicts drives whose inertia is the same at every angle, but that of effect.load_crank is "
-           "not; "
-           "leave it out";
-  return "";
+  if (!stated.twisting_coupling()) return "";
+  return "a diagnosis follows no load that swings by itself, which nothing that is recorded shows, but "
+         "effect.load_coupling "
+         "twists; leave its stiffness out";
 }
 
 std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
-  std::vector<NotExamined> list{{"agma", "a law to choose instead of another one, not a deviation"},
-                                {"dc_motor", "a motor to choose instead of an ideal one, not a deviation"},
-                                {"gearbox_heat", "friction_drift stands for what warming up does within recordings"},
-                                {"hard_stops", "stops are to be stated, not a deviation"},
-                                {"holding_brake", "a brake to state, not a deviation"},
-                                {"load_crank", "a crank is to be stated, not a deviation"},
-                                {"load_coupling", "a coupling in front of the load is to be stated, not a deviation"},
-                                {"worm_lugre", "bristles in the bearings are to be stated, not a deviation"},
-                                {"torque_map", "a table that fits anything claims no cause"}};
+  std::vector<NotExamined> list = parts_not_examined(stated);
+  if (is_followed_with_states(stated) && m.has_teeth)
+    for (const std::string_view effect : {"backlash", "tooth_compliance"})
+      list.push_back({effect, "where effects have states, or the inertia depends on the angle, teeth are rigid"});
   if (m.has_teeth && has_standard_friction(stated))
     list.push_back({"stribeck", "effect.agma states already how friction falls with the sliding speed"});
-  if (m.has_teeth && !m.has_worm_encoder)
+  if (m.has_teeth && !m.has_worm_encoder && !is_followed_with_states(stated))
     list.push_back({"tooth_compliance", "only an encoder on the worm shows it", true});
   if (!m.load_turns)
     list.push_back({"encoder_offset", "nothing in the drive depends on where the zero of the angle is"});

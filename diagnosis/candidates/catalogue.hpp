@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,11 +49,20 @@ struct Candidate {
 std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitudes& sizes,
                                   const std::vector<Coordinate>& toleranced);
 
+/// Takes a candidate out of effects: they have what the scenario states of it.
+void withdraw(Effects<double>& effects, const Effects<double>& stated, const Candidate& candidate);
+
 /// Every fault that a recording may have itself.
 std::vector<Candidate> fault_candidates(const Magnitudes& sizes, bool has_torque_spikes);
 
 /// Why no diagnosis predicts a drive with these effects; empty if one does.
 std::string why_not_diagnosed(const Effects<double>& stated);
+
+/// Whether a drive with these effects is followed with their states, and with an inertia of every angle; its teeth are
+/// rigid then.
+inline bool is_followed_with_states(const Effects<double>& effects) {
+  return effects.have_states() || effects.inertia_varies();
+}
 
 /// Effects of the catalogue that are no candidates in a drive of this kind that has these effects, with the reason.
 struct NotExamined {

@@ -1,12 +1,18 @@
 #include "diagnosis/candidates/coordinates.hpp"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace wormdrive {
 
 namespace {
+
+template <class Value>
+constexpr bool is_number = std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>;
 
 /// Calls visit(optional effect, field) for the field of those names.
 template <class Catalogue, class Visit>
@@ -16,7 +22,7 @@ void with_field(Catalogue& effects, std::string_view effect, std::string_view fi
     using E = typename std::remove_cvref_t<decltype(optional)>::value_type;
     if (E::id != effect) return;
     for_each_field<E>([&](const auto& f) {
-      if constexpr (std::is_same_v<decltype(f.member), double E::*>)
+      if constexpr (is_number<std::remove_cvref_t<decltype(std::declval<E&>().*f.member)>>)
         if (!found && f.name == field) {
           found = true;
           visit(optional, f);
@@ -35,7 +41,11 @@ double* field_at(Catalogue& effects, std::string_view effect, std::string_view f
   double* place = nullptr;
   with_field(effects, effect, field, [&](auto& optional, const auto& f) {
     if (!optional) optional.emplace();
-    place = &((*optional).*f.member);
+    auto& value = (*optional).*f.member;
+    if constexpr (requires { value.has_value(); })
+      place = &(value ? *value : value.emplace(0.0));
+    else
+      place = &value;
   });
   return place;
 }
@@ -64,7 +74,13 @@ template <class Catalogue>
 FieldOfEffect field_of(const Catalogue& effects, std::string_view effect, std::string_view field) {
   FieldOfEffect found;
   with_field(effects, effect, field, [&](const auto& optional, const auto& f) {
-    found = {optional.has_value(), optional ? (*optional).*f.member : 0.0, f.unit, f.bounds};
+    found = {optional.has_value(), 0.0, f.unit, f.bounds};
+    if (!optional) return;
+    const auto& value = (*optional).*f.member;
+    if constexpr (requires { value.has_value(); })
+      found.value = value.value_or(0.0);
+    else
+      found.value = value;
   });
   return found;
 }

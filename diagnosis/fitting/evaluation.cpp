@@ -4,8 +4,11 @@
 #include <utility>
 
 #include "description/build.hpp"
+#include "diagnosis/candidates/catalogue.hpp"
 #include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/faults/mended_recording.hpp"
+#include "diagnosis/predictor/drive_with_backlash.hpp"
+#include "diagnosis/predictor/drive_with_states.hpp"
 #include "diagnosis/predictor/predictor.hpp"
 #include "diagnosis/rules/noise.hpp"
 
@@ -28,15 +31,21 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
   const bool is_wrong = drive.faults.any();
   const PreparedRecording as_it_was = is_wrong ? mended(as_recorded, drive.faults) : PreparedRecording{};
   const PreparedRecording& prepared = is_wrong ? as_it_was : as_recorded;
+  const auto with_model = [&]<class Model>(auto&& load) {
+    typename Model::Drive followed_drive(stated_mesh(scenario_), std::move(load), followed, {});
+    Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared,
+                               observer_gains(noise, prepared.data), extra);
+    use(predictor);
+  };
+  const LoadParameters& moved = moved_load(scenario_, prepared.data);
+  if (is_followed_with_states(followed))
+    return with_model.template operator()<DriveWithStates>(make_load(sum_of(moved)));
   std::visit(
       [&](const auto& parameters) {
         using Load = decltype(make_load(parameters));
-        WormDrive<double, Load> followed_drive(stated_mesh(scenario_), make_load(parameters), followed, {});
-        Predictor<Load> predictor(std::move(followed_drive), out, noise.impact, prepared,
-                                  observer_gains(noise, prepared.data), extra);
-        use(predictor);
+        with_model.template operator()<DriveWithBacklash<Load>>(make_load(parameters));
       },
-      moved_load(scenario_, prepared.data));
+      moved);
 }
 
 std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& drive, const ProcessNoise& noise,

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "core/worm_drive.hpp"
+#include "core/effects.hpp"
 #include "diagnosis/data/prepared_recording.hpp"
-#include "diagnosis/predictor/drive_with_backlash.hpp"
 #include "diagnosis/predictor/filtered_states.hpp"
 #include "diagnosis/predictor/observer_gains.hpp"
 #include "diagnosis/rules/noise.hpp"
@@ -27,16 +27,17 @@ struct TakenOut {
 TakenOut take_out(Effects<double>& effects);
 
 /// Predicts every sample of a recording from the ones before: the hybrid model runs from sample to sample with the
-/// recorded command, exact at events, and the innovation corrects its state.
-template <class Load>
+/// recorded command, exact at events, and the innovation corrects its state. Model: a drive as it is followed from
+/// sample to sample.
+template <class Model>
 class Predictor {
  public:
-  using Model = DriveWithBacklash<Load>;
+  using Drive = typename Model::Drive;
   using State = typename Model::State;
 
   /// extra: torque added to the command at every sample [N m], empty for none.
-  Predictor(WormDrive<double, Load> drive, const TakenOut& out, const Restitution& impact,
-            const PreparedRecording& recording, std::vector<ObserverGains> gains, std::span<const double> extra = {})
+  Predictor(Drive drive, const TakenOut& out, const Restitution& impact, const PreparedRecording& recording,
+            std::vector<ObserverGains> gains, std::span<const double> extra = {})
       : model_(std::move(drive), out.gap, recording.worm_angle.empty() ? 0.0 : out.compliance, impact),
         out_(out),
         recording_(recording),
@@ -54,11 +55,13 @@ class Predictor {
     State now = start(0);
     double w = 0.0;
     std::size_t end = recording_.end_of_stretch(0);
+    if (states && has_states) states->of_effects.resize(data.samples());
     for (std::size_t k = 0;; ++k) {
       if (states) keep(*states, k, now, w);
       if (k + 1 == data.samples()) break;
       if (k + 1 == end) {  // nobody knows what happens in the pause
-        now = start(end);
+        const State before = std::exchange(now, start(end));
+        if constexpr (has_states) now.now.x.tail(effect_state_count) = before.now.x.tail(effect_state_count);
         w = 0.0;
         end = recording_.end_of_stretch(end);
         continue;
@@ -85,6 +88,7 @@ class Predictor {
     double w = from.torque[begin];
     State now = model_.at(time(begin), {from.angle[begin], from.speed[begin]},
                           {from.worm_angle[begin], from.worm_speed[begin]});
+    if constexpr (has_states) std::ranges::copy(from.of_effects[begin], now.now.x.data() + 2);
     for (std::size_t k = 0; k < angles.size(); ++k) {
       run_sample(now, begin + k, w);
       w *= gains(begin + k + 1).keep;
@@ -97,6 +101,8 @@ class Predictor {
   }
 
  private:
+  static constexpr bool has_states = Drive::state_size > 2;
+
   double time(std::size_t k) const { return recording_.data.time(k); }
 
   const ObserverGains& gains(std::size_t k) const { return gains_.size() == 1 ? gains_.front() : gains_[k]; }
@@ -116,6 +122,7 @@ class Predictor {
     states.torque[k] = w;
     states.worm_angle[k] = worm.angle;
     states.worm_speed[k] = worm.speed;
+    if constexpr (has_states) std::copy_n(now.now.x.data() + 2, effect_state_count, states.of_effects[k].begin());
   }
   /// Brings the inputs to a sample; what is on the way then was commanded before it.
   void rewind(std::size_t k) {
@@ -161,7 +168,7 @@ class Predictor {
     model_.run(now, time(k + 1));
   }
 
-  WormDrive<double, Load>& drive() { return model_.drive(); }
+  Drive& drive() { return model_.drive(); }
 
   Model model_;
   TakenOut out_;

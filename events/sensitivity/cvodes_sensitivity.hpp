@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <span>
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -12,7 +13,9 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "core/rigid_drive.hpp"
 #include "events/cvode_handles.hpp"
+#include "events/sensitivity/derivative_scales.hpp"
 #include "events/solver_settings.hpp"
 #include "events/timetable.hpp"
 
@@ -22,7 +25,7 @@ namespace wormdrive {
 /// derivatives, f_x s + f_p, is what the equations return for a state of Jets.
 ///
 /// Errors of the derivatives count. Their tolerances are the state's: the relative one as it is, the absolute one times
-/// what the parameter does to the acceleration within a second.
+/// a scale of theirs.
 template <class Drive>
 class CvodesSensitivity {
  public:
@@ -30,9 +33,13 @@ class CvodesSensitivity {
   using State = typename Drive::State;
   using T = typename State::Scalar;
 
-  /// The drive must outlive this; its inputs may change between restarts. count: parameters that are followed.
-  CvodesSensitivity(const Drive& drive, int count, const SolverSettings& settings)
-      : drive_(drive), count_(count), settings_(settings), y_(N_VNew_Serial(Drive::state_size, context_)) {
+  /// The drive must outlive this; its inputs may change between restarts. by: the parameters that are followed.
+  CvodesSensitivity(const Drive& drive, std::span<const Parameter> by, const SolverSettings& settings)
+      : drive_(drive),
+        count_(static_cast<int>(by.size())),
+        settings_(settings),
+        y_(N_VNew_Serial(Drive::state_size, context_)),
+        scales_(by) {
     const bool bdf = settings.method == Method::bdf;
     memory_.reset(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context_));
     if (!memory_ || !y_) throw std::bad_alloc();
@@ -73,12 +80,9 @@ class CvodesSensitivity {
     check_cvode(CVodeReInit(memory(), now.t, y_.get()));
     check_cvode(CVodeSensReInit(memory(), CV_SIMULTANEOUS, handles_.data()));
     check_cvode(CVodeSetStopTime(memory(), limit));
-    const T effect = drive_.acceleration(drive_.moment(T(now.t), T(now.x[0].a), T(now.x[1].a)), now.mode);
+    scales_.see(drive_, now);
     std::array<double, T::DIMENSION> absolute{};
-    for (int k = 0; k < count_; ++k) {
-      scale_[k] = std::max({scale_[k], std::abs(effect.v[k]), std::abs(now.x[0].v[k]), std::abs(now.x[1].v[k])});
-      absolute[k] = settings_.absolute_tolerance * (scale_[k] > 0.0 ? scale_[k] : 1.0);
-    }
+    for (int k = 0; k < count_; ++k) absolute[k] = settings_.absolute_tolerance * scales_[k];
     check_cvode(CVodeSensSStolerances(memory(), settings_.relative_tolerance, absolute.data()));
   }
 
@@ -95,8 +99,7 @@ class CvodesSensitivity {
  private:
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
     const auto& my = *static_cast<const CvodesSensitivity*>(self);
-    State x(T(N_VGetArrayPointer(y)[0]), T(N_VGetArrayPointer(y)[1]));
-    return my.store(my.drive_.derivative(t, x, my.mode_), ydot, nullptr);
+    return my.store(my.drive_.derivative(t, my.loaded(y), my.mode_), ydot, nullptr);
   }
   static int sensitivity_right_hand_side(int, sunrealtype t, N_Vector y, N_Vector, N_Vector* s, N_Vector* sdot,
                                          void* self, N_Vector, N_Vector) {
@@ -106,12 +109,17 @@ class CvodesSensitivity {
   /// f_x: what a derivative of the state itself adds to that of the acceleration.
   static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     const auto& my = *static_cast<const CvodesSensitivity*>(self);
-    const double theta = N_VGetArrayPointer(y)[0], omega = N_VGetArrayPointer(y)[1];
-    const auto none = my.drive_.derivative(t, {T(theta), T(omega)}, my.mode_);
-    const auto both = my.drive_.derivative(t, {T(theta, 0), T(omega, 1)}, my.mode_);
-    for (int row = 0; row < Drive::state_size; ++row)
-      for (int column = 0; column < Drive::state_size; ++column)
-        SM_ELEMENT_D(J, row, column) = both[row].v[column] - none[row].v[column];
+    const State values = my.loaded(y);
+    const State by_parameters = my.drive_.derivative(t, values, my.mode_);
+    for (int first = 0; first < Drive::state_size;
+         first += T::DIMENSION) {  // as many columns at a time as there is room
+      const int some = std::min<int>(T::DIMENSION, Drive::state_size - first);
+      State seeded = values;
+      for (int k = 0; k < some; ++k) seeded[first + k].v[k] = 1.0;
+      const State found = my.drive_.derivative(t, seeded, my.mode_);
+      for (int row = 0; row < Drive::state_size; ++row)
+        for (int k = 0; k < some; ++k) SM_ELEMENT_D(J, row, first + k) = found[row].v[k] - by_parameters[row].v[k];
+    }
     return 0;
   }
 
@@ -126,10 +134,13 @@ class CvodesSensitivity {
     }
     return finite ? 0 : -1;
   }
-  State loaded(N_Vector y, const N_Vector* s) const {
-    State x(T(N_VGetArrayPointer(y)[0]), T(N_VGetArrayPointer(y)[1]));
-    for (int row = 0; row < Drive::state_size; ++row)
-      for (int k = 0; k < count_; ++k) x[row].v[k] = N_VGetArrayPointer(s[k])[row];
+  State loaded(N_Vector y, const N_Vector* s = nullptr) const {
+    State x;
+    for (int row = 0; row < Drive::state_size; ++row) {
+      x[row] = T(N_VGetArrayPointer(y)[row]);
+      if (s)
+        for (int k = 0; k < count_; ++k) x[row].v[k] = N_VGetArrayPointer(s[k])[row];
+    }
     return x;
   }
   void* memory() const { return memory_.get(); }
@@ -146,7 +157,7 @@ class CvodesSensitivity {
   CvodeOwned<SUNNonlinearSolver> state_alone_, fixed_point_;
   CvodeMemory memory_;
   Mode mode_{};
-  std::array<double, T::DIMENSION> scale_{};  ///< of the derivatives along the run
+  DerivativeScales<Drive> scales_;
 };
 
 }  // namespace wormdrive

@@ -1,4 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "events/event_sequence.hpp"
 
 namespace wormdrive {
@@ -14,17 +18,21 @@ auto crossing_time(const Drive& drive, const typename Drive::Instant& now, int g
   return t;
 }
 
-/// The derivatives of a state just behind an event that moves in time: s+ = s- + (f- - f+) dt/dp, for up to the event
-/// the state flows with the derivative of the mode before, f-, and from there on with that of the mode behind, f+.
-template <class State, class T>
-State saltated(const State& x, const State& before, const State& behind, const T& t) {
-  return x + (before - behind) * T(t - t.a);
-}
-
 /// Gives a state of Jets the values of the run; its derivatives stay.
 template <class Instant, class State>
 void take_values(Instant& now, const State& x) {
   for (int k = 0; k < x.size(); ++k) now.x[k].a = x[k];
+}
+
+/// Takes a state of Jets so far [s] behind a bend, and not beyond a limit, that no rounding hides on which side of it
+/// the motion is: there the derivatives have another law. At the bend itself the rates of both sides are the same.
+template <class Drive>
+void leave_bend(const Drive& drive, typename Drive::Instant& now, double hidden, double limit) {
+  using T = typename Drive::State::Scalar;
+  constexpr double later = std::numeric_limits<double>::infinity();
+  const double t = std::min(std::max(now.t + hidden, std::nextafter(now.t, later)), limit);
+  now.x += drive.derivative(now.t, now.x, now.mode) * T(t - now.t);
+  now.t = t;
 }
 
 /// Takes a state of Jets across a stop of the course and returns the time of the stop, with derivatives [s]. Mode and
@@ -40,7 +48,7 @@ auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
   T t(now.t);
   switch (stop.cause.reason) {
     case Reason::guard:
-      if (stop.cause.guard >= Drive::guard_count) return t;  // at a bend the derivative goes on
+      if (stop.is_bend()) return t;  // the derivative goes on
       t = crossing_time(drive, now, stop.cause.guard);
       break;
     case Reason::knot:
@@ -56,10 +64,16 @@ auto cross(Drive& drive, typename Drive::Instant& now, const Stop& stop) {
     case Reason::report:
     case Reason::end: return t;
   }
+  // Up to the event the state flows with the derivative of the mode before, from there on with that of the mode behind,
+  // and between them it may jump.
+  const T late = t - t.a;
+  now.x += before * late;
+  if constexpr (Drive::guard_count > Drive::stop_guard)
+    if (stop.cause.guard == Drive::stop_guard) strike(drive, now, [&](const auto&) { return stop.after.x[1] != 0.0; });
   now.mode = stop.after.mode;
-  now.x = saltated(now.x, before, drive.derivative(now.t, now.x, now.mode), t);
   take_values(now, stop.after.x);
-  if (Drive::at_rest(now.mode)) now.x[1] = T(0.0);  // at rest whatever the parameters are
+  now.x -= drive.derivative(now.t, now.x, now.mode) * late;
+  if (now.mode.motion == Motion::stuck) now.x[1] = T(0.0);  // at rest whatever the parameters are
   if (stop.after.since != stop.before.since) now.since = t;
   return t;
 }

@@ -6,7 +6,7 @@
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
-#include "simulation/starting_state.hpp"
+#include "core/states/starting_state.hpp"
 #include "simulation/stepping/commanded.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 #include "simulation/stepping/stepped_drive.hpp"

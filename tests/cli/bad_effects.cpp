@@ -140,6 +140,33 @@ TEST_CASE("bristles that are half stated are rejected with what is missing") {
        "s.toml:20:21: error: effect.worm_lugre.coulomb_torque_Nm = 0 N m must be greater than 0 N m"}});
 }
 
+TEST_CASE("bristles between teeth without friction, or beside what rules them out, are rejected") {
+  const std::string bristles = "[effect.mesh_lugre]\nstiffness_per_m = 1000\n";
+  std::string smooth = with(bristles);
+  const std::string rough = "friction = 0.25";
+  smooth.replace(smooth.find(rough), rough.size(), "friction = 0   ");
+  check_rejected(Folder(), {
+      {"no friction", smooth,
+       "s.toml:19:1: error: effect.mesh_lugre needs friction under which its bristles slide, but mesh.friction is 0"},
+      {"friction of rest", with(bristles + "[effect.static_friction]\nrise = 0.1\n"),
+       "s.toml:19:1: error: effect.mesh_lugre excludes effect.static_friction: teeth on bristles do not rest; effect.stribeck states friction that falls behind break-away; keep one of them"},
+      {"no stiffness", with("[effect.mesh_lugre]\nstiffness_per_m = 0\n"),
+       "s.toml:20:19: error: effect.mesh_lugre.stiffness_per_m = 0 1/m must be greater than 0 1/m"},
+      {"elastic teeth", with(bristles + "[effect.tooth_compliance]\nstiffness_N_per_m = 1e7\ndamping_s_per_m = 1\n"),
+       "s.toml:19:1: error: effect.mesh_lugre has states, which elastic teeth do not carry; leave it out, or switch effect.tooth_compliance off"}});
+}
+
+TEST_CASE("a linkage whose crank does not come round is rejected with the bars that are too long") {
+  const std::string linkage = "[effect.load_four_bar]\ninertia_kgm2 = 0.001\ncrank_m = 0.03\n";
+  check_rejected(Folder(), {
+      {"too far", with(linkage + "coupler_m = 0.05\nrocker_m = 0.05\nbase_m = 0.08\n"),
+       "s.toml:19:1: error: effect.load_four_bar has a crank that does not come round: crank_m + base_m = 0.11 m must be less than coupler_m + rocker_m = 0.1 m by at least 0.01 times the crank"},
+      {"too near", with(linkage + "coupler_m = 0.12\nrocker_m = 0.05\nbase_m = 0.08\n"),
+       "s.toml:19:1: error: effect.load_four_bar has a crank that does not come round: |crank_m - base_m| = 0.05 m must be more than |coupler_m - rocker_m| = 0.07 m by at least 0.01 times the crank"},
+      {"a bar of no length", with(linkage + "coupler_m = 0\nrocker_m = 0.05\nbase_m = 0.08\n"),
+       "s.toml:22:13: error: effect.load_four_bar.coupler_m = 0 m must be greater than 0 m"}});
+}
+
 TEST_CASE("a crank that cannot turn, or makes a drive jam between its dead centres, is rejected") {
   check_rejected(Folder(), {
       {"short rod", with("[effect.load_crank]\nmass_kg = 1\ncrank_m = 0.05\nrod_m = 0.05\n"),

@@ -37,7 +37,8 @@ std::vector<Effects<double>> each_effect() {
           effects(LoadAngle<double>{0.5}),
           effects(LoadSpring<double>{0.1, -0.4}),
           effects(LoadCoupling<double>{2e-4}),
-          effects(LoadCrank<double>{0.2, 0.03, 0.07, 0.4})};
+          effects(LoadCrank<double>{0.2, 0.03, 0.07, 0.4}),
+          effects(LoadFourBar<double>{1e-4, 0.03, 0.07, 0.06, 0.08, 0.4})};
 }
 
 }  // namespace

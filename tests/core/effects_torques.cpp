@@ -244,7 +244,8 @@ TEST_CASE("with every effect on, motor and load still pay for friction and kinet
               FrictionDrift<double>{0.1, 2.0}, GearboxHeat<double>{0.01, 1e-5, 0.02, {}, {}, 30.0},
               GearCoulomb<double>{3e-3}, GearViscous<double>{1e-3}, FrictionUnderLoad<double>{0.2},
               GearInertia<double>{1e-4}, LoadMagnitude<double>{0.2}, LoadAngle<double>{0.1},
-              LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4}),
+              LoadSpring<double>{0.01, 0.2}, LoadFourBar<double>{0.0, 0.03, 0.07, 0.06, 0.08, 0.4},
+              LoadCoupling<double>{1e-4}),
       0.1);
   for (const double theta : {-1.0, 0.3, 2.0})
     for (const double speed : {0.2, 1.5})

@@ -170,17 +170,11 @@ TEST_CASE(
 }
 
 TEST_CASE("a drive that no diagnosis predicts is refused with the effect that is to blame") {
-  Scenario bristles = nominal_arm();
-  std::get<std::optional<WormLuGre<double>>>(bristles.effects.list) =
-      WormLuGre<double>{.coulomb_torque = 0.01, .stiffness = 1.0};
-  REQUIRE_THROWS_WITH(diagnose(bristles, {}),
-                      "a diagnosis predicts drives whose effects have no states, but effect.worm_lugre has one; leave "
-                      "stiffness_Nm_per_rad out");
-  Scenario crank = nominal_arm();
-  std::get<std::optional<LoadCrank<double>>>(crank.effects.list) = LoadCrank<double>{1.0, 0.05};
-  REQUIRE_THROWS_WITH(diagnose(crank, {}),
-                      "a diagnosis predicts drives whose inertia is the same at every angle, but that of "
-                      "effect.load_crank is not; leave it out");
+  Scenario coupled = nominal_arm();
+  std::get<std::optional<LoadCoupling<double>>>(coupled.effects.list) = LoadCoupling<double>{1e-3, 20.0};
+  REQUIRE_THROWS_WITH(diagnose(coupled, {}),
+                      "a diagnosis follows no load that swings by itself, which nothing that is recorded shows, but "
+                      "effect.load_coupling twists; leave its stiffness out");
 }
 
 TEST_CASE("recordings that cannot be diagnosed are refused") {

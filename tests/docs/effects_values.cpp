@@ -93,6 +93,17 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
   Moment<double> moment = drive.moment(at["t"], at["theta_g"], omega_g);
   if (at.has("rest")) moment.rest = at["rest"];
   const Motion motion = omega_g > 0.0 ? Motion::forward : omega_g < 0.0 ? Motion::backward : Motion::stuck;
+  if (at.has("h")) {  // the first state of the effect
+    std::size_t place = 0;
+    StateLayout<EffectList<double>>::for_each([&](std::string_view id, const EffectState& state, std::size_t k) {
+      if (id == value.effect && state.name == "friction") place = k;
+    });
+    const auto with_states = make_drive<true>(scenario);
+    MomentOfEffects<double> bent{moment, {}};
+    bent.states[place] = at["h"];
+    if (quantity == "mu") return with_states.friction(bent, motion);
+    if (quantity == "h'") return with_states.state_rates(bent, Mode{motion, Flank::left})[place];
+  }
   const Effects<double> on = alone(value.effect, drive.effects());
   if (quantity == "tau_m") return drive.inputs(moment, motion).worm;
   if (quantity == "tau_l") return drive.inputs(moment, motion).gear;
@@ -100,7 +111,7 @@ double evaluated(const WorkedValue& value, const std::string& quantity) {
   if (quantity == "tau_g") return on.gear_torque(drive.inputs(moment, motion).gear, moment, motion);
   if (quantity == "mu") return drive.friction(moment, motion == Motion::stuck ? Motion::forward : motion);
   if (quantity == "P") {
-    const ImpactOnStop impact = impact_on_stop(drive, moment, motion);
+    const auto impact = impact_on_stop(drive, moment, motion);
     return impact.stopping + impact.driving;
   }
   if (quantity == "rebound") return impact_on_stop(drive, moment, motion).speed;

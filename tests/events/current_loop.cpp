@@ -247,7 +247,7 @@ TEST_CASE("an amplifier that gives a voltage keeps the current of a held gear to
           run(drive_with_states(GearMesh<double>(table1()), constant(-1e6), constant(side * U0), effects(m)),
               Timetable(0, end, end / 20.0), {}, tight(by));
       REQUIRE(seen.events.empty());
-      for (const auto& row : seen.rows) CHECK(std::abs(row.now.x[2] - side * current(row.now.t)) <= 1e-9 * limit);
+      for (const auto& row : seen.rows) CHECK(std::abs(row.now.x[2] - side * current(row.now.t)) <= 1e-11 * limit);
     }
   }
 }

@@ -75,7 +75,10 @@ inline Deviation deviation(const Sensitivities& a, Eigen::Index column, const Se
   REQUIRE(a.rows.size() == b.rows.size());
   REQUIRE(a.events.size() == b.events.size());
   Deviation worst;
-  const auto compare = [&](std::size_t count, auto&& left, auto&& right, auto&& counts) {
+  // what would move a quantity by a share of 1e-10 of its size, as the parameter doubles, is an error of the solver
+  const double value = std::abs(a.parameters[static_cast<std::size_t>(column)].value);
+  const auto rounding = [&](double size) { return 1e-10 * size / (value > 0.0 ? value : 1.0); };
+  const auto compare = [&](std::size_t count, double size, auto&& left, auto&& right, auto&& counts) {
     double largest = 0.0;
     Deviation found;
     for (std::size_t k = 0; k < count; ++k) {
@@ -83,22 +86,30 @@ inline Deviation deviation(const Sensitivities& a, Eigen::Index column, const Se
       if (counts(k)) found.add(left(k) - right(k));
     }
     // a derivative that is zero all along is zero in every way of finding it
-    worst.add(largest > 0.0 ? found.size / largest : found.size > 1e-9 ? 1.0 : 0.0);
+    worst.add(largest > rounding(size)                      ? found.size / largest
+              : found.size > std::max(1e-9, rounding(size)) ? 1.0
+                                                            : 0.0);
   };
   const auto clear = [&](std::size_t row) {
     for (std::size_t e = 0; e < a.events.size(); ++e)
       if (std::abs(a.events[e].t - a.rows[row].t) <= margin[e]) return false;
     return true;
   };
-  const auto state = [](const Sensitivities& s, Eigen::Index c, int component) {
-    return [&s, c, component](std::size_t k) { return s.rows[k].state_by(component, c); };
+  const auto compare_rows = [&](auto&& value_at, auto&& by) {
+    double size = 0.0;
+    for (const auto& row : a.rows) size = std::max(size, std::abs(value_at(row)));
+    compare(
+        a.rows.size(), size, [&](std::size_t k) { return by(a.rows[k], column); },
+        [&](std::size_t k) { return by(b.rows[k], other); }, clear);
   };
-  for (int component : {0, 1}) compare(a.rows.size(), state(a, column, component), state(b, other, component), clear);
+  using Row = Sensitivities::Row;
+  for (Eigen::Index n = 0; n < a.rows.front().state.size(); ++n)
+    compare_rows([n](const Row& row) { return row.state[n]; },
+                 [n](const Row& row, Eigen::Index c) { return row.state_by(n, c); });
+  compare_rows([](const Row& row) { return row.measured; },
+               [](const Row& row, Eigen::Index c) { return row.measured_by[c]; });
   compare(
-      a.rows.size(), [&](std::size_t k) { return a.rows[k].measured_by[column]; },
-      [&](std::size_t k) { return b.rows[k].measured_by[other]; }, clear);
-  compare(
-      a.events.size(), [&](std::size_t k) { return a.events[k].time_by[column]; },
+      a.events.size(), a.rows.back().t, [&](std::size_t k) { return a.events[k].time_by[column]; },
       [&](std::size_t k) { return b.events[k].time_by[other]; }, [](std::size_t) { return true; });
   return worst;
 }

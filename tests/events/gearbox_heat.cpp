@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "core/states/starting_state.hpp"
 #include "events/four_modes.hpp"
 #include "events/runge_kutta.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
-#include "simulation/starting_state.hpp"
 #include "support.hpp"
 
 // A gearbox that its own friction warms: against closed forms, the balance of energy, and a judge of its own with fixed

@@ -9,12 +9,12 @@
 
 #include "catch.hpp"
 #include "core/loads/gravity_arm.hpp"
+#include "core/states/starting_state.hpp"
 #include "events/four_modes.hpp"
 #include "events/runge_kutta.hpp"
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
-#include "simulation/starting_state.hpp"
 #include "support.hpp"
 
 // A load behind a coupling that twists, against closed forms and against a judge that goes from mode to mode by matrix

@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "core/energy.hpp"
+#include "core/states/starting_state.hpp"
 #include "core/steady.hpp"
 #include "events/four_modes.hpp"
 #include "events/runge_kutta.hpp"
@@ -12,7 +13,6 @@
 #include "events/torque_ratio.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
-#include "simulation/starting_state.hpp"
 #include "support.hpp"
 
 // A crank that pushes a mass to and fro, against energy, and against a judge of its own: fixed steps,

@@ -5,10 +5,10 @@
 
 #include "catch.hpp"
 #include "core/load.hpp"
+#include "core/states/starting_state.hpp"
 #include "events/runge_kutta.hpp"
 #include "events/slider_crank.hpp"
 #include "numbers.hpp"
-#include "simulation/starting_state.hpp"
 #include "support.hpp"
 
 // A brake, a coupling, a crank behind it, an arm, a fan, gusts and a stop, all at once, against a program of fixed

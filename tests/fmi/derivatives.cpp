@@ -147,14 +147,16 @@ const Names everything{"initial.gear_speed_rad_per_s=0.1",
                        "effect.load_spring.stiffness_Nm_per_rad=0.01",
                        "effect.load_spring.angle_deg=0",
                        "effect.load_crank={mass_kg=0.1,crank_m=0.03,rod_m=0.08,angle_deg=40}",
+                       "effect.load_four_bar={inertia_kgm2=1e-4,crank_m=0.03,coupler_m=0.07,rocker_m=0.06,base_m=0.08}",
                        "effect.encoder_scale.share=0.01"};
 
 /// Effects with states: a current loop whose supply does not end its voltage, a winding and a gearbox that warm up,
-/// bristles, and a crank behind a coupling.
+/// bristles of bearings and teeth, and a crank behind a coupling.
 const Names with_states{
     "effect.dc_motor={resistance_ohm=1.2,torque_constant_Nm_per_A=0.025,inductance_H=0.5,current_bandwidth_Hz=2,"
     "supply_voltage_V=1000,heat_capacity_J_per_K=2,temperature_coefficient_per_K=0.004}",
     "effect.worm_lugre={coulomb_torque_Nm=0.002,stiffness_Nm_per_rad=0.01,damping_Nms_per_rad=1e-4}",
+    "effect.mesh_lugre={stiffness_per_m=500,damping_s_per_m=0.5}",
     "effect.gearbox_heat={friction_decay_per_K=0.01,churning_Nms_per_rad=1e-5,churning_decay_per_K=0.02,"
     "heat_capacity_J_per_K=0.5,thermal_resistance_K_per_W=2,starting_rise_K=20}",
     "effect.load_coupling={inertia_kgm2=1e-3,stiffness_Nm_per_rad=3,damping_Nms_per_rad=0.01}",
@@ -183,7 +185,7 @@ TEST_CASE("directional derivatives of effects with states are what central diffe
   Names words = everything;
   words.insert(words.end(), with_states.begin(), with_states.end());
   const Exported full(shipped("fig09_switching.toml"), words);
-  REQUIRE(Plant(*full.fmu).states.size() == 8);
+  REQUIRE(Plant(*full.fmu).states.size() == 9);
   CHECK(differences(full, of_a_mesh, 0.1, 40, true) == 0);
   CHECK(differences(full, of_a_mesh, 0.003, 20, false) > 3);
 }

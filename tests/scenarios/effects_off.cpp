@@ -77,7 +77,8 @@ TEST_CASE("an effect of size zero is on and changes no bit of a run by cvode, an
   for_each_effect([&]<class Effect>() {
     if (std::is_same_v<Effect, TorqueSaturation<double>> || std::is_same_v<Effect, ActuatorLag<double>> ||
         std::is_same_v<Effect, Agma<double>> || std::is_same_v<Effect, DcMotor<double>> ||
-        std::is_same_v<Effect, WormLuGre<double>> || std::is_same_v<Effect, LoadCoupling<double>>)
+        std::is_same_v<Effect, WormLuGre<double>> || std::is_same_v<Effect, LoadCoupling<double>> ||
+        std::is_same_v<Effect, LoadFourBar<double>>)
       return;  // have no size zero
     INFO(Effect::id);
     const Effects<double> on = effects(of_size_zero<Effect>());

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/program.hpp"
+#include "description/diagnostics.hpp"
 #include "events/torque_ratio.hpp"
 #include "numbers.hpp"
 #include "simulation/load_scenario.hpp"
@@ -54,6 +55,10 @@ DrawnDrive draw_effects(near_ties::Dice& dice) {
     const double coulomb = break_in * dice.decades(0.03, 0.5), bends = p.i * speed * T * dice.decades(1e-3, 1e-1);
     state(0.4, fmt::format("effect.worm_lugre={{coulomb_torque_Nm={},stiffness_Nm_per_rad={},damping_Nms_per_rad={}}}",
                            coulomb, coulomb / bends, coulomb / bends * T * dice.decades(1e-5, 1e-3)));
+    // teeth that slide within a share of their way in a swing of the input, and do not ring for long
+    const double slides = p.lw / std::cos(p.lambda) * p.i * speed * T * dice.decades(1e-3, 1e-1);
+    state(0.3, fmt::format("effect.mesh_lugre={{stiffness_per_m={},damping_s_per_m={}}}", p.mu / slides,
+                           p.mu / slides * T * dice.decades(1e-4, 1e-2)));
     const double brake = break_in * dice.decades(0.1, 3.0), opens = T * dice.between(0.1, 1.0);
     if (state(0.3, fmt::format("effect.holding_brake={{torque_Nm={},opens_s={},closes_s={}}}", brake, opens,
                                T * dice.between(1.5, 2.5)))) {
@@ -110,6 +115,14 @@ Scenario scenario_of(const DrawnDrive& drive, const std::vector<std::string>& fu
   std::vector<std::string> words = drive.words;
   words.insert(words.end(), further.begin(), further.end());
   return load_scenario(shipped("fig09_switching.toml"), words, Purpose::run);
+}
+
+std::optional<Scenario> unless_it_jams(const DrawnDrive& drive, const std::vector<std::string>& further) {
+  try {
+    return scenario_of(drive, further);
+  } catch (const InputFault&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace wormdrive::test

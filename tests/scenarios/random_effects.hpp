@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,7 @@ DrawnDrive draw_effects(near_ties::Dice& dice);
 
 /// The scenario of a drive and further overrides; throws what loading it throws, as of a drive that would jam.
 Scenario scenario_of(const DrawnDrive& drive, const std::vector<std::string>& further);
+/// The same, but nothing of a drive that cannot run.
+std::optional<Scenario> unless_it_jams(const DrawnDrive& drive, const std::vector<std::string>& further);
 
 }  // namespace wormdrive::test

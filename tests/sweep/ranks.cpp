@@ -12,6 +12,7 @@
 #include <sys/file.h>
 
 #include "catch.hpp"
+#include "sweep/file/sweep_file.hpp"
 #include "sweep/mpirun.hpp"
 #include "sweep/studies.hpp"
 

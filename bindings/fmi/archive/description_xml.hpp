@@ -49,6 +49,7 @@ inline const std::map<std::string, BaseExponents> base_units{
     {"Hz", {.s = -1}},
     {"m", {.m = 1}},
     {"m/s", {.m = 1, .s = -1}},
+    {"1/m", {.m = -1}},
     {"s/m", {.m = -1, .s = 1}},
     {"kg", {.kg = 1}},
     {"N", {.kg = 1, .m = 1, .s = -2}},
