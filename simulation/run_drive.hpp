@@ -2,13 +2,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/states/starting_state.hpp"
 #include "description/build_control.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
 #include "simulation/replay.hpp"
 #include "simulation/run_scenario.hpp"
-#include "core/states/starting_state.hpp"
 
 namespace wormdrive {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/states/starting_state.hpp"
 #include "description/build.hpp"
 #include "events/cvode_solver.hpp"
 #include "events/simulate.hpp"
 #include "simulation/run_scenario.hpp"
-#include "core/states/starting_state.hpp"
 
 namespace wormdrive {
 namespace {

@@ -1,42 +1,36 @@
 #pragma once
-#include <algorithm>
 #include <utility>
 
 #include "core/states/starting_state.hpp"
-#include "core/worm_drive.hpp"
 #include "diagnosis/predictor/flight.hpp"
 #include "diagnosis/predictor/restitution.hpp"
 #include "diagnosis/rules/noise.hpp"
-#include "events/simulate.hpp"
-#include "events/taylor/solver.hpp"
+#include "simulation/stepping/sampled_drive.hpp"
 
 namespace wormdrive {
 
-/// A drive whose effects have states, or whose inertia depends on the angle, as the predictor follows it from sample to
-/// sample: by the solver "taylor", event by event. What a recording does not show, as a current or a temperature, goes
-/// on from sample to sample as the model has it. Its teeth are rigid and have no gap.
+/// A drive whose effects have states, or whose inertia depends on the angle, as the predictor follows it. What a
+/// recording does not show, as a current or a temperature, goes on from sample to sample as the model has it. Its teeth
+/// are rigid and have no gap.
 class DriveWithStates {
  public:
-  using Drive = WormDrive<double, SummedLoad, true>;
+  using Drive = SampledDrive::Drive;
   using Instant = Drive::Instant;
   struct State {
     Instant now;
   };
-  using StatesOfEffects = Eigen::Matrix<double, Drive::state_size - 2, 1>;
 
   DriveWithStates(Drive drive, double /*gap*/, double /*compliance*/, const Restitution&)
-      : drive_(std::move(drive)), solver_(drive_, settings()) {}
-  DriveWithStates(const DriveWithStates&) = delete;
-  DriveWithStates& operator=(const DriveWithStates&) = delete;
+      : sampled_(std::move(drive), rules::predictor_tolerance) {}
 
-  Drive& drive() { return drive_; }
-  const Drive& drive() const { return drive_; }
+  Drive& drive() { return sampled_.drive(); }
+  const Drive& drive() const { return sampled_.drive(); }
   /// What the gear's encoder shows [rad].
-  double measured_angle(const State& s) const { return drive_.measured_angle(s.now); }
+  double measured_angle(const State& s) const { return drive().measured_angle(s.now); }
   bool at_rest(const State& s) const { return s.now.mode.motion == Motion::stuck; }
   /// The worm, counted at the gear.
   ShaftState worm(const State& s) const {
-    const Transmission<double> turned = drive_.effects().transmission(s.now.x[0]);
+    const Transmission<double> turned = drive().effects().transmission(s.now.x[0]);
     return {turned.angle, turned.slope * s.now.x[1]};
   }
 
@@ -44,7 +38,7 @@ class DriveWithStates {
   State at(double t, const ShaftState& gear) const {
     State s;
     s.now.t = t;
-    s.now.x = starting_state(drive_, {gear.angle, gear.speed}, t);
+    s.now.x = starting_state(drive(), {gear.angle, gear.speed}, t);
     return s;
   }
   State at(double t, const ShaftState& gear, const ShaftState& /*worm*/) const { return at(t, gear); }
@@ -56,40 +50,10 @@ class DriveWithStates {
   }
 
   /// Runs to an end over which inputs that are not known beforehand are held.
-  void run(State& s, double end) {
-    Instant& now = s.now;
-    keep_between_stops(drive_.effects(), now.x[0]);
-    const auto go_on = [&] {
-      now.mode = settle(drive_, solver_, now);
-      solver_.restart(now);
-    };
-    go_on();
-    int events = 0;
-    for (double knot = drive_.next_knot(now.t);;) {
-      const double stop = std::min(end, knot);
-      if (const int guard = solver_.advance(now, stop, stop); guard != no_guard) {
-        if (guard < Drive::guard_count) now = jump(drive_, solver_, now, guard);
-        solver_.restart(now);
-        if (++events > rules::most_events_of_a_sample) throw SolverFault("too many events within one sample");
-        continue;
-      }
-      now.t = stop;
-      if (stop == end) return;
-      drive_.enter(stop);
-      knot = drive_.next_knot(stop);
-      go_on();
-    }
-  }
+  void run(State& s, double end) { sampled_.run(s.now, end, rules::most_events_of_a_sample); }
 
  private:
-  static SolverSettings settings() {
-    return {.solver = SolverKind::taylor,
-            .relative_tolerance = rules::predictor_tolerance,
-            .absolute_tolerance = 0.01 * rules::predictor_tolerance};
-  }
-
-  Drive drive_;
-  TaylorSolver<Drive> solver_;
+  SampledDrive sampled_;
 };
 
 }  // namespace wormdrive

@@ -4,10 +4,14 @@
 
 #include <ceres/jet.h>
 
+#include "core/load.hpp"
+#include "core/states/starting_state.hpp"
+#include "events/event_sequence.hpp"
 #include "events/sensitivity/cvodes_sensitivity.hpp"
 #include "events/sensitivity/saltation.hpp"
 #include "events/sensitivity/sensitivity.hpp"
 #include "events/sensitivity/series_sensitivity.hpp"
+#include "events/solvers.hpp"
 
 namespace wormdrive {
 
@@ -93,6 +97,10 @@ void follow(const EventSequence<System>& sequence, Drive& drive, Carrier& carrie
 }
 
 template <bool with_states>
+using StatedDrive = WormDrive<double, SummedLoad, with_states>;
+
+/// The derivatives by parameters along what a run from `begin` [s] on has met.
+template <bool with_states>
 Sensitivities derivatives(const EventSequence<StatedDrive<with_states>>& sequence,
                           const StatedDrive<with_states>& system, double begin, const RigidDrive& parts,
                           std::span<const Parameter> parameters, const SolverSettings& settings) {
@@ -118,5 +126,32 @@ Sensitivities derivatives(const EventSequence<StatedDrive<with_states>>& sequenc
   }
   return made;
 }
+
+/// Whoever holds a torque from sample to sample.
+struct Holder {
+  const HeldTorque& torque;
+
+  template <class System>
+  double sample(const System& system, const typename System::Instant& now) const {
+    return torque ? torque(now.t, system.measured_angle(now)) : 0.0;
+  }
+};
+
+/// A run of a drive whose effects have states, or of one whose effects have none, with its derivatives.
+template <bool with_states>
+Sensitivities sensitivities_of(const RigidDrive& parts, std::span<const Parameter> parameters,
+                               const Timetable& timetable, const SolverSettings& settings, const HeldTorque& held) {
+  using System = StatedDrive<with_states>;
+  System system(parts.mesh, make_load(parts.load), parts.effects, parts.motor);
+  typename System::Instant start{timetable.next_time(), System::State::Zero(), {}};
+  system.enter(start.t);
+  start.x = starting_state(system, parts.initial, start.t);
+  EventSequence<System> sequence(start);
+  Holder holder{held};
+  with_solver(system, settings, [&](auto& solver) { simulate(system, solver, holder, timetable, start, sequence); });
+  return derivatives<with_states>(sequence, system, start.t, parts, parameters, settings);
+}
+extern template Sensitivities sensitivities_of<true>(const RigidDrive&, std::span<const Parameter>, const Timetable&,
+                                                     const SolverSettings&, const HeldTorque&);
 
 }  // namespace wormdrive

@@ -4,13 +4,10 @@
 
 namespace wormdrive {
 
-template Sensitivities derivatives<false>(const EventSequence<StatedDrive<false>>&, const StatedDrive<false>&, double,
-                                          const RigidDrive&, std::span<const Parameter>, const SolverSettings&);
-
 Sensitivities sensitivities(const RigidDrive& parts, std::span<const Parameter> parameters, const Timetable& timetable,
-                            const SolverSettings& settings) {
-  NoController nobody;
-  return sensitivities(parts, parameters, timetable, settings, nobody);
+                            const SolverSettings& settings, const HeldTorque& held) {
+  return parts.effects.have_states() ? sensitivities_of<true>(parts, parameters, timetable, settings, held)
+                                     : sensitivities_of<false>(parts, parameters, timetable, settings, held);
 }
 
 }  // namespace wormdrive

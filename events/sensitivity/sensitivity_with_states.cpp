@@ -2,7 +2,7 @@
 
 namespace wormdrive {
 
-template Sensitivities derivatives<true>(const EventSequence<StatedDrive<true>>&, const StatedDrive<true>&, double,
-                                         const RigidDrive&, std::span<const Parameter>, const SolverSettings&);
+template Sensitivities sensitivities_of<true>(const RigidDrive&, std::span<const Parameter>, const Timetable&,
+                                              const SolverSettings&, const HeldTorque&);
 
 }  // namespace wormdrive

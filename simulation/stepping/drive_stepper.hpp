@@ -3,10 +3,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/states/starting_state.hpp"
 #include "events/simulate.hpp"
 #include "events/solvers.hpp"
 #include "output/event_counter.hpp"
-#include "core/states/starting_state.hpp"
 #include "simulation/stepping/commanded.hpp"
 #include "simulation/stepping/drive_numbers.hpp"
 #include "simulation/stepping/stepped_drive.hpp"

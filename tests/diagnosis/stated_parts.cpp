@@ -31,7 +31,7 @@ DcMotor<double> winding() {
 
 Diagnosis diagnosed(const Scenario& stated, const Scenario& truth) {
   RecordingConditions conditions;
-  conditions.duration = 5.0;
+  conditions.duration = 4.0;
   conditions.period = 4e-3;
   return diagnose(stated, {record(truth, conditions)});
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "derivatives.hpp"
+#include "events/derivatives.hpp"
 
 namespace wormdrive::test::lively_drive {
 

@@ -32,7 +32,7 @@ Effects<double> one_of_each() {
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
                  FrictionUnderLoad<double>{0.1}, GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05},
                  LoadAngle<double>{0.05}, LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4},
-                 LoadCrank<double>{0.2, 0.03, 0.07, 0.4}, LoadFourBar<double>{1e-4, 0.03, 0.07, 0.06, 0.08, 0.4},
+                 LoadCrank<double>{0.2, 0.03, 0.07, 0.4}, LoadFourBar<double>{1e-4, 0.03, 0.07, 0.06, 0.08, 1.4},
                  EncoderScale<double>{0.01}, EncoderOffset<double>{0.01});
 }
 

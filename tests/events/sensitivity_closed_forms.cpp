@@ -17,17 +17,6 @@ RigidDrive flywheel(const Signal& motor, double omega) {
   return {GearMesh<double>::without_teeth(J), LoadSum{}, effects(WormCoulomb<double>{T}), motor, {0.0, omega}};
 }
 
-/// A controller that repeats what was recorded.
-struct Recorded {
-  std::vector<double> torques;
-  std::size_t next = 0;
-
-  template <class System>
-  double sample(const System&, const typename System::Instant&) {
-    return torques.at(next++);
-  }
-};
-
 /// The derivatives by dry friction, initial speed and inertia at the end of a run, in this order.
 Sensitivities derived(const RigidDrive& drive, double end, By by) {
   const std::array which{parameter(drive, "worm_coulomb", "torque"), parameter(drive, "initial", "gear_speed"),
@@ -126,7 +115,8 @@ TEST_CASE("torques held from sample to sample are taken as given") {
   constexpr double period = 0.1, end = 1.0;
   const auto drive = flywheel({}, 0.0);
   for (const By by : every_solver) {
-    Recorded recorded{torques};
+    std::size_t next = 0;
+    const auto recorded = [&](double, double) { return torques.at(next++); };
     const std::array which{parameter(drive, "worm_coulomb", "torque")};
     const Sensitivities s =
         sensitivities(drive, which, Timetable(0, end, end, {period, 0.0}), tight(by, 1e-12), recorded);

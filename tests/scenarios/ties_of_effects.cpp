@@ -141,7 +141,7 @@ Counts judge(const std::vector<std::uint64_t>& trials) {
 }  // namespace
 
 TEST_CASE("drives with several effects at the edge of an event end alike by every solver", "[slow]") {
-  const Counts found = judge({3, 4, 5, 11, 14, 22, 23, 24, 26, 30});  // those that take least time
+  const Counts found = judge({3, 4, 7, 8, 9, 11, 16, 17, 21, 27});  // those that take least time
   INFO(found.faults);
   CHECK(found.faults.empty());
   REQUIRE(found.cases >= 9);

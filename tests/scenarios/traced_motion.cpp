@@ -30,13 +30,15 @@ struct Compared {
   Deviation apart, away;
 };
 
-/// Adds the largest deviation of two series over h [s], as a share of what they are made of: of their largest term, or
-/// of what cancels in their rate, whose rounding the terms of a decay by a rate [1/s] make greater.
+/// What a quantity is made of that changes over h [s]: of what cancels in it and in its rate, whose rounding the terms
+/// of a decay by a rate [1/s] make greater.
+double made_of(const Series<Rounded, 1>& x, double h, double decay) {
+  return std::max(x[0].rounding, x[1].rounding * h) / Rounded::unit * std::exp(decay * h);
+}
+
+/// Adds the largest deviation of two series over h [s], as a share of their largest term, or of their parts.
 template <class Found, class Expected>
-void compare(Deviation& apart, const Found& found, const Expected& expected, const Series<Rounded, 1>& rounded,
-             double h, double decay) {
-  const double parts =
-      std::max(rounded[0].rounding, rounded[1].rounding * h) / Rounded::unit * std::exp(std::abs(decay) * h);
+void compare(Deviation& apart, const Found& found, const Expected& expected, double h, double parts) {
   double size = 0.0, most = 0.0, power = 1.0;
   for (int k = 0; k <= order; ++k, power *= h) {
     size = std::max(size, std::abs(expected[k]) * power);
@@ -86,12 +88,13 @@ void look(Compared& all, const System& drive, const System::Instant& now, const 
   const auto guards = drive.guards(at, now.mode);
   const auto rounded_guards = drive.guards(rounded, now.mode);
   const double fastest = drive.jacobian(now.t, now.x, now.mode).diagonal().cwiseAbs().maxCoeff();
-  compare(all.apart, e.theta, at.theta_g, rounded.theta_g, h, fastest);
-  compare(all.apart, e.omega, at.omega_g, rounded.omega_g, h, fastest);
+  const auto parts = [&](const Series<Rounded, 1>& x) { return made_of(x, h, fastest); };
+  compare(all.apart, e.theta, at.theta_g, h, std::max(parts(rounded.theta_g), parts(rounded.omega_g) * h));
+  compare(all.apart, e.omega, at.omega_g, h, parts(rounded.omega_g));
   for (std::size_t k = 0; k < e.states.size(); ++k)
-    compare(all.apart, e.states[k], at.states[k], rounded.states[k], h, fastest);
+    compare(all.apart, e.states[k], at.states[k], h, parts(rounded.states[k]));
   for (std::size_t g = 0; g < e.guards.size(); ++g)
-    compare(all.apart, e.guards[g], guards[g], rounded_guards[g], h, fastest);
+    compare(all.apart, e.guards[g], guards[g], h, parts(rounded_guards[g]));
 
   const Deviation away = deviation(drive, now, e, rounded, h, accuracy);
   if (traced.remain(h)) {
