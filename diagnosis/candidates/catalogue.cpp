@@ -202,8 +202,7 @@ void withdraw(Effects<double>& effects, const Effects<double>& stated, const Can
 std::string why_not_diagnosed(const Effects<double>& stated) {
   if (!stated.twisting_coupling()) return "";
   return "a diagnosis follows no load that swings by itself, which nothing that is recorded shows, but "
-         "effect.load_coupling "
-         "twists; leave its stiffness out";
+         "effect.load_coupling twists; leave its stiffness out";
 }
 
 std::vector<NotExamined> not_examined(const Effects<double>& stated, const Magnitudes& m) {
