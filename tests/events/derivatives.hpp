@@ -85,10 +85,9 @@ inline Deviation deviation(const Sensitivities& a, Eigen::Index column, const Se
       largest = std::max(largest, std::abs(left(k)));
       if (counts(k)) found.add(left(k) - right(k));
     }
+    const double error = found.size <= rounding(size) ? 0.0 : found.size;
     // a derivative that is zero all along is zero in every way of finding it
-    worst.add(largest > rounding(size)                      ? found.size / largest
-              : found.size > std::max(1e-9, rounding(size)) ? 1.0
-                                                            : 0.0);
+    worst.add(largest > rounding(size) ? error / largest : error > 1e-9 ? 1.0 : 0.0);
   };
   const auto clear = [&](std::size_t row) {
     for (std::size_t e = 0; e < a.events.size(); ++e)
