@@ -31,7 +31,7 @@ class EventSequence {
     Stop stop{cause, now, now};
     if constexpr (requires { system.disturbance(); }) stop.disturbance = system.disturbance();
     if (open_) stop.before = left_;
-    if (stop.is_bend()) stop.hidden = BendWatch<System>(system).hidden_for(now);
+    if (open_ && stop.is_bend()) stop.hidden = BendWatch<System>(system).hidden_for(now);
     if (open_ || stop.passed()) stops_.push_back(stop);
     open_ = !open_ && !stop.passed();
     left_ = now;

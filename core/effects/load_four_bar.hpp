@@ -23,8 +23,7 @@ struct LoadFourBar {
       "a crank on the gear swings a rocker, a wiper or a gate, whose inertia depends on the angle";
   static constexpr std::string_view law =
       "Jg + inertia psi'^2, and -inertia psi' psi'' theta_g'^2 on the gear, where psi is the angle of the rocker over "
-      "p = "
-      "theta_g + angle: the coupler joins the end of the crank, crank (cos p, sin p), with that of the rocker, "
+      "p = theta_g + angle: the coupler joins the end of the crank, crank (cos p, sin p), with that of the rocker, "
       "(base, 0) + rocker (cos psi, sin psi)";
   static constexpr std::string_view source =
       "F. Pfeiffer, Einfuehrung in die Dynamik, 3rd ed., Springer Vieweg 2014, chapter 2";
@@ -78,7 +77,7 @@ struct LoadFourBar {
 
  private:
   /// The rocker's angle over the gear's: its slope and curvature. area: of the triangle of coupler, rocker and what
-  /// lies between their ends, four times [m^2], and its rate over the angle.
+  /// lies between their ends, twice [m^2], and its rate over the angle.
   template <class S>
   struct Rocker {
     S slope, curvature, area, area_rate;

@@ -7,6 +7,7 @@
 #include "core/field.hpp"
 #include "core/place.hpp"
 #include "core/sliding_contact.hpp"
+#include "core/states/bristles.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
@@ -69,10 +70,10 @@ struct MeshLuGre {
   FrictionRange friction_range(const FrictionRange& mu, double) const { return mu; }
 
  private:
-  /// z' [m/s]; |v| by the sign of the motion, smooth where an integrator looks beyond a reversal.
+  /// z' [m/s].
   template <class S>
   S bending(const S& mu, const SlidingContact<S>& at, const S& h) const {
-    return at.sliding_speed - T(sign(at.motion)) * at.sliding_speed * (h / mu);
+    return bending_of_bristles<T>(at.sliding_speed, at.motion, S(h / mu));
   }
 };
 

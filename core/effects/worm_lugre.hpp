@@ -8,6 +8,7 @@
 #include "core/moment.hpp"
 #include "core/numbers/portable.hpp"
 #include "core/place.hpp"
+#include "core/states/bristles.hpp"
 #include "core/states/effect_states.hpp"
 
 namespace wormdrive {
@@ -85,10 +86,10 @@ struct WormLuGre {
     const S x = at.omega_w / *stribeck_speed;
     return coulomb_torque + (*static_torque - coulomb_torque) * exp(-(x * x));
   }
-  /// z' [rad/s]; |theta_w'| by the sign of the motion, smooth where an integrator looks beyond a reversal.
+  /// z' [rad/s].
   template <class S>
   S bending(const Moment<S>& at, Motion motion, const S& h) const {
-    return at.omega_w - T(sign(motion)) * at.omega_w * (coulomb_torque * h / sliding_torque(at));
+    return bending_of_bristles<T>(at.omega_w, motion, S(coulomb_torque * h / sliding_torque(at)));
   }
 };
 

@@ -69,9 +69,9 @@ std::vector<Candidate> stated_parts(const Effects<double>& stated) {
     candidate.effect = part.effect;
     for (const std::string_view field : part.fields) {
       const FieldOfEffect found = field_of(stated, part.effect, field);
-      const bool is_angle = found.unit.suffix == unit::degrees.suffix;
-      if (!found.on || (!is_angle && !(found.value > 0.0)) || !shows(stated, part.effect, field)) continue;
-      candidate.coordinates.push_back(stated_number(part.effect, field, found));
+      if (!found.on || !shows(stated, part.effect, field)) continue;
+      const Coordinate number = stated_number(part.effect, field, found);
+      if (number.turns || found.value > 0.0) candidate.coordinates.push_back(number);
     }
     if (candidate.coordinates.empty()) continue;
     candidate.starts = {{std::vector<double>(candidate.coordinates.size()), {}}};

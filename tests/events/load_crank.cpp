@@ -7,6 +7,7 @@
 #include "core/energy.hpp"
 #include "core/states/starting_state.hpp"
 #include "core/steady.hpp"
+#include "events/flywheel.hpp"
 #include "events/four_modes.hpp"
 #include "events/runge_kutta.hpp"
 #include "events/slider_crank.hpp"
@@ -100,26 +101,7 @@ class Judge {
 }  // namespace
 
 TEST_CASE("a flywheel that drives a mass by a crank turns as its energy says, with a rod or a slot") {
-  for (int trial = 0; trial < 20; ++trial) {
-    near_ties::Dice dice(20261203, static_cast<std::uint64_t>(trial));
-    const double J = dice.decades(1e-5, 1e2), speed = dice.sign() * dice.decades(1e-2, 1e3),
-                 turns = dice.decades(0.3, 3.0), end = 2.0 * std::numbers::pi * turns / std::abs(speed);
-    const Crank crank = drawn_crank(dice, J);
-    const double energy = (J + inertia(crank, 0.1)) * speed * speed;
-    for (const By by : every_solver) {
-      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
-      const WormDrive<double, TimedLoad> d(GearMesh<double>::without_teeth(J), make_load(Signal{}), effects(crank),
-                                           Signal{});
-      const auto seen = run(d, Timetable(0, end, end / 20.0), {0.0, {0.1, speed}, {}}, tight(by));
-      Deviation off;
-      for (const auto& row : seen.rows) {
-        const double omega = row.now.x[1];
-        off.add((J + inertia(crank, row.now.x[0])) * omega * omega / energy - 1.0);
-        REQUIRE(close(2.0 * stored_energy(d, row.now), energy, 1e-9));
-      }
-      CHECK(off <= (by.solver == SolverKind::cvode && by.method == Method::bdf ? 1e-9 : 1e-10));
-    }
-  }
+  check_energy_of_flywheels(20261203, drawn_crank, [](const Crank& c, double theta_g) { return inertia(c, theta_g); });
 }
 
 TEST_CASE("worm drives with a crank have the events and the end of a judge with fixed steps, by every solver") {

@@ -4,7 +4,7 @@
 #include <ceres/jet.h>
 
 #include "catch.hpp"
-#include "core/energy.hpp"
+#include "events/flywheel.hpp"
 #include "near_ties/dice.hpp"
 #include "numbers.hpp"
 #include "support.hpp"
@@ -64,26 +64,7 @@ TEST_CASE("a linkage has the inertia of its geometry, the slope of that, and no 
 }
 
 TEST_CASE("a flywheel that swings a rocker turns as its energy says, by every solver") {
-  for (int trial = 0; trial < 20; ++trial) {
-    near_ties::Dice dice(20261206, static_cast<std::uint64_t>(trial));
-    const double J = dice.decades(1e-5, 1e2), speed = dice.sign() * dice.decades(1e-2, 1e3),
-                 turns = dice.decades(0.3, 3.0), end = 2.0 * std::numbers::pi * turns / std::abs(speed);
-    const Linkage l = drawn_linkage(dice, J);
-    const double energy = (J + inertia(l, 0.1)) * speed * speed;
-    for (const By by : every_solver) {
-      INFO(trial << " by " << static_cast<int>(by.solver) << static_cast<int>(by.method));
-      const WormDrive<double, TimedLoad> d(GearMesh<double>::without_teeth(J), make_load(Signal{}), effects(l),
-                                           Signal{});
-      const auto seen = run(d, Timetable(0, end, end / 20.0), {0.0, {0.1, speed}, {}}, tight(by));
-      Deviation off;
-      for (const auto& row : seen.rows) {
-        const double omega = row.now.x[1];
-        off.add((J + inertia(l, row.now.x[0])) * omega * omega / energy - 1.0);
-        REQUIRE(close(2.0 * stored_energy(d, row.now), energy, 1e-9));
-      }
-      CHECK(off <= (by.solver == SolverKind::cvode && by.method == Method::bdf ? 1e-9 : 1e-10));
-    }
-  }
+  check_energy_of_flywheels(20261206, drawn_linkage, inertia);
 }
 
 }  // namespace wormdrive::test::events_load_four_bar
