@@ -104,6 +104,9 @@ class MetricsMeter {
     mode_ = mode;
   }
 
+  /// Counts flank changes that were seen elsewhere.
+  void changed_flank(long times) { flank_changes_ += times; }
+
   Metrics result() const {
     if (samples_ == 0) {
       Metrics none;

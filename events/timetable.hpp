@@ -69,10 +69,11 @@ class Timetable {
     find_next();
   }
 
-  /// Leaves out what comes before the k-th sample and takes that.
+  /// Leaves out what comes before the k-th sample and takes that; no sample sees an angle from before the one before.
   void skip_to_sample(long k) {
-    samples_ = k + 1;
+    samples_ = latches_ = k + 1;
     schedule_sample();
+    schedule_latch();
     while (report_ < sample_time(k)) {
       ++reports_;
       schedule_report();

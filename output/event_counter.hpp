@@ -17,6 +17,8 @@ class EventCounter {
     if (latest_ && latest_->t == now.t && !(latest_->mode == now.mode)) count(system, now);
     latest_ = now;
   }
+  /// Counts flank changes that were seen elsewhere.
+  void changed_flank(long times) { events_[static_cast<std::size_t>(EventKind::flank_change)] += times; }
   /// By EventKind.
   const std::array<long, event_kind_count>& events() const { return events_; }
   /// What the drive shows at the latest instant; there has to be one.

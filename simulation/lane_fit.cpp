@@ -20,6 +20,13 @@ bool arrives_within_sample(const Scenario& scenario) {
   return delay <= 0.0 || (scenario.effects.lag() <= 0.0 && delay + rounding < scenario.control->sampling.period);
 }
 
+/// Whether a sample sees the angle as it is, or one that is younger than the sample before, of a motion in one step.
+bool sees_within_sample(const Scenario& scenario) {
+  const double age = scenario.effects.measuring_delay(), rounding = 4.0 * time_resolution(scenario.run.duration);
+  return age <= 0.0 || (age > rounding && age + rounding < scenario.control->sampling.period &&
+                        scenario.effects.delay() <= 0.0 && scenario.effects.lag() <= 0.0);
+}
+
 /// Whether lanes know what a controller is told and how it decides.
 bool has_lane_controller(const ControlScenario& control) {
   const SensorSettings& sensor = control.sensor;
@@ -39,7 +46,7 @@ bool has_lane_plant(const Scenario& scenario) {
 
 bool fits_lane(const Scenario& scenario) {
   return scenario.control && has_lane_controller(*scenario.control) && has_held_torque(scenario) &&
-         arrives_within_sample(scenario) && scenario.effects.measuring_delay() <= 0.0;
+         arrives_within_sample(scenario) && sees_within_sample(scenario);
 }
 
 bool share_samples(const Scenario& a, const Scenario& b) {

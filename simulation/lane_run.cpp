@@ -29,8 +29,13 @@ constexpr Lemma1Quiet<double> all_quiet{infinity, infinity, infinity};
 /// In the place of a controller.
 struct HeldTorque {
   double torque = 0.0, disturbance = 0.0;
+  double latched = 0.0;  ///< the angle that the next sample sees, where it is late [rad]
   bool held = false;
 
+  template <class Drive>
+  void latch(const Drive&, const typename Drive::Instant& now) {
+    latched = now.x[0];
+  }
   bool pause() const { return held; }
   template <class Drive>
   double sample(Drive& drive, const typename Drive::Instant&) {
@@ -84,10 +89,14 @@ class LaneRunOf final : public LaneRun {
         if (const TapeCode* const code = solver_.taped().code({motion, flank})) return code;
     return nullptr;
   }
-  void use_tape(const TapeCode& code, double* numbers, int lanes) override { tape_ = LaneTape(code, numbers, lanes); }
+  void use_tape(const TapeCode& code, double* numbers, double* across, int lanes) override {
+    tape_ = LaneTape(code, numbers, lanes);
+    tape_across_ = LaneTape(code, across, lanes);
+  }
   SectionOf<double> section(int table, double x) override { return solver_.taped().section(table, x); }
   bool estimate_is_aligned() const override { return nominal_.load_angle_offset == 0.0 && is_encoder_exact(); }
   bool is_rough() const override { return !encoder_.is_exact() || scenario_.control->sensor.zero_error != 0.0; }
+  bool is_late() const override { return drive_.effects().measuring_delay() > 0.0; }
   bool is_noisy() const override { return scenario_.control->sensor.noise > 0.0; }
   bool is_disturbed() const override { return scenario_.control->disturbance.deviation > 0.0; }
   void draw(long first, long end, std::size_t stride, double* noise, double* disturbance) override {
@@ -100,7 +109,8 @@ class LaneRunOf final : public LaneRun {
   }
 
   void start(const Lane& lane) override {
-    advance({.held = true});
+    HeldTorque before{.held = true};
+    advance(before);
     const ControlScenario& control = *scenario_.control;
     const auto* const scale = effect<EncoderScale<double>>();
     const auto* const offset = effect<EncoderOffset<double>>();
@@ -114,6 +124,8 @@ class LaneRunOf final : public LaneRun {
                             .encoder_zero = offset ? offset->angle : -0.0,  // which changes no angle, not even 0
                             .count = encoder_.count(),
                             .zero_error = zero_error != 0.0 ? zero_error : -0.0,
+                            .age = drive_.effects().measuring_delay(),
+                            .latched = 0.0,
                             .speed = {control.sensor.filter_cutoff, control.sampling.period},
                             .sums = watch_.meter.sums(),
                             .quiet = watch_.lemma ? watch_.lemma->quiet() : all_quiet,
@@ -121,21 +133,24 @@ class LaneRunOf final : public LaneRun {
                             .left = 0.0,
                             .torque = 0.0,
                             .behind = drive_.effects().delay() + drive_.effects().lag(),
-                            .drive = {},
+                            .mode = {},
+                            .across = {},
+                            .flank_changes = 0.0,
+                            .counted_flank_changes = 0.0,
                             .arm_offset = {},
-                            .pull = 0.0,
-                            .bend = 0.0,
                             .per_speed = 1.0,
-                            .speed_of_fall = 1.0,
                             .theta = 0.0,
                             .omega = 0.0};
     if (const auto* const sliding = std::get_if<SlidingParameters>(&control.law))
       trial.sliding = {*sliding, nominal_, SlidingBounds(*sliding, lemma_)};
     if (const auto* const pid = std::get_if<PidParameters>(&control.law))
       trial.pid = {lqr_gains(*pid, mean_inertia(nominal_)), *pid, nominal_};
-    if constexpr (has_formulas) trial.arm_offset = solver_.nominal().arm_offset();
-    leave(trial);
-    trial.speed.start(encoder_(drive_.measured_angle(progress_.now), 0));
+    if constexpr (has_formulas) {
+      trial.arm_offset = solver_.nominal().arm_offset();
+      if (falls()) trial.per_speed = solver_.nominal().fall({Motion::forward, Flank::left}).per_speed;
+    }
+    leave(trial, before);
+    trial.speed.start(encoder_(drive_.effects().measured_angle(trial.latched), 0));
     lane.write(trial);
   }
 
@@ -147,6 +162,7 @@ class LaneRunOf final : public LaneRun {
       if (response() == MotorResponse::after_delay) leaps = restarts *= 2;
       if (response() != MotorResponse::at_once) drive_.resume_motor(t, trial.torque);
       solver_.count_leaps(restarts, leaps);
+      take_up_flank_changes(trial);
       progress_.timetable.skip_to_sample(sample);
       progress_.now.t = t;
       progress_.now.x = {trial.theta, trial.omega};
@@ -154,9 +170,10 @@ class LaneRunOf final : public LaneRun {
       watch_.meter.instant(t, progress_.now.mode);
       run_.record(drive_, progress_.now);
     }
-    advance({.torque = torque, .disturbance = disturbance});
+    HeldTorque held{.torque = torque, .disturbance = disturbance};
+    advance(held);
     next_ = sample + 1;
-    leave(trial);
+    leave(trial, held);
     lane.write(trial);
   }
 
@@ -170,7 +187,9 @@ class LaneRunOf final : public LaneRun {
   }
 
   RunSummary finish(const Lane& lane, long samples) override {
-    watch_.meter.sampled(lane.read().sums, samples);
+    LaneTrial<double> trial = lane.read();
+    take_up_flank_changes(trial);
+    watch_.meter.sampled(trial.sums, samples);
     return run_.finish(watch_);
   }
 
@@ -181,7 +200,7 @@ class LaneRunOf final : public LaneRun {
     return found ? &*found : nullptr;
   }
   bool is_encoder_exact() const {
-    return !is_rough() && !effect<EncoderScale<double>>() && !effect<EncoderOffset<double>>();
+    return !is_rough() && !is_late() && !effect<EncoderScale<double>>() && !effect<EncoderOffset<double>>();
   }
   using Solver = TaylorSolver<Drive>;
   static constexpr bool has_formulas = NominalFlow<Drive>::known;
@@ -214,7 +233,7 @@ class LaneRunOf final : public LaneRun {
     return false;
   }
 
-  void advance(HeldTorque torque) {
+  void advance(HeldTorque& torque) {
     wormdrive::go_on(drive_, solver_, torque, progress_,
                      [this](const Drive& drive, const typename Drive::Instant& now) {
                        watch_.meter.instant(now.t, now.mode);
@@ -222,24 +241,45 @@ class LaneRunOf final : public LaneRun {
                      });
   }
 
-  /// Leaves state and mode to the lane; at rest, with motion 0, no step is known beforehand.
-  void leave(LaneTrial<double>& trial) {
+  /// The flank changes that the lane has seen since it was left alone.
+  void take_up_flank_changes(LaneTrial<double>& trial) {
+    const auto changes = static_cast<long>(trial.flank_changes);
+    if (changes == 0) return;
+    watch_.meter.changed_flank(static_cast<long>(trial.counted_flank_changes));
+    run_.changed_flank(changes);
+    trial.flank_changes = trial.counted_flank_changes = 0.0;
+    if (changes % 2 == 0) return;
+    progress_.now.mode = Drive::across_surface(progress_.now.mode);
+    if (taped_) tape_.exchange(tape_across_);
+  }
+
+  /// Leaves state and modes to the lane; at rest, with motion 0, no step is known beforehand.
+  void leave(LaneTrial<double>& trial, const HeldTorque& held) {
     const typename Drive::Instant& now = progress_.now;
     trial.theta = now.x[0];
+    trial.latched = is_late() ? held.latched : trial.theta;
     trial.omega = now.x[1];
     if (response() != MotorResponse::at_once) trial.torque = drive_.motor_input()(now.t);
-    if (taped_)
-      return tape_.leave(Drive::at_rest(now.mode) ? nullptr : solver_.taped().code(now.mode),
-                         [&] { return solver_.taped().numbers(drive_.next_knot(now.t)); });
-    if constexpr (has_formulas) {
-      trial.drive = Drive::at_rest(now.mode) ? DrivenMotion{} : *solver_.nominal().driven(now.mode);
-      if (Drive::at_rest(now.mode) || !falls()) return;
-      const FallOf<double>& fall = solver_.nominal().fall(now.mode);
-      trial.pull = fall.pull;
-      trial.bend = fall.bend;
-      trial.per_speed = fall.per_speed;
-      trial.speed_of_fall = fall.speed;
+    const Mode across = Drive::across_surface(now.mode);
+    if (taped_) {
+      const auto leave_at = [&](LaneTape& tape, Mode mode) {
+        tape.leave(Drive::at_rest(mode) ? nullptr : solver_.taped().code(mode),
+                   [&] { return solver_.taped().numbers(drive_.next_knot(now.t)); });
+      };
+      leave_at(tape_across_, across);
+      leave_at(tape_, now.mode);
+      return;
     }
+    trial.mode = in_closed_form(now.mode);
+    trial.across = in_closed_form(across);
+  }
+  LaneMode in_closed_form(Mode mode) const {
+    if constexpr (has_formulas) {
+      if (Drive::at_rest(mode)) return {};
+      const FallOf<double>& fall = solver_.nominal().fall(mode);
+      return {*solver_.nominal().driven(mode), fall.pull, fall.bend};
+    }
+    return {};
   }
 
   const Scenario& scenario_;
@@ -255,7 +295,7 @@ class LaneRunOf final : public LaneRun {
   Progress<Drive> progress_;
   long next_ = 0;  ///< sample up to which it has come alone
   bool taped_;
-  LaneTape tape_;
+  LaneTape tape_, tape_across_;  ///< of the present mode, and of the one across the switching surface
 };
 
 template <class Stated>

@@ -29,13 +29,15 @@ class LaneRun {
   virtual bool estimate_is_aligned() const = 0;
   /// Whether its encoder counts, is noisy, or its zero is off.
   virtual bool is_rough() const = 0;
+  /// Whether its samples see an older angle.
+  virtual bool is_late() const = 0;
   virtual bool is_noisy() const = 0;
   virtual bool is_disturbed() const = 0;
   /// The operations on its tape; nullptr where its steps have closed forms.
   virtual const TapeCode* tape() = 0;
-  /// Where the numbers of its tape go, those of a register's trials side by side, the first of its own at numbers; its
-  /// lane takes part while its operations are these.
-  virtual void use_tape(const TapeCode& code, double* numbers, int lanes) = 0;
+  /// Where the numbers of its tape go, in its mode and in that across the switching surface, those of a register's
+  /// trials side by side, the first of its own there; its lane takes part while its operations are these.
+  virtual void use_tape(const TapeCode& code, double* numbers, double* across, int lanes) = 0;
   /// The section of a table on its tape for an argument.
   virtual SectionOf<double> section(int table, double x) = 0;
   /// Puts the noise of its encoder [rad] and what disturbs its shaft [N m] at samples in [first, end) there, where that

@@ -1,12 +1,13 @@
 #pragma once
 #include <cstddef>
+#include <utility>
 
 #include "control/lanes/trial.hpp"
 #include "events/taylor/tapes/series.hpp"
 
 namespace wormdrive {
 
-/// Where the numbers of a trial's tape are among those of its register, in the order of a TapeSeriesOf<V>.
+/// Where the numbers of a mode on a trial's tape are among those of its register, in the order of a TapeSeriesOf<V>.
 class LaneTape {
  public:
   LaneTape() = default;
@@ -16,6 +17,11 @@ class LaneTape {
 
   TapedMotionOf<double> motion() const { return from_lane<TapedMotionOf<double>>(numbers_, lanes_); }
 
+  /// Takes up that the lane has exchanged its numbers with those of another mode.
+  void exchange(LaneTape& other) {
+    std::swap(left_, other.left_);
+    std::swap(fits_, other.fits_);
+  }
   /// Leaves the numbers of a mode there, which numbers() returns; nullptr for a mode that has no operations, as at
   /// rest. The lane waits where they are not those of the register.
   template <class Numbers>

@@ -30,17 +30,18 @@ std::optional<std::string> fault_of(Action&& action) {
 class LaneGroup {
  public:
   LaneGroup(LaneKind kind, std::vector<std::unique_ptr<LaneRun>> runs)
-      : kind_(kind), width_(lanes_of(kind)), runs_(std::move(runs)), results_(runs_.size()) {}
+      : kind_(kind), width_(lanes_of(kind, runs.front()->variant())), runs_(std::move(runs)), results_(runs_.size()) {}
 
   /// first: any of their scenarios.
   std::vector<BatchResult> run(const Scenario& first) {
-    bool aligned = true, rough = false, noisy = false, disturbed = false;
+    bool aligned = true, rough = false, late = false, noisy = false, disturbed = false;
     LaneVariant variant = runs_.front()->variant();
     const LaneTapes tapes = make_tapes();
     for (int lane = 0; lane < lanes(); ++lane) {
       alive_[lane / width_] |= bit(lane);
       aligned = aligned && runs_[lane]->estimate_is_aligned();
       rough = rough || runs_[lane]->is_rough();
+      late = late || runs_[lane]->is_late();
       noisy = noisy || runs_[lane]->is_noisy();
       disturbed = disturbed || runs_[lane]->is_disturbed();
       variant.ideal = variant.ideal && runs_[lane]->variant().ideal;
@@ -57,6 +58,7 @@ class LaneGroup {
                           .variant = variant,
                           .is_delayed = first.control->sampling.delay > 0.5,
                           .is_rough = rough,
+                          .is_late = late,
                           .noise = noisy ? noise_.data() : nullptr,
                           .disturbance = disturbed ? disturbance_.data() : nullptr,
                           .tapes = tapes,
@@ -77,12 +79,15 @@ class LaneGroup {
   LaneTapes make_tapes() {
     const TapeCode* const code = runs_.front()->tape();
     if (code == nullptr) return {};
-    const std::size_t places = TapeSeriesOf<double>::room(*code, TapedLeapOf<double>::stride);
-    const std::size_t room = places * static_cast<std::size_t>(width_);
+    const std::size_t series = TapeSeriesOf<double>::room(*code, TapedLeapOf<double>::stride);
+    const auto width = static_cast<std::size_t>(width_);
+    const std::size_t room = (series + TapeSeriesOf<double>::numbers(*code)) * width;
     tapes_.assign(room * static_cast<std::size_t>(registers()) / std::size(Line{}.of) + 1, Line{});
     double* const memory = tapes_.front().of;
-    for (int lane = 0; lane < lanes(); ++lane)
-      runs_[lane]->use_tape(*code, memory + static_cast<std::size_t>(lane / width_) * room + lane % width_, width_);
+    for (int lane = 0; lane < lanes(); ++lane) {
+      double* const own = memory + static_cast<std::size_t>(lane / width_) * room + lane % width_;
+      runs_[lane]->use_tape(*code, own, own + series * width, width_);
+    }
     return {.code = code, .memory = memory, .room = room, .section = section, .exp = [](double x) {
               return portable::exp(x);
             }};

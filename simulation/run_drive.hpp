@@ -60,6 +60,9 @@ class DriveRun {
     if (listeners_.time) listeners_.time(now.t);
   }
 
+  /// Counts flank changes of which no rows are kept.
+  void changed_flank(long times) { counter_.changed_flank(times); }
+
   /// What a run amounts to that has come to its end.
   RunSummary finish() {
     if (listeners_.rows) {

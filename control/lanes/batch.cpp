@@ -13,6 +13,8 @@ int lanes_of(LaneKind kind) {
   return 1;
 }
 
+int lanes_of(LaneKind kind, const LaneVariant& variant) { return (variant.taped ? 2 : 1) * lanes_of(kind); }
+
 bool is_available([[maybe_unused]] LaneKind kind) {
 #if defined(__x86_64__)
   switch (kind) {

@@ -26,8 +26,8 @@ struct LaneSample {
 /// The equations of trials of which no step has a closed form.
 struct LaneTapes {
   const TapeCode* code = nullptr;  ///< what they have in common; nullptr: closed forms
-  double* memory = nullptr;        ///< TapeSeriesOf of each register, so many numbers
-  std::size_t room = 0;
+  double* memory = nullptr;        ///< of each register, so many numbers: TapeSeriesOf, and the numbers of a mode ...
+  std::size_t room = 0;            ///< ... across the switching surface
   /// The section of a table of a trial, lanes counted through, for an argument.
   SectionOf<double> (*section)(void* owner, int lane, int table, double x) = nullptr;
   /// e^x of any x, as a trial alone has it.
@@ -46,6 +46,7 @@ struct LaneBatch {
   LaneVariant variant;
   bool is_delayed;  ///< a torque is applied a sample after it was decided
   bool is_rough;    ///< an encoder counts, is noisy, or its zero is off
+  bool is_late;     ///< samples see the angle of some time ago, which is less than a sample
   /// Of every sample of all registers, sample by sample: the noise of the encoders [rad] and what disturbs the shafts
   /// [N m]; null where nothing is random.
   const double *noise, *disturbance;
@@ -60,6 +61,9 @@ struct LaneBatch {
   /// Sine and cosine of any angle, as a trial alone has them.
   SineAndCosine (*sine_and_cosine)(double angle);
 };
+
+/// Trials that take their samples side by side: those of a register, or of two where a step waits for its own results.
+int lanes_of(LaneKind kind, const LaneVariant& variant);
 
 /// Lets the trials of a batch take these samples. Every trial gets the bits that it would get alone.
 void take_samples(LaneKind kind, const LaneBatch& batch, std::span<const LaneSample> samples);

@@ -2,6 +2,7 @@
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 #include "control/lanes/taped_plant.hpp"
+#include "core/numbers/twice.hpp"
 #include "events/taylor/nominal/stribeck.hpp"
 
 // Included by one file for each instruction set, which instantiates it with a type of its own: nothing that is compiled
@@ -18,9 +19,7 @@ class LaneKernel {
   static void take(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
     const LaneVariant& v = batch.variant;
     if (v == LaneVariant{}) return take<LaneVariant{}>(batch, sample, end);
-    if (v.taped)
-      return v.pid ? take<LaneVariant{.ideal = false, .pid = true, .swings = false, .taped = true}>(batch, sample, end)
-                   : take<LaneVariant{.ideal = false, .swings = false, .taped = true}>(batch, sample, end);
+    if (v.taped) return LaneKernel<Twice<Width>>::take_taped(batch, sample, end);
     if (v.falls > 0) {  // whatever exponent and bearings
       const auto falling = [&]<bool pid>() {
         v.swings ? take<LaneVariant{.ideal = false, .pid = pid, .rubs = true, .falls = 1}>(batch, sample, end)
@@ -37,6 +36,12 @@ class LaneKernel {
       v.swings ? rubbing.template operator()<pid, true>() : rubbing.template operator()<pid, false>();
     };
     v.pid ? loaded.template operator()<true>() : loaded.template operator()<false>();
+  }
+
+  static void take_taped(const LaneBatch& batch, const LaneSample* sample, const LaneSample* end) {
+    return batch.variant.pid
+               ? take<LaneVariant{.ideal = false, .pid = true, .swings = false, .taped = true}>(batch, sample, end)
+               : take<LaneVariant{.ideal = false, .swings = false, .taped = true}>(batch, sample, end);
   }
 
  private:
@@ -63,7 +68,8 @@ class LaneKernel {
     const V theta_now = x.theta;
     SineAndCosineOf<V> gear{0.0, 1.0};
     if constexpr (variant.swings) gear = sine_and_cosine(batch, r, theta_now);
-    V shown = variant.ideal ? theta_now : theta_now + x.encoder_share * theta_now + x.encoder_zero;
+    const V seen = !variant.ideal && batch.is_late ? x.latched : theta_now;
+    V shown = variant.ideal ? seen : seen + x.encoder_share * seen + x.encoder_zero;
     if (!variant.ideal && batch.is_rough) shown = counted(batch, r, at, shown, x.count);
     const V speed = x.speed(shown);
     if (!variant.ideal && batch.is_rough) shown = shown + x.zero_error;
@@ -99,7 +105,15 @@ class LaneKernel {
       else if constexpr (!variant.rubs && variant.falls == 0)
         known = leap_with_lag<variant>(batch, sample, x, theta, omega, command, held, arm);
     }
-    const unsigned alone = set_bits(!known) & batch.alive[r];
+    unsigned alone = set_bits(!known) & batch.alive[r];
+    if constexpr (!variant.taped)
+      if (alone != 0U && batch.variant.response == MotorResponse::at_once) [[unlikely]] {
+        known = leap_on_other_flank<variant>(batch, sample, x, known, theta, omega, command, disturbance,
+                                             of_sum(gear, x.arm_offset));
+        alone = set_bits(!known) & batch.alive[r];
+      }
+    if constexpr (!variant.ideal && !variant.taped)
+      if (batch.is_late) latch<variant>(batch, sample, x, command, disturbance, of_sum(gear, x.arm_offset));
     if (alone == 0U) [[likely]] {
       x.theta = theta;
       x.omega = omega;
@@ -113,25 +127,59 @@ class LaneKernel {
   template <LaneVariant variant>
   [[gnu::always_inline]] static HeldTorquesOf<V> torques_under(const LaneBatch& batch, const LaneTrial<V>& x,
                                                                const V& command, const V& disturbance) {
-    return !variant.ideal && batch.disturbance ? x.drive.under(command, disturbance)
-                                               : x.drive.template under<variant.ideal>(command);
+    return !variant.ideal && batch.disturbance ? x.mode.drive.under(command, disturbance)
+                                               : x.mode.drive.template under<variant.ideal>(command);
   }
   /// One step by a formula, where it is certain beforehand.
   template <LaneVariant variant, class H>
   [[gnu::always_inline]] static LaneMask<Width> leap(const LaneBatch& batch, const LaneTrial<V>& x, V& theta, V& omega,
                                                      const H& h, const HeldTorquesOf<V>& held,
                                                      const SineAndCosineOf<V>& arm) {
-    const HeldMotionOf<V>& m = x.drive.held;
+    const HeldMotionOf<V>& m = x.mode.drive.held;
     const LaneMask<Width> goes_on = m.goes_on(omega, held, arm);
     if constexpr (variant.falls > 0) {
-      const FallOf<V> fall{
-          x.pull, x.bend, x.per_speed, x.speed_of_fall, batch.variant.falls, batch.variant.falls_with_tail};
+      const FallOf<V> fall{x.mode.pull,       x.mode.bend,         x.per_speed,
+                           1.0 / x.per_speed, batch.variant.falls, batch.variant.falls_with_tail};
       return goes_on &
              FallingLeap<V>::template take<variant.swings>(m, fall, theta, omega, h, held, arm, batch.accuracy);
     } else {
       return goes_on & m.template leap<variant.swings, variant.rubs>(theta, omega, h, held, arm, batch.accuracy);
     }
   }
+  /// Takes the angle that the next sample sees; where the step is not known, it does not count.
+  template <LaneVariant variant>
+  [[gnu::noinline]] static void latch(const LaneBatch& batch, const LaneSample& sample, LaneTrial<V>& x,
+                                      const V& command, const V& disturbance, const SineAndCosineOf<V>& arm) {
+    V speed = x.omega;
+    x.latched = x.theta;
+    leap<variant>(batch, x, x.latched, speed, (sample.next - x.age) - sample.t,
+                  torques_under<variant>(batch, x, command, disturbance), arm);
+  }
+  /// A step where a new torque lets the other flank carry: there the trial goes over to the mode across the surface.
+  /// Returns where the step is known after all.
+  template <LaneVariant variant>
+  [[gnu::noinline]] static LaneMask<Width> leap_on_other_flank(const LaneBatch& batch, const LaneSample& sample,
+                                                               LaneTrial<V>& x, const LaneMask<Width>& known, V& theta,
+                                                               V& omega, const V& command, const V& disturbance,
+                                                               const SineAndCosineOf<V>& arm) {
+    const LaneMask<Width> crossed =
+        (!known) &
+        x.mode.drive.held.changes_flank(x.omega, torques_under<variant>(batch, x, command, disturbance), arm);
+    if (!any(crossed)) return known;
+    change_mode(x, crossed);
+    V angle = x.theta, speed = x.omega;
+    const LaneMask<Width> leapt = crossed & leap<variant>(batch, x, angle, speed, sample.step,
+                                                          torques_under<variant>(batch, x, command, disturbance), arm);
+    theta = select(leapt, angle, theta);
+    omega = select(leapt, speed, omega);
+    change_mode(x, crossed & !leapt);
+    x.count_flank_changes(leapt, sample.counts);
+    return known | leapt;
+  }
+  static void change_mode(LaneTrial<V>& x, const LaneMask<Width>& which) {
+    swap_where<V>(which, reinterpret_cast<V*>(&x.mode), reinterpret_cast<V*>(&x.across), sizeof x.mode / sizeof(V));
+  }
+
   /// Two steps: under the torque of the command before, and under that of this one, held, from when it arrives.
   template <LaneVariant variant>
   [[gnu::noinline]] static LaneMask<Width> leap_after_delay(const LaneBatch& batch, const LaneSample& sample, int r,
@@ -155,10 +203,11 @@ class LaneKernel {
                                                          LaneTrial<V>& x, V& theta, V& omega, const V& command,
                                                          const HeldTorquesOf<V>& held, const SineAndCosineOf<V>& arm) {
     const V left = x.torque - command;
-    const LaggingTorqueOf<V> lagging{x.drive.of_decaying(left), DecayOf<V>(sample.step / x.behind)};
+    const DrivenMotionOf<V>& drive = x.mode.drive;
+    const LaggingTorqueOf<V> lagging{drive.of_decaying(left), DecayOf<V>(sample.step / x.behind)};
     const LaneMask<Width> known =
-        x.drive.held.goes_on(omega, held + lagging.left, arm) &
-        x.drive.held.template leap<variant.swings>(theta, omega, sample.step, held, lagging, arm, batch.accuracy);
+        drive.held.goes_on(omega, held + lagging.left, arm) &
+        drive.held.template leap<variant.swings>(theta, omega, sample.step, held, lagging, arm, batch.accuracy);
     x.torque = select(known, command + left * lagging.decay.left(), x.torque);
     return known;
   }

@@ -32,19 +32,30 @@ class TapedPlant {
     V t = sample.t, length = sample.step;
     active_ = set_bits(moves & ahead) & batch_.alive[r_];
     MotorTorque motor(*this, x, sample.t, command);
+    V taken = motion.leaps, latched = x.latched;
+    motor.expand(leap_.series()[TapeInput::command]);
     leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
+    const Mask crossed = ahead & leap_.changes_flank();
+    const bool crosses = (set_bits(crossed) & batch_.alive[r_]) != 0U;
+    if (crosses) [[unlikely]] {
+      change_mode(crossed);
+      leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
+    }
     Mask known = ahead & leap_.goes_on(), going = known;
-    V taken = motion.leaps;
     for (int leaps = 1;; ++leaps) {
       V end = length;
       Mask leapt = leap_.foresee(going, end, leap_.worth_while, batch_.accuracy, motor.reach(t),
                                  [&](const V& seconds) { return motor.change_within(seconds); });
       if (any(leapt)) {
-        motor.expand(leap_.series()[TapeInput::command]);
         leap_.follow(*this);
         leapt = leap_.end_with_sections(leapt, end) & (t + end > t);
         theta = select(leapt, leap_.angle_after(end), theta);
         omega = select(leapt, leap_.speed_after(end), omega);
+        if (batch_.is_late) {
+          const V latch = sample.next - x.age, then = select(end < length, t + end, V(sample.next));
+          const V angle = select(latch < then, leap_.angle_after(latch - t), theta);
+          latched = select(leapt & (latch > t) & (latch <= then), angle, latched);
+        }
       }
       taken = select(leapt, taken + 1.0, taken);
       known = known & (leapt | (!going));
@@ -54,11 +65,17 @@ class TapedPlant {
       length = select(going, sample.next - t, length);
       active_ = set_bits(going) & batch_.alive[r_];
       motor.turn_to(t);
+      motor.expand(leap_.series()[TapeInput::command]);
       leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
     }
     known = known & (!going);
     active_ = set_bits(known) & batch_.alive[r_];
+    if (crosses) [[unlikely]] {
+      change_mode(crossed & !known);
+      x.count_flank_changes(crossed & known, sample.counts);
+    }
     motion.leaps = select(known, taken, motion.leaps);
+    x.latched = select(known, latched, x.latched);
     motor.end_sample(known, sample.next);
     return known;
   }
@@ -131,6 +148,14 @@ class TapedPlant {
     V sample_, command_;
     V begin_, left_;  ///< of the torque before, at the sample and now
   };
+
+  /// Goes over to the modes across the switching surface, or back.
+  [[gnu::noinline]] void change_mode(const Mask& which) {
+    const TapeCode& code = *batch_.tapes.code;
+    V* const numbers = reinterpret_cast<V*>(&leap_.series().motion());
+    swap_where<V>(which, numbers, numbers + TapeSeriesOf<V>::room(code, TapedLeapOf<V>::stride),
+                  TapeSeriesOf<V>::numbers(code));
+  }
 
   /// Within a sample; what needs more goes on alone.
   static constexpr int most_leaps = 8;

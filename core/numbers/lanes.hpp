@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include "core/numbers/pair.hpp"
@@ -109,6 +110,16 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline V within_limits(const V& x, const V& low, const V& high) {
   return select(x < low, low, select(high < x, high, x));
+}
+
+/// Exchanges so many numbers with others in some lanes.
+template <class V>
+[[gnu::always_inline]] inline void swap_where(const MaskOf<V>& which, V* a, V* b, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const V mine = a[k];
+    a[k] = select(which, b[k], mine);
+    b[k] = select(which, mine, b[k]);
+  }
 }
 
 /// Two numbers that go through the same formulas; a Pair where they are those of one trial.

@@ -23,6 +23,7 @@ inline double log(double x) {
   // ln m = 2 artanh(t), |t| < 0.172
   const double f = m - 1.0, t = f / (2.0 + f), z = t * t;
   double sum = 0.0;
+#pragma GCC unroll 16
   for (int k = 23; k >= 3; k -= 2) sum = z * (sum + 1.0 / k);
   // 2 t = f - f t: f is exact, what is added to it is small
   const double rest = t * (f - 2.0 * sum);

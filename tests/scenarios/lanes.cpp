@@ -123,7 +123,8 @@ TEST_CASE("lanes: the same whatever law, load, bearings, encoder, motor and dela
              {none.front(), "sensor.zero_error_deg=-0.7"},
              {none.front(), "disturbance.deviation_Nm=2e-4", "disturbance={deviation_Nm=1e-4,time_constant_s=0.01}"},
              {none.front(), "controller.delay_samples=1"},
-             {none.front(), none.front(), none.front(), "effect.actuator_delay.delay_s=2e-4",
+             {none.front(), none.front(), "effect.encoder_delay.delay_s=3e-4", "effect.encoder_delay.delay_s=9.999e-4",
+              "effect.encoder_delay.delay_s=1e-9", "effect.actuator_delay.delay_s=2e-4",
               "effect.actuator_delay.delay_s=9.99e-4", "effect.actuator_lag.time_constant_s=1e-6",
               "effect.actuator_lag.time_constant_s=5e-4", "effect.actuator_lag.time_constant_s=0.02"}})
       changes.push_back(one_of(choices));
@@ -163,7 +164,7 @@ TEST_CASE("lanes: the same with a motor that answers late, by another time in ev
     }
 }
 
-TEST_CASE("lanes: the same where only some of the trials are noisy, count or are disturbed") {
+TEST_CASE("lanes: the same where only some of the trials are noisy, count, see late or are disturbed") {
   std::mt19937_64 random(18);
   std::vector<Scenario> scenarios;
   for (int k = 0; k < 16; ++k) {
@@ -173,6 +174,7 @@ TEST_CASE("lanes: the same where only some of the trials are noisy, count or are
     if (k % 4 == 1) control.sensor.counts = 4000;
     if (k % 5 == 2) control.disturbance = {.deviation = 2e-4, .seed = 1.0 + k};
     if (k % 7 == 3) control.sensor.zero_error = 1e-3;
+    if (k % 3 == 2) std::get<std::optional<EncoderDelay<double>>>(scenarios.back().effects.list).emplace(1e-4 * k);
   }
   require_the_same(scenarios);
 }

@@ -45,8 +45,12 @@ struct HeldMotionOf {
   /// Whether the mode certainly goes on under new torques: they are clear of the switching surface.
   [[gnu::always_inline]] Mask goes_on(const V& omega, const HeldTorquesOf<V>& held,
                                       const SineAndCosineOf<V>& arm) const {
-    const V rubbing = skew * omega, distance = held.beyond - lift * arm.cosine - rubbing;
-    return (motion * omega > 0.0) & (-flank * distance > 1e-3 * (abs(lift) + abs(rubbing)));
+    return clear_of_surface(omega, held, arm, -flank);
+  }
+  /// Whether the other flank certainly carries under them.
+  [[gnu::always_inline]] Mask changes_flank(const V& omega, const HeldTorquesOf<V>& held,
+                                            const SineAndCosineOf<V>& arm) const {
+    return clear_of_surface(omega, held, arm, flank);
   }
 
   /// Moves angle and speed on by h in one step, if it is certain beforehand that no guard falls through zero in it and
@@ -85,6 +89,13 @@ struct HeldMotionOf {
 
  private:
   static constexpr int longest = 9, longest_by_disc = 12;
+
+  /// Whether a moving drive is clear of the switching surface on a side of it.
+  [[gnu::always_inline]] Mask clear_of_surface(const V& omega, const HeldTorquesOf<V>& held,
+                                               const SineAndCosineOf<V>& arm, const V& side) const {
+    const V rubbing = skew * omega, distance = held.beyond - lift * arm.cosine - rubbing;
+    return (motion * omega > 0.0) & (side * distance > 1e-3 * (abs(lift) + abs(rubbing)));
+  }
 
   /// What is known of a step beforehand: whether no guard falls through zero, and what decides how many derivatives it
   /// needs. error, reach and allowed are squares, for a root would keep everything behind it waiting.

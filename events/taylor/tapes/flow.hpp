@@ -61,7 +61,6 @@ class TapedFlow<WormDrive<double, Load>> {
     // where sections of a table are short, a step would end with them, too
     const double part = course_->code.sections > 0 ? 0x1p-10 : TapedLeap::worth_while;
     if (!course_->leap->foresee(true, end, part, accuracy, reach, command_disc)) return false;
-    if (!motor.is_constant()) expand_command(now.t, TapedLeap::longest);
     course_->leap->follow(course_->tables);
     if (!course_->leap->end_with_sections(true, end) || !(now.t + end > now.t)) return false;
     now.x = state(end);
@@ -96,8 +95,8 @@ class TapedFlow<WormDrive<double, Load>> {
     const int last = accuracy.order();
     TapeSeriesOf<double>& series = course_->leap->series();
     begin(now);
+    h = std::min(h, course_->leap->longest_within_sections());
     course_->leap->expand_load(last);
-    if (!system_.motor_input().is_constant()) expand_command(now.t, highest_order);
     const double* const acceleration = series[series.code().acceleration];
     e.theta[0] = now.x[0];
     e.omega[0] = now.x[1];
@@ -219,12 +218,9 @@ class TapedFlow<WormDrive<double, Load>> {
 
   void begin(const Instant& now) {
     read_inputs();
+    expand_command(now.t);
     course_->leap->begin(now.t, now.x[0], now.x[1], system_.motor_input()(now.t), system_.disturbance(),
                          course_->tables);
-    if (!course_->command_moves) return;
-    double* const c = course_->leap->series()[In::command];
-    std::fill(c + 1, c + highest_order + 2, 0.0);
-    course_->command_moves = false;
   }
   /// The inputs that hold now.
   void read_inputs() {
@@ -246,10 +242,15 @@ class TapedFlow<WormDrive<double, Load>> {
       m.fastest = std::max(m.fastest, std::abs(wave.omega));
     }
   }
-  /// The series of the motor's command.
-  void expand_command(double t, int order) {
-    course_->command_moves = true;
-    expand_torque(system_.motor_input(), t, order, course_->leap->series()[In::command]);
+  /// The series of the motor's command, without its value.
+  void expand_command(double t) {
+    double* const c = course_->leap->series()[In::command];
+    const bool moves = !system_.motor_input().is_constant();
+    if (moves)
+      expand_torque(system_.motor_input(), t, highest_order, c);
+    else if (course_->command_moves)
+      std::fill(c + 1, c + highest_order + 2, 0.0);
+    course_->command_moves = moves;
   }
 
   /// How long the argument of a table stays in its section, within the step [s].

@@ -40,7 +40,7 @@ class TapedLeapOf {
   explicit TapedLeapOf(const TapeSeriesOf<V>& series) : series_(series) {}
 
   /// Takes up a moment [s, rad, rad/s] with what the motor is told and what disturbs the worm's shaft [N m], and works
-  /// out all that they come to.
+  /// out all that they come to. Further coefficients of the command are in their place.
   template <class Functions>
   [[gnu::always_inline]] void begin(const V& t, const V& theta, const V& omega, const V& motor, const V& disturbs,
                                     Functions&& functions) {
@@ -59,17 +59,22 @@ class TapedLeapOf {
     }
     series_[In::load][0] = torque;
     series_.work_out(0, series_.code().operations, functions);
+    if (series_.code().sections == 0) return;
+    expand_load(1);
+    series_[In::angle][1] = omega;
+    series_[In::speed][1] = series_[series_.code().acceleration][0];
+    series_.work_out(1, series_.code().of_acceleration, functions);  // of the arguments of tables
   }
 
   /// Whether the mode certainly goes on under new torques: they are clear of the switching surface, as
   /// WormDrive::flank_by_far() has it.
   [[gnu::always_inline]] Mask goes_on() const {
     const TapedMotionOf<V>& m = series_.motion();
-    const V distance = -m.flank * first(series_.code().beyond);
-    const V most = abs(first(series_.code().worm)) + abs(m.surface * first(series_.code().gear));
     const Mask without_teeth = !(m.flank != V(0.0));
-    return (m.motion * first(In::speed) > V(0.0)) & (without_teeth | (distance > 2e-3 * most));
+    return (without_teeth & moves()) | clear_of_surface(-m.flank);
   }
+  /// Whether the other flank certainly carries under them.
+  [[gnu::always_inline]] Mask changes_flank() const { return clear_of_surface(series_.motion().flank); }
 
   /// Where, among these, it is certain beforehand that no guard falls through zero within h [s] and how far the series
   /// must go, if the tables stay in their sections. h becomes shorter where that is not so for all of it, if that is at
@@ -84,7 +89,7 @@ class TapedLeapOf {
     const TapeCode& code = series_.code();
     const TapedMotionOf<V>& m = series_.motion();
     const V v = abs(first(In::speed)), alpha = first(code.acceleration);
-    h = least<V>(h, reach.leap);
+    h = least<V>(least<V>(h, reach.leap), longest_within_sections());
     const V T = least<V>(reach.leaps_in_disc * h, least<V>(m.time_disc, reach.disc)), turn = m.angle_disc;
     // A disc of the speed with which that of the angle is used up at about the same time.
     const V change =
@@ -92,14 +97,16 @@ class TapedLeapOf {
     const V factor = look(among, T, turn, change, command_disc);
     Mask certain = factor >= V(1.0);
     if (!all(certain | (!among))) {
-      // What bounds one of them need not bound the others: no more than the leap needs, else all in proportion.
-      const V smaller = (1.0 - 1e-6) * factor, less = smaller * change, near = least<V>(8.0 * h, less / abs(alpha));
+      // What bounds one of them need not bound the others: time as far as the others reach in proportion, and at least
+      // as far as the leap needs; else all in proportion.
+      const V smaller = (1.0 - 1e-6) * factor, less = smaller * change, reached = less / abs(alpha);
+      const V near = least<V>(reached, greatest<V>(8.0 * h, smaller * turn / (v + less)));
       certain = look(among & (!certain), least<V>(near, T),
                      least<V>(turn, greatest<V>(smaller * turn, near * (v + less))), less, command_disc) >= V(1.0);
       if (!all(certain | (!among)))
         certain = look(among & (!certain), smaller * T, smaller * turn, less, command_disc) >= V(1.0);
     }
-    const V strays = series_.radius(code.acceleration), disc = disc_of_times();
+    const V disc = disc_of_times();
     V ratio = above_one * h / disc;
     const Mask far = ratio > V(0.5);
     certain = certain & among & (part * ratio <= V(within_reach));
@@ -109,11 +116,12 @@ class TapedLeapOf {
     }
     if (!any(certain)) return certain;
 
-    const V bend = strays * ratio, gain = above_one * (abs(alpha) + bend) * h;
-    const V allowed = accuracy.allowed(v + gain, h) * (1.0 - ratio);
-    // of the arguments of tables it has to be known how they bend
-    terms_ = code.sections > 0 ? TermsOf<V>::needed(certain, 3, longest, bend * ratio * ratio, ratio, allowed)
-                               : TermsOf<V>::needed(certain, 1, longest, bend, ratio, allowed);
+    V gain = count_terms(certain, h, ratio, accuracy);
+    if (const Mask shorter = certain & (!terms_.suffice) & (ratio > V(within_reach)); any(shorter)) [[unlikely]] {
+      h = select(shorter, disc * (within_reach / above_one), h);
+      ratio = select(shorter, V(within_reach), ratio);
+      gain = count_terms(certain, h, ratio, accuracy);
+    }
     const Mask kept = terms_.suffice & keeps_mode(h, ratio), open = terms_.suffice & (!kept);
     if (!any(open)) return kept;
     // A disc hardly wider than the leap tells more of it.
@@ -129,8 +137,9 @@ class TapedLeapOf {
     expand_load();
     V *const theta = series_[In::angle], *const omega = series_[In::speed];
     const V* const acceleration = series_[series_.code().acceleration];
+    const int known = series_.code().sections > 0 ? 1 : 0;
     for (int k = 0; k < terms_.most; ++k) {
-      if (k > 0) series_.work_out(k, series_.code().of_acceleration, functions);
+      if (k > known) series_.work_out(k, series_.code().of_acceleration, functions);
       theta[k + 1] = omega[k] * one_over(k + 1);
       omega[k + 1] = acceleration[k] * one_over(k + 1);
     }
@@ -165,6 +174,18 @@ class TapedLeapOf {
     }
     return certain;
   }
+  /// How long a step may be that shall end with the section of a table that ends first, if arguments went on at the
+  /// rate that they have: a longer one would take terms that nobody asks for.
+  [[gnu::always_inline]] V longest_within_sections() const {
+    V length = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < series_.code().sections; ++k) {
+      const SectionOf<V>& section = series_.section(k);
+      const V* const x = series_[series_.code().arguments[k]];
+      const V left = select(x[1] > V(0.0), section.high - x[0], x[0] - section.low);
+      length = least<V>(length, 1.25 * left / abs(x[1]));
+    }
+    return length;
+  }
   /// Angle and speed so many seconds after the latest moment.
   V angle_after(const V& s) const { return value(series_[In::angle], terms_.most + 2, s); }
   V speed_after(const V& s) const { return value(series_[In::speed], terms_.most + 1, s); }
@@ -190,12 +211,29 @@ class TapedLeapOf {
 
  private:
   const V& first(int place) const { return series_[place][0]; }
+  [[gnu::always_inline]] Mask moves() const { return series_.motion().motion * first(In::speed) > V(0.0); }
+  /// Whether a moving drive is clear of the switching surface on a side of it.
+  [[gnu::always_inline]] Mask clear_of_surface(const V& side) const {
+    const V most = abs(first(series_.code().worm)) + abs(series_.motion().surface * first(series_.code().gear));
+    return moves() & (side * first(series_.code().beyond) > 2e-3 * most);
+  }
   /// The disc of times in which angle and speed stay in theirs.
   [[gnu::always_inline]] V disc_of_times() const {
     const V strays = series_.radius(series_.code().acceleration), alpha = abs(first(series_.code().acceleration));
     return least<V>(least<V>(series_.radius(In::speed) / (above_one * (alpha + strays)),
                              series_.radius(In::angle) / (abs(first(In::speed)) + series_.radius(In::speed))),
                     series_.radius(In::time));
+  }
+  /// Finds how many terms a leap of h [s] takes, so large a share of the way to the edge of the disc, and returns by
+  /// how much it may change the speed.
+  [[gnu::always_inline]] V count_terms(const Mask& among, const V& h, const V& ratio, const TaylorAccuracy& accuracy) {
+    const V bend = series_.radius(series_.code().acceleration) * ratio;
+    const V gain = above_one * (abs(first(series_.code().acceleration)) + bend) * h;
+    const V allowed = accuracy.allowed(abs(first(In::speed)) + gain, h) * (1.0 - ratio);
+    // of the arguments of tables it has to be known how they bend
+    terms_ = series_.code().sections > 0 ? TermsOf<V>::needed(among, 3, longest, bend * ratio * ratio, ratio, allowed)
+                                         : TermsOf<V>::needed(among, 1, longest, bend, ratio, allowed);
+    return gain;
   }
   /// Where no guard falls through zero and nothing leaves its range in a leap of h [s], so large a share of the way to
   /// the edge of the disc.
