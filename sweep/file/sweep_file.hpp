@@ -132,7 +132,7 @@ template <class Visit>
 void for_each_trial(const SweepReader& sweep, TrialRange range, Visit&& visit) {
   constexpr std::uint64_t at_once = 4096;
   for (std::uint64_t first = range.first; first < range.end; first += at_once)
-    for (const Trial& trial : sweep.read({first, std::min(first + at_once, range.end)})) visit(trial);
+    for (Trial& trial : sweep.read({first, std::min(first + at_once, range.end)})) visit(std::move(trial));
 }
 
 }  // namespace wormdrive

@@ -64,7 +64,11 @@ std::vector<Trial> SweepReader::read(TrialRange range) const {
     const std::vector<double> values = stored_->trials.column(name).values(row, range.size());
     for (std::size_t k = 0; k < trials.size(); ++k) put(trials[k], values[k]);
   };
-  each("index", [](Trial& t, double value) { t.index = static_cast<std::uint64_t>(value); });
+  each("index", [this](Trial& t, double value) {
+    t.index = static_cast<std::uint64_t>(value);
+    t.parameters.reserve(study_.parameters.size());
+    t.metrics.reserve(study_.metrics.size());
+  });
   for (const UncertainParameter& p : study_.parameters)
     each(p.name, [](Trial& t, double value) { t.parameters.push_back(value); });
   for (const Metric& m : study_.metrics) each(m.name, [](Trial& t, double value) { t.metrics.push_back(value); });

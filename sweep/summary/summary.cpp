@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -9,13 +10,14 @@
 
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
+#include "statistics/held_column.hpp"
 #include "statistics/order_statistics.hpp"
 #include "statistics/rank_correlation.hpp"
 
 namespace wormdrive {
 namespace {
 
-/// Goes through the columns of a sweep in parts, as often as it takes: memory does not grow with the trials.
+/// Goes through the columns of a sweep in parts, as often as it takes: of trials beyond millions memory does not grow.
 class Summariser {
  public:
   Summariser(const SweepReader& sweep, const SummarySettings& settings)
@@ -102,7 +104,8 @@ class Summariser {
     summary.metric = metric;
     summary.least = std::numeric_limits<double>::infinity();
     summary.greatest = -summary.least;
-    const Column column = last_of({metric.name});
+    const HeldColumn held(last_of({metric.name}));
+    const Column column = std::cref(held);
     double squares = 0.0;  // of distances from the mean so far, after Welford
     column([&](std::span<const double> values) {
       for (const double value : values) {
@@ -191,12 +194,15 @@ class Summariser {
     const std::vector<SobolIndex>& sobol = summary.sobol.of;
     const MetricSummary& any = summary.metrics.front();
     const std::uint64_t count = any.count + any.without;
-    const RankScale metric(last_of({ranked_by}), count);
+    const HeldColumn ranked(last_of({ranked_by}));
+    const RankScale metric(std::cref(ranked), count);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
       const std::string& name = study_.parameters[k].name;
-      const RankScale parameter(last_of({ranked_by, name}), count);
+      const HeldColumn values(last_of({ranked_by, name}));
+      const RankScale parameter(std::cref(values), count);
       const double correlation = rank_correlation(
           [&](const TakePairs& take) {
+            if (ranked.whole() && values.whole()) return take(*ranked.whole(), *values.whole());
             for_each_part({ranked_by, name}, [&](const auto& chosen) { take(chosen.front(), chosen.back()); });
           },
           metric, parameter);
