@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "simulation/held_torque.hpp"
 #include "simulation/lane_tape.hpp"
 #include "simulation/run_drive.hpp"
 
@@ -25,25 +26,6 @@ bool is_constant(const Signal& load) {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of a law for which nothing is promised.
 constexpr Lemma1Quiet<double> all_quiet{infinity, infinity, infinity};
-
-/// In the place of a controller.
-struct HeldTorque {
-  double torque = 0.0, disturbance = 0.0;
-  double latched = 0.0;  ///< the angle that the next sample sees, where it is late [rad]
-  bool held = false;
-
-  template <class Drive>
-  void latch(const Drive&, const typename Drive::Instant& now) {
-    latched = now.x[0];
-  }
-  bool pause() const { return held; }
-  template <class Drive>
-  double sample(Drive& drive, const typename Drive::Instant&) {
-    held = true;
-    drive.disturb(disturbance);
-    return torque;
-  }
-};
 
 template <class Load>
 class LaneRunOf final : public LaneRun {

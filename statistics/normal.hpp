@@ -6,6 +6,9 @@
 
 namespace wormdrive {
 
+/// Standard deviations of half a 95 % interval of a normal number: the quantile of 0.975.
+inline constexpr double normal_half_width = 1.959963984540054;
+
 /// The z below which a standard normal number lies with probability u, 0 < u < 1 [Wichura1988, AS 241, PPND16].
 inline double normal_quantile(double u) {
   using RationalTerms = std::array<double, 8>;

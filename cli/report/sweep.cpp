@@ -8,6 +8,7 @@
 #include "cli/report/kinds.hpp"
 #include "cli/report/thinning.hpp"
 #include "sweep/summary/summary.hpp"
+#include "sweep/summary/summary_tables.hpp"
 
 namespace wormdrive {
 namespace {
@@ -181,7 +182,7 @@ std::string verdict(const SweepSummary& summary) {
 
 ReportPage report_of_sweep(const ResultFile& file) {
   const SweepReader sweep(file.path());
-  const SweepSummary summary = summary_of(sweep, {.worst = 10});
+  const SweepSummary summary = summary_of(sweep, {.worst = worst_trials_listed});
   const Study& study = sweep.study();
   ReportPage page;
   page.summary = fmt::format("{} of {} trials{}, {} parameters; {} done, {} refused, {} halted", summary.trials,

@@ -1,6 +1,4 @@
 #pragma once
-#include <cstring>
-
 #include "control/lemma1_monitor.hpp"
 #include "control/metrics.hpp"
 #include "control/pid.hpp"
@@ -50,16 +48,6 @@ struct LaneTrial {
 };
 
 inline constexpr std::size_t lane_fields = sizeof(LaneTrial<double>) / sizeof(double);
-
-/// A struct of doubles out of its lane among others, as put_into_lane() has put it there. first: its own.
-template <class Fields>
-Fields from_lane(const double* first, std::size_t lanes) {
-  double list[sizeof(Fields) / sizeof(double)];
-  for (std::size_t k = 0; k < sizeof list / sizeof(double); ++k) list[k] = first[k * lanes];
-  Fields fields;
-  std::memcpy(&fields, list, sizeof fields);
-  return fields;
-}
 
 /// A trial in its lane among others.
 class Lane {

@@ -175,4 +175,14 @@ template <class Fields>
   for (std::size_t k = 0; k < sizeof fields / sizeof(double); ++k) first[k * lanes] = list[k];
 }
 
+/// Such a struct out of its lane.
+template <class Fields>
+Fields from_lane(const double* first, std::size_t lanes) {
+  double list[sizeof(Fields) / sizeof(double)];
+  for (std::size_t k = 0; k < sizeof list / sizeof(double); ++k) list[k] = first[k * lanes];
+  Fields fields;
+  __builtin_memcpy(&fields, list, sizeof fields);
+  return fields;
+}
+
 }  // namespace wormdrive

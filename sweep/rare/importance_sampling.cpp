@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "statistics/normal.hpp"
 #include "sweep/rare/normal_draws.hpp"
 
 namespace wormdrive {
@@ -29,9 +30,8 @@ RareEstimate importance_sampling(const LimitState& limit_state, const NormalPoin
   RareEstimate p{.probability = sum / count, .evaluations = settings.samples};
   const double variance = (squares / count - p.probability * p.probability) / (count - 1.0);
   p.variation = p.probability > 0.0 ? std::sqrt(std::max(variance, 0.0)) / p.probability : 0.0;
-  constexpr double quantile = 1.959963984540054;
-  p.low = std::max(0.0, p.probability * (1.0 - quantile * p.variation));
-  p.high = std::min(1.0, p.probability * (1.0 + quantile * p.variation));
+  p.low = std::max(0.0, p.probability * (1.0 - normal_half_width * p.variation));
+  p.high = std::min(1.0, p.probability * (1.0 + normal_half_width * p.variation));
   return p;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "statistics/normal.hpp"
 #include "sweep/rare/normal_draws.hpp"
 
 namespace wormdrive {
@@ -151,10 +152,9 @@ RareEstimate estimate_within(std::span<const SubsetLevel> levels) {
   double square = 0.0;
   for (const SubsetLevel& level : levels) square += level.variation * level.variation;
   // of a product the logarithm is normal
-  constexpr double quantile = 1.959963984540054;
   p.variation = std::sqrt(square);
-  p.low = p.probability * std::exp(-quantile * p.variation);
-  p.high = std::min(1.0, p.probability * std::exp(quantile * p.variation));
+  p.low = p.probability * std::exp(-normal_half_width * p.variation);
+  p.high = std::min(1.0, p.probability * std::exp(normal_half_width * p.variation));
   return p;
 }
 

@@ -4,6 +4,8 @@
 
 #include <boost/math/distributions/binomial.hpp>
 
+#include "statistics/normal.hpp"
+
 namespace wormdrive {
 namespace {
 constexpr double tail = 0.025;  ///< beyond either end of a 95 % interval
@@ -30,8 +32,8 @@ QuantileRanks quantile_ranks(std::uint64_t n, double p) {
 SampleEstimate rank_correlation_estimate(double r, std::uint64_t n) {
   const SampleEstimate estimate{r, 0.0, 0.0};
   if (n < 4 || !(std::abs(r) < 1.0)) return estimate.without_interval();
-  constexpr double widths = 1.959963984540054;  // of half an interval: the normal quantile of 0.975
-  const double z = std::atanh(r), half = widths * std::sqrt((1.0 + 0.5 * r * r) / (static_cast<double>(n) - 3.0));
+  const double z = std::atanh(r),
+               half = normal_half_width * std::sqrt((1.0 + 0.5 * r * r) / (static_cast<double>(n) - 3.0));
   return {r, std::tanh(z - half), std::tanh(z + half)};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/numbers/decay.hpp"
 #include "events/taylor/accuracy.hpp"
+#include "events/taylor/tapes/argument.hpp"
 #include "events/taylor/tapes/series.hpp"
 #include "events/taylor/terms.hpp"
 
@@ -158,7 +159,7 @@ class TapedLeapOf {
     Mask certain = among;
     for (int k = 0; k < series_.code().sections; ++k) {
       const SectionOf<V>& section = series_.section(k);
-      const Argument x = argument(series_.code().arguments[k], length);
+      const ArgumentOf<V, longest> x(series_[series_.code().arguments[k]], terms_, length);
       const V now = x.terms[0], first = x.terms[1], sides = abs(first) + x.bends;
       const Mask stays = (now + sides < section.high) & (now - sides > section.low);
       certain = certain & (stays | (2.0 * x.turns <= abs(first)));
@@ -272,42 +273,6 @@ class TapedLeapOf {
     const V x = m.fastest * seconds;
     const V growth = 1.0 + x * (1.0 / 2) * (1.0 + x * (1.0 / 3) * (1.0 + x * (1.0 / 4) * (1.0 + x * (1.3 / 5))));
     return select(seconds > V(0.0), seconds * (abs(m.slope) + m.steepness * growth), V(0.0));
-  }
-
-  /// The argument of a table over a length: its terms there, and what they come to.
-  struct Argument {
-    V terms[longest];
-    int count;
-    V moves;  ///< how far it gets
-    V bends;  ///< what all terms but the first may add to that ...
-    V turns;  ///< ... and to the first one's slope, times the length
-
-    /// By how many shares of the length a share is beyond that at which it has moved to the target, to first order.
-    V beyond(const V& target, const V& share) const {
-      V sum = 0.0, slope = 0.0;
-      for (int k = count - 1; k >= 1; --k) {
-        sum = (sum + terms[k]) * share;
-        slope = slope * share + static_cast<double>(k) * terms[k];
-      }
-      return (sum - target) / slope;
-    }
-  };
-  Argument argument(int place, const V& length) const {
-    Argument x;
-    x.count = terms_.most;
-    x.terms[0] = series_[place][0];
-    x.moves = x.bends = x.turns = V(0.0);
-    V power = length;
-    for (int k = 1; k < x.count; ++k, power = power * length) {
-      const Mask counts = V(static_cast<double>(k)) < terms_.of_each;  // as of a drive alone
-      const V term = select(counts, series_[place][k] * power, V(0.0));
-      x.terms[k] = term;
-      x.moves += term;
-      if (k == 1) continue;
-      x.bends += abs(term);
-      x.turns += static_cast<double>(k) * abs(term);
-    }
-    return x;
   }
 
   [[gnu::always_inline]] static V value(const V* c, int size, const V& s) {
