@@ -14,15 +14,19 @@ bool has_held_torque(const Scenario& scenario) {
          scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states();
 }
 
+/// How far apart two times of a run have to be, so that rounding does not make them one [s].
+double rounding_of_times(const Scenario& scenario) { return 4.0 * time_resolution(scenario.run.duration); }
+
 /// Whether a command reaches the motor before the next one is given, and the motor does not lag as well.
 bool arrives_within_sample(const Scenario& scenario) {
-  const double delay = scenario.effects.delay(), rounding = 4.0 * time_resolution(scenario.run.duration);
-  return delay <= 0.0 || (scenario.effects.lag() <= 0.0 && delay + rounding < scenario.control->sampling.period);
+  const double delay = scenario.effects.delay();
+  return delay <= 0.0 ||
+         (scenario.effects.lag() <= 0.0 && delay + rounding_of_times(scenario) < scenario.control->sampling.period);
 }
 
 /// Whether a sample sees the angle as it is, or one that is younger than the sample before, of a motion in one step.
 bool sees_within_sample(const Scenario& scenario) {
-  const double age = scenario.effects.measuring_delay(), rounding = 4.0 * time_resolution(scenario.run.duration);
+  const double age = scenario.effects.measuring_delay(), rounding = rounding_of_times(scenario);
   return age <= 0.0 || (age > rounding && age + rounding < scenario.control->sampling.period &&
                         scenario.effects.delay() <= 0.0 && scenario.effects.lag() <= 0.0);
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
@@ -9,12 +9,12 @@
 
 namespace wormdrive {
 
-/// A column that hands its values over from memory from the second time on, unless they are more than `most`.
+/// A column that hands its values over from memory from the second time on, unless they take more than 128 MB.
 class HeldColumn {
  public:
   explicit HeldColumn(Column column) : column_(std::move(column)) {}
 
-  void operator()(const TakeValues& take) const {
+  void operator()(const TakeValues& take) {
     if (whole_) return take(values_);
     bool fits = true;
     values_.clear();
@@ -23,10 +23,8 @@ class HeldColumn {
       fits = fits && values_.size() + part.size() <= most;
       if (fits) values_.insert(values_.end(), part.begin(), part.end());
     });
-    if (fits)
-      whole_ = true;
-    else
-      values_ = {};
+    whole_ = fits;
+    if (!fits) values_ = {};
   }
   /// All values, where they have been handed over and are held.
   std::optional<std::span<const double>> whole() const {
@@ -34,11 +32,11 @@ class HeldColumn {
   }
 
  private:
-  static constexpr std::size_t most = std::size_t{1} << 24U;  ///< 128 MB
+  static constexpr std::size_t most = std::size_t{1} << 24U;
 
   Column column_;
-  mutable std::vector<double> values_;
-  mutable bool whole_ = false;
+  std::vector<double> values_;
+  bool whole_ = false;
 };
 
 }  // namespace wormdrive

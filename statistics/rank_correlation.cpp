@@ -30,11 +30,7 @@ RankScale::RankScale(const Column& column, std::uint64_t count) {
 }
 
 std::size_t RankScale::interval(double value) const {
-  // std::lower_bound() without branches, which values in no order would mispredict
-  const double* first = ends_.data();
-  std::size_t left = ends_.size();
-  for (; left > 1; left -= left / 2) first += first[left / 2 - 1] < value ? left / 2 : 0;
-  return static_cast<std::size_t>(first - ends_.data()) + (left == 1 && *first < value ? 1 : 0);
+  return static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), value) - ends_.begin());
 }
 
 double rank_correlation(const PairColumn& pairs, const RankScale& first, const RankScale& second) {

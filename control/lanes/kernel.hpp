@@ -98,22 +98,18 @@ class LaneKernel {
     } else {
       const HeldTorquesOf<V> held = torques_under<variant>(batch, x, command, disturbance);
       const SineAndCosineOf<V> arm = of_sum(gear, x.arm_offset);
-      if (variant.ideal || batch.variant.response == MotorResponse::at_once) [[likely]]
+      if (variant.ideal || batch.variant.response == MotorResponse::at_once) [[likely]] {
         known = leap<variant>(batch, x, theta, omega, sample.step, held, arm);
-      else if (batch.variant.response == MotorResponse::after_delay)
+        if ((set_bits(!known) & batch.alive[r]) != 0U) [[unlikely]]
+          known = leap_on_other_flank<variant>(batch, sample, x, known, theta, omega, command, disturbance, arm);
+        if (!variant.ideal && batch.is_late) latch<variant>(batch, sample, x, command, disturbance, arm);
+      } else if (batch.variant.response == MotorResponse::after_delay) {
         known = leap_after_delay<variant>(batch, sample, r, x, theta, omega, command, disturbance, held, arm);
-      else if constexpr (!variant.rubs && variant.falls == 0)
+      } else if constexpr (!variant.rubs && variant.falls == 0) {
         known = leap_with_lag<variant>(batch, sample, x, theta, omega, command, held, arm);
-    }
-    unsigned alone = set_bits(!known) & batch.alive[r];
-    if constexpr (!variant.taped)
-      if (alone != 0U && batch.variant.response == MotorResponse::at_once) [[unlikely]] {
-        known = leap_on_other_flank<variant>(batch, sample, x, known, theta, omega, command, disturbance,
-                                             of_sum(gear, x.arm_offset));
-        alone = set_bits(!known) & batch.alive[r];
       }
-    if constexpr (!variant.ideal && !variant.taped)
-      if (batch.is_late) latch<variant>(batch, sample, x, command, disturbance, of_sum(gear, x.arm_offset));
+    }
+    const unsigned alone = set_bits(!known) & batch.alive[r];
     if (alone == 0U) [[likely]] {
       x.theta = theta;
       x.omega = omega;

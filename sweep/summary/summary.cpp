@@ -104,8 +104,8 @@ class Summariser {
     summary.metric = metric;
     summary.least = std::numeric_limits<double>::infinity();
     summary.greatest = -summary.least;
-    const HeldColumn held(last_of({metric.name}));
-    const Column column = std::cref(held);
+    HeldColumn held(last_of({metric.name}));
+    const Column column = std::ref(held);
     double squares = 0.0;  // of distances from the mean so far, after Welford
     column([&](std::span<const double> values) {
       for (const double value : values) {
@@ -194,12 +194,12 @@ class Summariser {
     const std::vector<SobolIndex>& sobol = summary.sobol.of;
     const MetricSummary& any = summary.metrics.front();
     const std::uint64_t count = any.count + any.without;
-    const HeldColumn ranked(last_of({ranked_by}));
-    const RankScale metric(std::cref(ranked), count);
+    HeldColumn ranked(last_of({ranked_by}));
+    const RankScale metric(std::ref(ranked), count);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
       const std::string& name = study_.parameters[k].name;
-      const HeldColumn values(last_of({ranked_by, name}));
-      const RankScale parameter(std::cref(values), count);
+      HeldColumn values(last_of({ranked_by, name}));
+      const RankScale parameter(std::ref(values), count);
       const double correlation = rank_correlation(
           [&](const TakePairs& take) {
             if (ranked.whole() && values.whole()) return take(*ranked.whole(), *values.whole());

@@ -109,20 +109,18 @@ class TapedLeapOf {
     }
     const V disc = disc_of_times();
     V ratio = above_one * h / disc;
-    const Mask far = ratio > V(0.5);
     certain = certain & among & (part * ratio <= V(within_reach));
-    if (any(far & certain)) {
-      h = select(far & certain, disc * (within_reach / above_one), h);
-      ratio = select(far, V(within_reach), ratio);
-    }
     if (!any(certain)) return certain;
-
+    const auto shorten = [&](const Mask& which) {
+      if (!any(which)) return false;
+      h = select(which, disc * (within_reach / above_one), h);
+      ratio = select(which, V(within_reach), ratio);
+      return true;
+    };
+    shorten(certain & (ratio > V(0.5)));
     V gain = count_terms(certain, h, ratio, accuracy);
-    if (const Mask shorter = certain & (!terms_.suffice) & (ratio > V(within_reach)); any(shorter)) [[unlikely]] {
-      h = select(shorter, disc * (within_reach / above_one), h);
-      ratio = select(shorter, V(within_reach), ratio);
+    if (shorten(certain & (!terms_.suffice) & (ratio > V(within_reach)))) [[unlikely]]
       gain = count_terms(certain, h, ratio, accuracy);
-    }
     const Mask kept = terms_.suffice & keeps_mode(h, ratio), open = terms_.suffice & (!kept);
     if (!any(open)) return kept;
     // A disc hardly wider than the leap tells more of it.
