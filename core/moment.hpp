@@ -17,6 +17,12 @@ struct Moment {
   S rest{-1.0};
 };
 
+/// A moment of a drive that turns, for what depends on the direction alone.
+template <class S>
+Moment<S> turning() {
+  return {S(0.0), S(0.0), S(1.0), S(1.0), S(0.0)};
+}
+
 /// A moment that says what the motor is told [N m], in the place of its input: for derivatives by that.
 template <class S>
 struct CommandedMoment : Moment<S> {

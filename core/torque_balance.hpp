@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/effects.hpp"
+#include "core/loads/given_load.hpp"
 #include "core/mesh.hpp"
 #include "core/moment.hpp"
 #include "core/motor_input.hpp"
@@ -93,6 +94,14 @@ class TorqueBalance {
     else
       return motor_(at.t);
   }
+  /// The load at a moment, which may say itself what its functions of time come to.
+  template <class S, template <class> class M>
+  decltype(auto) load_at(const M<S>& at) const {
+    if constexpr (requires { at.load_over_time; })
+      return GivenLoad<Load, S>{load_, at.load_over_time};
+    else
+      return (load_);
+  }
   /// The smooth piece of the motor's command that holds now [N m].
   const Piece& motor_piece() const { return motor_.piece(); }
   const MotorInput<T>& motor_input() const { return motor_; }
@@ -119,8 +128,8 @@ class TorqueBalance {
   void for_each_bend(const M<S>& at, Motion motion, Visit&& visit) const {
     const Moment<S> at_load = effects_.at_load(at);
     if constexpr (requires { load_.for_each_bend(at_load, visit); }) load_.for_each_bend(at_load, visit);
-    if (bends_with_load_) visit(effects_.load_torque(load_, at, motion));
-    if constexpr (std::is_same_v<M<S>, MomentOfEffects<S>>) {
+    if (bends_with_load_) visit(effects_.load_torque(load_at(at), at, motion));
+    if constexpr (requires { at.states; }) {
       // the direction of a load behind a coupling is no mode of the drive
       if constexpr (requires { load_.depends_on_direction(); })
         if (effects_.twisting_coupling() && load_.depends_on_direction()) visit(at_load.omega_g);
@@ -160,7 +169,7 @@ class TorqueBalance {
   /// states of effects or without.
   template <class S, template <class> class M>
   SideTorques<S> inputs(const M<S>& at, Motion motion) const {
-    return {effects_.motor_torque(command_at(at), at), effects_.load_torque(load_, at, motion)};
+    return {effects_.motor_torque(command_at(at), at), effects_.load_torque(load_at(at), at, motion)};
   }
   template <class S, template <class> class M>
   SideTorques<S> side_torques(const M<S>& at, Motion motion) const {
@@ -189,7 +198,10 @@ class TorqueBalance {
 
   template <class S, template <class> class M>
   SideTorques<S> side_torques(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
-    return with_bearings<S>({input.worm + disturbance_, input.gear}, at, motion);
+    if constexpr (requires { at.disturbance; })
+      return with_bearings<S>({input.worm + at.disturbance, input.gear}, at, motion);
+    else
+      return with_bearings<S>({input.worm + disturbance_, input.gear}, at, motion);
   }
   template <class S, template <class> class M>
   SideTorques<S> with_bearings(const SideTorques<S>& input, const M<S>& at, Motion motion) const {
@@ -207,14 +219,6 @@ class TorqueBalance {
     const S idle = effects_.worm_torque(at, Motion::stuck);
     const S least = effects_.worm_torque(at, Motion::forward), most = effects_.worm_torque(at, Motion::backward);
     return idle < least ? least : idle > most ? most : idle;
-  }
-  /// Whether what acts on a shaft depends on the direction of its motion, whatever its speed.
-  bool worm_is_dry() const {
-    return depends_on_motion([this](Motion motion) { return effects_.worm_torque(turning(), motion); });
-  }
-  bool gear_is_dry() const {
-    return depends_on_motion([this](Motion motion) { return effects_.gear_torque(T(1), turning(), motion); }) ||
-           depends_on_motion([this](Motion motion) { return effects_.load_torque(load_, turning(), motion); });
   }
   /// m = motion * flank * mu.
   template <class S, template <class> class M>
@@ -271,13 +275,8 @@ class TorqueBalance {
   template <template <class> class M>
   int counted_bends() const {
     int count = 0;
-    for_each_bend(M<T>{turning()}, Motion::stuck, [&](const auto&) { ++count; });
+    for_each_bend(M<T>{turning<T>()}, Motion::stuck, [&](const auto&) { ++count; });
     return count;
-  }
-  static Moment<T> turning() { return {T(0), T(0), T(1), T(1), T(0)}; }
-  template <class Torque>
-  static bool depends_on_motion(Torque torque) {
-    return torque(Motion::forward) != torque(Motion::backward);
   }
 
   GearMesh<T> mesh_;

@@ -84,7 +84,7 @@ class WormDrive : public TorqueBalance<T, Load> {
   /// Rates of the states of effects. M is a moment with these.
   template <class S, template <class> class M>
   auto state_rates(const M<S>& at, Mode mode) const {
-    return wormdrive::state_rates(effects(), this->command_at(at), mesh(), this->load(), at, mode.motion,
+    return wormdrive::state_rates(effects(), this->command_at(at), mesh(), this->load_at(at), at, mode.motion,
                                   [&] { return this->friction_loss(at, mode); });
   }
   Jacobian jacobian(double t, const State& x, Mode mode) const requires std::same_as<T, double> {

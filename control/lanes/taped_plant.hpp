@@ -1,10 +1,11 @@
 #pragma once
+#include <array>
 #include <limits>
 
 #include "control/lanes/angles.hpp"
 #include "control/lanes/batch.hpp"
 #include "core/numbers/exponential.hpp"
-#include "events/taylor/tapes/leap.hpp"
+#include "events/taylor/tapes/leap_by_terms.hpp"
 #include "events/taylor/tapes/operations.hpp"
 
 // Included by one file for each instruction set, as kernel.hpp is.
@@ -22,7 +23,7 @@ class TapedPlant {
       : batch_(batch),
         r_(r),
         leap_(TapeSeriesOf<V>(*batch.tapes.code, batch.tapes.memory + static_cast<std::size_t>(r) * batch.tapes.room,
-                              TapedLeapOf<V>::stride)) {}
+                              TapedLeapOf<V>::stride(*batch.tapes.code))) {}
 
   /// Moves angle and speed on to the next sample where that is certain beforehand, and returns where it is.
   [[gnu::always_inline]] Mask step(const LaneSample& sample, LaneTrial<V>& x, V& theta, V& omega, const V& command,
@@ -33,6 +34,7 @@ class TapedPlant {
     active_ = set_bits(moves & ahead) & batch_.alive[r_];
     MotorTorque motor(*this, x, sample.t, command);
     V taken = motion.leaps, latched = x.latched;
+    LaneStates states(leap_.series());
     motor.expand(leap_.series()[TapeInput::command]);
     leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
     const Mask crossed = ahead & leap_.changes_flank();
@@ -44,13 +46,12 @@ class TapedPlant {
     Mask known = ahead & leap_.goes_on(), going = known;
     for (int leaps = 1;; ++leaps) {
       V end = length;
-      Mask leapt = leap_.foresee(going, end, leap_.worth_while, batch_.accuracy, motor.reach(t),
-                                 [&](const V& seconds) { return motor.change_within(seconds); });
+      Mask leapt = states.any() ? leap_by_terms(going, end) : foresee_and_follow(going, end, motor, t);
       if (any(leapt)) {
-        leap_.follow(*this);
         leapt = leap_.end_with_sections(leapt, end) & (t + end > t);
         theta = select(leapt, leap_.angle_after(end), theta);
         omega = select(leapt, leap_.speed_after(end), omega);
+        states.go_on(leap_, leapt, end);
         if (batch_.is_late) {
           const V latch = sample.next - x.age, then = select(end < length, t + end, V(sample.next));
           const V angle = select(latch < then, leap_.angle_after(latch - t), theta);
@@ -64,6 +65,7 @@ class TapedPlant {
       t = select(going, t + end, t);
       length = select(going, sample.next - t, length);
       active_ = set_bits(going) & batch_.alive[r_];
+      states.leave();
       motor.turn_to(t);
       motor.expand(leap_.series()[TapeInput::command]);
       leap_.begin(t, theta, omega, motor.now(), disturbance, *this);
@@ -74,6 +76,7 @@ class TapedPlant {
       change_mode(crossed & !known);
       x.count_flank_changes(crossed & known, sample.counts);
     }
+    states.end_sample(known);
     motion.leaps = select(known, taken, motion.leaps);
     x.latched = select(known, latched, x.latched);
     motor.end_sample(known, sample.next);
@@ -132,7 +135,7 @@ class TapedPlant {
       return lags_ ? abs(left_) * (plant_.exp(seconds * (1.0 / trial_.behind)) - 1.0) : V(0.0);
     }
     [[gnu::always_inline]] void expand(V* c) const {
-      if (lags_) expand_decay(left_, trial_.behind, TapedLeapOf<V>::longest, c);
+      if (lags_) expand_decay(left_, trial_.behind, TapedLeapOf<V>::stride(*plant_.batch_.tapes.code) - 2, c);
     }
     /// Keeps what the torque has become at the next sample.
     [[gnu::always_inline]] void end_sample(const Mask& known, double next) {
@@ -149,11 +152,50 @@ class TapedPlant {
     V begin_, left_;  ///< of the torque before, at the sample and now
   };
 
+  /// The states of effects in the course of a sample, which begin where the series do.
+  class LaneStates {
+   public:
+    explicit LaneStates(TapeSeriesOf<V>& series) : series_(series), count_(series.code().states) {
+      for (int k = 0; k < count_; ++k) now_[k] = begin_[k] = first(k);
+    }
+    bool any() const { return count_ > 0; }
+    void go_on(const TapedLeapOf<V>& leap, const Mask& leapt, const V& seconds) {
+      for (int k = 0; k < count_; ++k) now_[k] = select(leapt, leap.state_after(k, seconds), now_[k]);
+    }
+    /// Leaves them to the series that begin there.
+    void leave() {
+      for (int k = 0; k < count_; ++k) first(k) = now_[k];
+    }
+    /// The same for the next sample; where this one is not known, those at its begin.
+    void end_sample(const Mask& known) {
+      for (int k = 0; k < count_; ++k) first(k) = select(known, now_[k], begin_[k]);
+    }
+
+   private:
+    V& first(int k) { return series_[TapeInput::first_state + k][0]; }
+
+    TapeSeriesOf<V>& series_;
+    int count_;
+    std::array<V, TapeCode::most_states> begin_, now_;
+  };
+
+  [[gnu::always_inline]] Mask foresee_and_follow(const Mask& going, V& end, const MotorTorque& motor, const V& t) {
+    const Mask leapt = leap_.foresee(going, end, leap_.worth_while, batch_.accuracy, motor.reach(t),
+                                     [&](const V& seconds) { return motor.change_within(seconds); });
+    if (any(leapt)) leap_.follow(*this);
+    return leapt;
+  }
+  [[gnu::noinline]] Mask leap_by_terms(const Mask& going, V& end) {
+    LeapByTerms<V> by_terms(leap_);
+    const Mask holds = going & by_terms.holds();
+    return any(holds) ? by_terms.take(holds, end, batch_.accuracy, *this) : holds;
+  }
+
   /// Goes over to the modes across the switching surface, or back.
   [[gnu::noinline]] void change_mode(const Mask& which) {
     const TapeCode& code = *batch_.tapes.code;
     V* const numbers = reinterpret_cast<V*>(&leap_.series().motion());
-    swap_where<V>(which, numbers, numbers + TapeSeriesOf<V>::room(code, TapedLeapOf<V>::stride),
+    swap_where<V>(which, numbers, numbers + TapeSeriesOf<V>::room(code, TapedLeapOf<V>::stride(code)),
                   TapeSeriesOf<V>::numbers(code));
   }
 

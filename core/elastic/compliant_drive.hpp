@@ -8,6 +8,7 @@
 
 #include "core/elastic/compliant_mode.hpp"
 #include "core/elastic/contact_law.hpp"
+#include "core/elastic/dry_shafts.hpp"
 #include "core/numbers/portable.hpp"
 #include "core/worm_drive.hpp"
 
@@ -39,8 +40,8 @@ class CompliantDrive {
     gear_normal_ = teeth.gear_arm(T(0));
     worm_lateral_ = cos(teeth.lambda) * teeth.lw;
     gear_lateral_ = sin(teeth.lambda) * teeth.lg;
-    worm_is_dry_ = teeth.mu > T(0) || effects().change_friction() || rigid_.worm_is_dry();
-    gear_is_dry_ = rigid_.gear_is_dry();
+    worm_is_dry_ = teeth.mu > T(0) || effects().change_friction() || wormdrive::worm_is_dry(rigid_);
+    gear_is_dry_ = wormdrive::gear_is_dry(rigid_);
   }
 
   const GearMesh<T>& mesh() const { return rigid_.mesh(); }

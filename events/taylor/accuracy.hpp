@@ -24,10 +24,9 @@ inline double rough_exp2(double y) {
 /// The tolerances are errors per second of simulated time, so that the error of a run does not depend on into how
 /// many steps samples and inputs cut it; a step that is longer than a second has the error of one, as with CVODE.
 class TaylorAccuracy {
+ public:
   /// Coefficients whose terms a step is judged by. A motion from rest under a ramp may have four in a row that vanish.
   static constexpr int window = 6;
-
- public:
   static constexpr int least_order = window + 2;  ///< below which no series is judged
 
   explicit TaylorAccuracy(const SolverSettings& settings)

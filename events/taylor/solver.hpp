@@ -10,12 +10,11 @@
 #include "events/segment_start.hpp"
 #include "events/simulation_failure.hpp"
 #include "events/solver_settings.hpp"
-#include "events/taylor/leave_rest.hpp"
 #include "events/taylor/nominal/flow.hpp"
-#include "events/taylor/nominal/start.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
 #include "events/taylor/tapes/flow.hpp"
+#include "events/taylor/vanishing_at_start.hpp"
 #include "events/timetable.hpp"
 
 namespace wormdrive {
@@ -46,8 +45,8 @@ class TaylorSolver {
 
   /// The state after a guard has fired.
   Instant jump(const Instant& now, int guard) {
-    if constexpr (NominalFlow<System>::known)
-      if (!System::at_rest(now.mode) && guard == System::flank_guard &&
+    if constexpr (requires { System::across_surface(now.mode); })
+      if (now.mode.motion != Motion::stuck && guard == System::flank_guard &&
           falls_through(series_.guard(guard), length_,
                         roundings_of_series * guard_series<0>(system_, now)[guard][0].rounding, time_resolution(now.t)))
         return {now.t, now.x, System::across_surface(now.mode), now.since};
@@ -121,6 +120,7 @@ class TaylorSolver {
   /// Goes on without a search for events to the limit, or to where a formula ends, where they can vouch for it.
   bool leap(Instant& now, double limit) {
     leapt_ = Leap::none;
+    taped_covers_ = false;
     if (limit - now.t > max_step_) return false;
     bool held = false;
     if constexpr (NominalFlow<System>::known) {
@@ -138,7 +138,10 @@ class TaylorSolver {
   /// Whether a series around the begin may reach to the end: an input turns by less than half a radian.
   bool covers_phase(double begin, double end) const { return (end - begin) * system_.fastest_input(begin) <= 0.5; }
   [[gnu::noinline]] bool leap_by_tape(Instant& now, double limit) {
-    if constexpr (TapedFlow<System>::known) return taped_.covers(now.mode) && taped_.leap(now, limit, accuracy_);
+    if constexpr (TapedFlow<System>::known) {
+      taped_covers_ = taped_.covers(now);
+      return taped_covers_ && taped_.leap(now, limit, accuracy_);
+    }
     return false;
   }
 
@@ -155,7 +158,7 @@ class TaylorSolver {
     const double s = t == end_ ? length_ : t - begin_.t;
     if (leapt_ == Leap::none) then.x = SeriesFlow<System>::state_after(series_, s);
     if constexpr (TapedFlow<System>::known)
-      if (leapt_ == Leap::taped) then.x = taped_.state(t - begin_.t);
+      if (leapt_ == Leap::taped) then.x = taped_.state(begin_.x, t - begin_.t);
     System::keep_within_mode(then);
     return then;
   }
@@ -171,7 +174,7 @@ class TaylorSolver {
       throw SolverFault("the acceleration is not a finite number");
     std::array<std::size_t, System::guard_count> vanishing{};
     for (int g = 0; g < System::guard_count; ++g)
-      if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(now, g);
+      if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(system_, nominal_, series_, now, g);
 
     // The end of the step is a double, and the step ends there exactly.
     end_ = series_.step < limit - now.t ? std::min(now.t + series_.step, limit) : limit;
@@ -199,9 +202,9 @@ class TaylorSolver {
       length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
-    if (const auto bend = bends_.none() ? std::nullopt
-                                        : bends_.first_within(flow_.bends(), series_.order,
-                                                              length_ + time_resolution(end_), search_)) {
+    if (const auto bend = bends_.none()
+                              ? std::nullopt
+                              : bends_.first_within(bends(), series_.order, length_ + time_resolution(end_), search_)) {
       // Of a bend and a guard that falls there the bend comes first: behind it the guard may be another one. What has
       // stepped behind it goes on by the equations of that side, also where the clock would not have seen it pass.
       end_ = std::min(std::max(now.t + *bend, brief ? now.t : std::nextafter(now.t, limit)), limit);
@@ -240,9 +243,18 @@ class TaylorSolver {
   void expand(const Instant& now, double h) {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
-    if constexpr (TapedFlow<System>::known)
-      if (bends_.none() && taped_.covers(now.mode)) return taped_.expand(now, h, accuracy_, series_);
+    if constexpr (TapedFlow<System>::known) {
+      // with states the tape holds from where the latest leap was tried
+      expanded_by_tape_ = System::state_size > 2 ? taped_covers_ : bends_.none() && taped_.covers(now);
+      if (expanded_by_tape_) return taped_.expand(now, h, accuracy_, series_);
+    }
     flow_.expand(system_, now, h, accuracy_, series_);
+  }
+
+  std::vector<Coefficients> bends() {
+    if constexpr (TapedFlow<System>::known)
+      if (expanded_by_tape_) return taped_.bends(series_.order);
+    return flow_.bends();
   }
 
   /// Whether nothing decides what a guard does just after the start of a segment; a motion that has no speed yet goes
@@ -258,20 +270,6 @@ class TaylorSolver {
     return {search_.first_fall({c.data(), series_.guard(guard).size()}, length_, true).at, false};
   }
 
-  /// How many leading coefficients of a guard vanish within their rounding at the start of a segment.
-  std::size_t vanishing_at_start(const Instant& now, int guard) {
-    if constexpr (NominalFlow<System>::known)
-      if (const auto few = vanishing_by_far(system_, nominal_, series_, now, guard)) return *few;
-    const Polynomial c = series_.guard(guard);
-    const double resolution = time_resolution(now.t);
-    if (const auto few = undecided_at_once(guard_series<1>(system_, now)[guard], c[2], c[3], resolution)) return *few;
-    constexpr int last = 4;
-    const auto ahead = guard_series<last>(system_, now)[guard];
-    const int vanishing = undecided(ahead, resolution);
-    if (guard == System::speed_guard && System::leaves_rest(now))
-      leave_rest(series_, guard, ahead, vanishing, resolution);
-    return vanishing > last ? c.size() : static_cast<std::size_t>(vanishing);
-  }
   static constexpr int most_stalled = 1000, most_steps = 100'000;
 
   const System& system_;
@@ -282,10 +280,12 @@ class TaylorSolver {
   SeriesFlow<System> flow_;
   BendWatch<System> bends_;
   typename SeriesFlow<System>::Motion series_;
-  Instant begin_{};      ///< of the present step
-  double end_ = 0.0;     ///< of the present step [s] ...
-  double length_ = 0.0;  ///< ... and how far it goes, which may be less than time resolves [s]
-  double waited_ = 0.0;  ///< how long the clock has stood [s]
+  Instant begin_{};                ///< of the present step
+  double end_ = 0.0;               ///< of the present step [s] ...
+  double length_ = 0.0;            ///< ... and how far it goes, which may be less than time resolves [s]
+  double waited_ = 0.0;            ///< how long the clock has stood [s]
+  bool taped_covers_ = false;      ///< the moment at which the latest leap was tried ...
+  bool expanded_by_tape_ = false;  ///< ... and the present step is by the tape
   enum class Leap { none, nominal, taped };
   Leap leapt_ = Leap::none;  ///< the step is a leap to there_; else series_ describes it
   Instant there_{};

@@ -14,7 +14,7 @@
 #include "description/rejection.hpp"
 #include "description/toml/write_scenario.hpp"
 #include "events/simulation_failure.hpp"
-#include "simulation/lane_run.hpp"
+#include "simulation/lanes/lane_run.hpp"
 #include "simulation/stepping/drive_stepper.hpp"
 #include "simulation/write_run.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "cli/program.hpp"
-#include "simulation/lane_run.hpp"
+#include "simulation/lanes/lane_run.hpp"
 #include "simulation/load_scenario.hpp"
 
 // Several closed-loop runs in the lanes of one register: each gets the bits that it gets alone.

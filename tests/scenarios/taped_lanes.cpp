@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "cli/program.hpp"
 #include "scenarios/lanes.hpp"
-#include "simulation/lane_run.hpp"
+#include "simulation/lanes/lane_run.hpp"
 #include "simulation/load_scenario.hpp"
 
 // Runs whose equations are on tapes, in the lanes of one register: each gets the bits that it gets alone.

@@ -7,11 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/worm_drive.hpp"
 #include "events/taylor/input.hpp"
 #include "events/taylor/polynomial_root.hpp"
 #include "events/taylor/series.hpp"
-#include "events/taylor/tapes/leap.hpp"
+#include "events/taylor/tapes/course.hpp"
 
 namespace wormdrive {
 
@@ -23,59 +22,67 @@ class TapedFlow {
   explicit TapedFlow(const System&) {}
 };
 
-/// The motion of a worm drive with any effects by its own equations, recorded once in each mode: what SeriesFlow finds,
-/// many times faster.
-template <class Load>
-class TapedFlow<WormDrive<double, Load>> {
+/// The motion of a worm drive with any effects by its own equations, recorded once in each mode, and with states once
+/// for every way in which comparisons turn out: what SeriesFlow finds, many times faster.
+template <class Load, bool with_states>
+class TapedFlow<WormDrive<double, Load, with_states>> {
  public:
   static constexpr bool known = true;
-  using System = WormDrive<double, Load>;
+  using System = WormDrive<double, Load, with_states>;
   using Instant = typename System::Instant;
-  using Motion = Expansion<System::guard_count>;
+  using Motion = Expansion<System::guard_count, System::state_size - 2>;
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
   explicit TapedFlow(const System& system)
       : system_(system), changes_(std::isfinite(system.effects().next_knot(-never))) {}
 
-  /// False where equations in this mode cannot be recorded.
-  bool covers(Mode mode) {
+  /// False where the equations that hold now cannot be recorded.
+  bool covers(const Instant& now) {
     if (changes_) return false;
-    const int at = (sign(mode.motion) > 0 ? 3 : 0) + sign(mode.flank) + 1;
-    course_ = courses_[static_cast<std::size_t>(at)].get();
-    if (course_ == nullptr) [[unlikely]]
-      course_ = (courses_[static_cast<std::size_t>(at)] = std::make_unique<Course>(system_, mode)).get();
+    const int at = (sign(now.mode.motion) > 0 ? 3 : 0) + sign(now.mode.flank) + 1;
+    std::vector<std::unique_ptr<Course>>& known_ones = courses_[static_cast<std::size_t>(at)];
+    if constexpr (with_states) return now.mode.motion != wormdrive::Motion::stuck && covers_one_of(known_ones, now);
+    if (known_ones.empty()) [[unlikely]]
+      known_ones.push_back(std::make_unique<Course>(system_, now.mode, now));
+    course_ = known_ones.front().get();
     return course_->leap.has_value();
   }
 
-  /// One step in a mode that is covered, to next or to where a section of a table ends, if it is certain beforehand
-  /// that no guard falls through zero in it and how far the series must go; otherwise nothing changes.
+  /// One step where the equations are covered, to next or to where its series or a section of a table ends, if it is
+  /// certain that no guard falls through zero in it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     const double h = next - now.t;
-    begin(now);
-    const MotorInput<double>& motor = system_.motor_input();
-    const auto command_disc = [&](double seconds) { return motor.change_within(now.t, seconds); };
-    CommandReach<double> reach{never, never, TapedLeap::farthest};
-    if (motor.lags()) reach = reach_of_lag(motor.lag(), now.t - motor.arrival());
-    reach.disc = std::min(reach.disc, 1.0 / motor.piece().fastest());
     double end = h;
-    // where sections of a table are short, a step would end with them, too
-    const double part = course_->code.sections > 0 ? 0x1p-10 : TapedLeap::worth_while;
-    if (!course_->leap->foresee(true, end, part, accuracy, reach, command_disc)) return false;
-    course_->leap->follow(course_->tables);
+    if constexpr (with_states) {  // covers() has taken up the moment
+      LeapByTerms<double> by_terms(*course_->leap);
+      const bool certain = by_terms.take(true, end, accuracy, course_->tables);
+      worked_out_ = by_terms.worked_out();
+      if (!certain) return false;
+    } else {
+      begin(now);
+      if (!foresee(now, end, accuracy)) return false;
+      course_->leap->follow(course_->tables);
+    }
     if (!course_->leap->end_with_sections(true, end) || !(now.t + end > now.t)) return false;
-    now.x = state(end);
+    now.x = state(now.x, end);
     now.t = end < h ? now.t + end : next;
     return true;
   }
-  /// Angle and speed so many seconds after the latest leap began.
-  typename System::State state(double s) const {
-    return {course_->leap->angle_after(s), course_->leap->speed_after(s)};
+  /// The state so many seconds after the latest leap began, in one.
+  typename System::State state(typename System::State x, double s) const {
+    x[0] = course_->leap->angle_after(s);
+    x[1] = course_->leap->speed_after(s);
+    for (std::size_t k = 0; k < states().size(); ++k)
+      x[static_cast<int>(2 + states()[k])] = course_->leap->state_after(static_cast<int>(k), s);
+    return x;
   }
 
   // ---- for lanes -----------------------------------------------------------------------------------------------
 
-  /// The operations in a mode; nullptr where its equations cannot be recorded.
-  const TapeCode* code(Mode mode) { return covers(mode) ? &course_->code : nullptr; }
+  /// The operations of the equations that hold now; nullptr where they cannot be recorded.
+  const TapeCode* code(const Instant& now) { return covers(now) ? &course_->code : nullptr; }
+  /// Which states of effects they have, by their places among all.
+  const std::vector<std::size_t>& states() const { return course_->states(); }
   /// The numbers of the latest mode and of the inputs that hold until they become others [s].
   const double* numbers(double next_knot) {
     read_inputs();
@@ -90,135 +97,92 @@ class TapedFlow<WormDrive<double, Load>> {
     return course_->leap->series().section(number);
   }
 
-  /// The motion from now on in a mode that is covered, accurate over a step of at most h.
+  /// The motion from now on where the equations are covered, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const int last = accuracy.order();
-    TapeSeriesOf<double>& series = course_->leap->series();
-    begin(now);
-    h = std::min(h, course_->leap->longest_within_sections());
-    course_->leap->expand_load(last);
-    const double* const acceleration = series[series.code().acceleration];
-    e.theta[0] = now.x[0];
-    e.omega[0] = now.x[1];
-    double allowed = accuracy.allowed(e.omega[0], h), power = 1.0 / h;  // power: h^(k-1)
+    TapedLeap& leap = *course_->leap;
+    TapeSeriesOf<double>& series = leap.series();
+    if constexpr (!with_states) begin(now);  // else covers() has taken up the moment
+    h = std::min(h, leap.longest_within_sections());
+    leap.expand_load(last);
+    const double* const omega = series[In::speed];
+    double allowed = accuracy.allowed(now.x[1], h), power = 1.0 / h;  // power: h^(k-1)
     bool suffices = false;
     for (int k = 0;; ++k) {
-      series[In::angle][k] = e.theta[k];
-      series[In::speed][k] = e.omega[k];
-      if (k > 0) series.work_out(k, series.code().operations, course_->tables);
+      if (k >= worked_out_) series.work_out(k, series.code().operations, course_->tables);
+      leap.expand_motion(k);
       if (k == last) break;
-      if (k >= TaylorAccuracy::least_order && std::abs(e.omega[k]) * power <= allowed) {
-        complete(now.mode, k, e);
+      if (k >= TaylorAccuracy::least_order && std::abs(omega[k]) * power <= allowed) {
+        complete(now, k, e);
         suffices = accuracy.suffices(e, h);
         if (suffices) break;
         // a guard is near its root, and has to be exact to rounding; the speed has to be before it can be
         allowed = std::min(allowed, TaylorAccuracy::rounding_of(e.speed(), h) / h);
       }
       power *= h;
-      e.theta[k + 1] = e.omega[k] * reciprocal[k + 1];
-      e.omega[k + 1] = acceleration[k] * reciprocal[k + 1];
     }
     e.step = h;
     if (!suffices) {
-      complete(now.mode, last, e);
+      complete(now, last, e);
       e.step = accuracy.step(e, h);
     }
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
-    if (course_->has_exponential) SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
+    if (with_states ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->has_exponential)
+      SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
+  }
+  /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
+  std::vector<Coefficients> bends(int order) const {
+    std::vector<Coefficients> all(course_->bends().size(), Coefficients{});
+    for (std::size_t k = 0; k < all.size(); ++k) put(course_->bends()[k], order, all[k]);
+    return all;
   }
 
  private:
+  using Course = TapeCourse<System>;
   using TapedLeap = TapedLeapOf<double>;
   static constexpr double never = std::numeric_limits<double>::infinity();
   using In = TapeInput;
 
-  /// The equations in one mode.
-  class Course {
-   public:
-    Course(const System& system, Mode mode) {
-      using Side = typename System::template SideTorques<Taped>;
-      const auto at = system.moment(tape_.input(In::time), tape_.input(In::angle), tape_.input(In::speed));
-      const Taped motor = system.effects().motor_torque(tape_.input(In::command), at);
-      const Side tau = system.with_bearings(Side{motor + tape_.input(In::disturbance), load_torque(system, at, mode)},
-                                            at, mode.motion);
-      code.acceleration = tape_.place(system.acceleration(tau, at, mode));
-      code.of_acceleration = static_cast<int>(tape_.steps().size());
-      code.beyond = tape_.place(system.beyond_surface(tau, at));
-      code.worm = tape_.place(tau.worm);
-      code.gear = tape_.place(tau.gear);
-      if (!tape_.is_complete()) return;
-      has_exponential = !tape_.exponents().empty();
-      for (const Tape::Condition& c : tape_.conditions()) bounded_.push_back(c.place);
-      code.steps = tape_.steps().data();
-      code.operations = static_cast<int>(tape_.steps().size());
-      code.places = tape_.places();
-      code.bounded = bounded_.data();
-      code.arguments = tape_.arguments().data();
-      code.bounds = static_cast<int>(bounded_.size());
-      code.sections = static_cast<int>(tape_.arguments().size());
-      code.lags = system.motor_input().lags();
-      if (const TimedLoad* const timed = over_time(system.load()))
-        code.waves = static_cast<int>(timed->signal.terms.size());
-      memory.assign(TapeSeriesOf<double>::room(code, stride), 0.0);
-      leap.emplace(TapeSeriesOf<double>(code, memory.data(), stride));
-      TapeSeriesOf<double>& series = leap->series();
-      for (std::size_t k = 0; k < tape_.steps().size(); ++k)
-        series.line(static_cast<int>(k)) = {tape_.steps()[k].factor, tape_.steps()[k].offset};
-      for (std::size_t k = 0; k < bounded_.size(); ++k)
-        series.least_of(static_cast<int>(k)) = tape_.conditions()[k].least;
-      TapedMotionOf<double>& motion = series.motion();
-      motion.motion = sign(mode.motion);
-      motion.flank = sign(mode.flank);
-      motion.surface = system.surface();
-      const double ripple = system.ripple();
-      motion.angle_disc = ripple > 0.0 ? TapeSeriesOf<double>::widest / ripple : 1.0;
-      tables = TapeTables(tape_, series);
-    }
-    Course(const Course&) = delete;  // what is in it points to the rest
-    Course& operator=(const Course&) = delete;
+  /// So many ways in which comparisons turn out in a mode are kept; behind them a drive goes on without leaps.
+  static constexpr std::size_t most_ways = 16;
 
-    TapeCode code;
-    std::vector<double> memory;
-    std::optional<TapedLeap> leap;  ///< nothing where the equations could not be recorded
-    TapeTables tables;
-    bool has_exponential = false;  ///< of what moves: its terms may be too small to be seen at first
-    bool command_moves = false;    ///< the series of the command has more than a value
-
-   private:
-    static constexpr int stride = highest_order + 2;  ///< a search for events takes the longest series
-
-    /// A load of which the functions of time are an input.
-    struct Given {
-      const Load& all;
-      Taped over_time;
-      Taped torque(const Moment<Taped>& at, wormdrive::Motion motion) const {
-        if constexpr (requires { all.torque(over_time, at, motion); })
-          return all.torque(over_time, at, motion);
-        else
-          return over_time;
-      }
+  bool covers_one_of(std::vector<std::unique_ptr<Course>>& known_ones, const Instant& now) {
+    const auto holds = [&](Course& course) {
+      course_ = &course;
+      begin(now);
+      return LeapByTerms<double>(*course.leap).holds();
     };
-    Taped load_torque(const System& system, const Moment<Taped>& at, Mode mode) {
-      if (over_time(system.load()) == nullptr) return system.effects().load_torque(system.load(), at, mode.motion);
-      return system.effects().load_torque(Given{system.load(), tape_.input(In::load)}, at, mode.motion);
-    }
+    for (auto& course : known_ones)
+      if (holds(*course)) {
+        std::swap(course, known_ones.front());
+        return true;
+      }
+    if (known_ones.size() == most_ways) return false;
+    auto course = std::make_unique<Course>(system_, now.mode, now);
+    if (!course->leap) return false;
+    known_ones.push_back(std::move(course));
+    return holds(*known_ones.back());
+  }
 
-    Tape tape_{In::count};
-    std::vector<int> bounded_;
-  };
-
-  /// What of a load depends on time alone, or nullptr.
-  static const TimedLoad* over_time(const Load& load) {
-    if constexpr (requires { load.over_time(); })
-      return load.over_time();
-    else
-      return nullptr;
+  /// Whether a leap is certain beforehand, to its end or to an earlier one.
+  bool foresee(const Instant& now, double& end, const TaylorAccuracy& accuracy) {
+    const MotorInput<double>& motor = system_.motor_input();
+    const auto command_disc = [&](double seconds) { return motor.change_within(now.t, seconds); };
+    CommandReach<double> reach{never, never, TapedLeap::farthest};
+    if (motor.lags()) reach = reach_of_lag(motor.lag(), now.t - motor.arrival());
+    reach.disc = std::min(reach.disc, 1.0 / motor.piece().fastest());
+    // where sections of a table are short, a step would end with them, too
+    const double part = course_->code.sections > 0 ? 0x1p-10 : TapedLeap::worth_while;
+    return course_->leap->foresee(true, end, part, accuracy, reach, command_disc);
   }
 
   void begin(const Instant& now) {
+    worked_out_ = 1;
     read_inputs();
     expand_command(now.t);
+    for (std::size_t k = 0; k < states().size(); ++k)
+      course_->leap->series()[In::first_state + static_cast<int>(k)][0] = now.x[static_cast<int>(2 + states()[k])];
     course_->leap->begin(now.t, now.x[0], now.x[1], system_.motor_input()(now.t), system_.disturbance(),
                          course_->tables);
   }
@@ -269,23 +233,41 @@ class TapedFlow<WormDrive<double, Load>> {
     return end;
   }
 
-  /// Angle and guards to the order to which the speed is known.
-  void complete(Mode mode, int order, Motion& e) const {
+  /// Motion and guards to an order, out of the series.
+  void complete(const Instant& now, int order, Motion& e) const {
+    const TapedLeap& leap = *course_->leap;
+    const TapeSeriesOf<double>& series = leap.series();
     e.order = order;
-    const double* const beyond = course_->leap->series()[course_->code.beyond];
-    const double motion = sign(mode.motion), side = -sign(mode.flank);
+    std::copy_n(series[In::angle], order + 1, e.theta.begin());
+    std::copy_n(series[In::speed], order + 1, e.omega.begin());
     e.theta[order + 1] = e.omega[order] * reciprocal[order + 1];
+    const double* const beyond = series[course_->code.beyond];
+    const double motion = sign(now.mode.motion), side = -sign(now.mode.flank);
     for (int k = 0; k <= order; ++k) {
       e.guards[System::speed_guard][k] = motion * e.omega[k];
       e.guards[System::flank_guard][k] = side * beyond[k];
     }
-    if (mode.flank == Flank::none) e.guards[System::flank_guard][0] = 1.0;
+    if (now.mode.flank == Flank::none) e.guards[System::flank_guard][0] = 1.0;
+    if constexpr (with_states) {
+      for (int k = 0; k < System::state_size - 2; ++k) e.states[k][0] = now.x[2 + k];
+      for (std::size_t k = 0; k < states().size(); ++k)
+        std::copy_n(series[In::first_state + static_cast<int>(k)], order + 1, e.states[states()[k]].begin());
+      put(course_->way_to_stop(), order, e.guards[System::stop_guard]);
+    }
   }
+  /// Sets c to the series of a multiple of what stands in a place.
+  void put(const Tape::Multiple& of, int order, Coefficients& c) const {
+    const double* const series = course_->leap->series()[of.place];
+    for (int k = 0; k <= order; ++k) c[k] = of.factor * series[k];
+    c[0] += of.constant;
+  }
+
   const System& system_;
-  bool changes_;  ///< an effect is another one from a given time on
-  std::array<std::unique_ptr<Course>, 6> courses_;
-  Course* course_ = nullptr;  ///< of the latest mode
-  RootSearch search_;         ///< of the ends of sections
+  bool changes_;                                                 ///< an effect is another one from a given time on
+  std::array<std::vector<std::unique_ptr<Course>>, 6> courses_;  ///< of each mode
+  Course* course_ = nullptr;                                     ///< of the latest one
+  int worked_out_ = 0;                                           ///< coefficients of all operations
+  RootSearch search_;                                            ///< of the ends of sections
 };
 
 }  // namespace wormdrive

@@ -1,27 +1,11 @@
 #pragma once
-#include "core/numbers/decay.hpp"
 #include "events/taylor/accuracy.hpp"
 #include "events/taylor/tapes/argument.hpp"
+#include "events/taylor/tapes/reach.hpp"
 #include "events/taylor/tapes/series.hpp"
 #include "events/taylor/terms.hpp"
 
 namespace wormdrive {
-
-/// How far a step may follow the torque of a motor [s]: a leap, and the disc of complex times around its begin, which
-/// is no more than so many leaps wide.
-template <class V>
-struct CommandReach {
-  V leap, disc;
-  double leaps_in_disc;
-};
-/// A torque that follows its command with a lag [s], so long after that came [s]. At the edge of the disc what is left
-/// of the torque before is e^2.25 of what it was at the command: the less it is now, the further a leap gets.
-template <class V>
-[[gnu::always_inline]] inline CommandReach<V> reach_of_lag(const V& lag, const V& elapsed) {
-  constexpr double leaps_in_disc = 4.0;  // so far 20 terms are exact
-  const V disc = 2.25 * lag + elapsed;
-  return {(1.0 / leaps_in_disc) * disc, disc, leaps_in_disc};
-}
 
 /// One step of a drive whose equations are on a tape, without a search for events: of one drive or of several at once.
 template <class V>
@@ -30,9 +14,12 @@ class TapedLeapOf {
   using Mask = MaskOf<V>;
   using In = TapeInput;
 
-  static constexpr int longest = 20;          ///< coefficients of the acceleration
-  static constexpr int stride = longest + 2;  ///< that the angle has
-  static constexpr double farthest = 64.0;    ///< leaps that the disc of times is wide
+  static constexpr int longest = 20;  ///< coefficients of the acceleration ...
+  /// ... and where they are judged by their terms: a state that follows fast takes fewer of them in long steps.
+  static constexpr int longest_by_terms = highest_order;
+  /// Coefficients of the angle.
+  static int stride(const TapeCode& code) { return 2 + (code.states > 0 ? longest_by_terms : longest); }
+  static constexpr double farthest = 64.0;  ///< leaps that the disc of times is wide
   /// Of the way to the edge of the disc, where a leap ends that would get further than half of it.
   static constexpr double within_reach = 0.25;
   /// The part of what was asked for that is worth a leap.
@@ -62,8 +49,7 @@ class TapedLeapOf {
     series_.work_out(0, series_.code().operations, functions);
     if (series_.code().sections == 0) return;
     expand_load(1);
-    series_[In::angle][1] = omega;
-    series_[In::speed][1] = series_[series_.code().acceleration][0];
+    expand_motion(0);
     series_.work_out(1, series_.code().of_acceleration, functions);  // of the arguments of tables
   }
 
@@ -134,20 +120,34 @@ class TapedLeapOf {
   template <class Functions>
   [[gnu::always_inline]] void follow(Functions&& functions) {
     expand_load();
-    V *const theta = series_[In::angle], *const omega = series_[In::speed];
-    const V* const acceleration = series_[series_.code().acceleration];
     const int known = series_.code().sections > 0 ? 1 : 0;
     for (int k = 0; k < terms_.most; ++k) {
       if (k > known) series_.work_out(k, series_.code().of_acceleration, functions);
-      theta[k + 1] = omega[k] * one_over(k + 1);
-      omega[k + 1] = acceleration[k] * one_over(k + 1);
+      expand_motion(k);
     }
+    end_series(terms_);
+  }
+  /// Works out coefficient k + 1 of angle, speed and states.
+  [[gnu::always_inline]] void expand_motion(int k) {
+    const TapeCode& code = series_.code();
+    const V share = one_over(k + 1);
+    series_[In::angle][k + 1] = series_[In::speed][k] * share;
+    series_[In::speed][k + 1] = series_[code.acceleration][k] * share;
+    for (int j = 0; j < code.states; ++j) series_[In::first_state + j][k + 1] = series_[code.rates[j]][k] * share;
+  }
+  /// Lets the series have so many terms.
+  [[gnu::always_inline]] void end_series(const TermsOf<V>& terms) {
+    terms_ = terms;
+    const TapeCode& code = series_.code();
+    V *const theta = series_[In::angle], *const omega = series_[In::speed];
     theta[terms_.most + 1] = omega[terms_.most] * one_over(terms_.most + 1);
     if constexpr (!std::is_same_v<V, double>)
-      for (int k = 1; k <= terms_.most; ++k) {  // a drive alone would have stopped there
+      for (int k = terms_.fewest + 1; k <= terms_.most; ++k) {  // a drive alone would have stopped there
         const Mask counts = V(static_cast<double>(k)) <= terms_.of_each;
-        omega[k] = select(counts, omega[k], V(0.0));
-        theta[k + 1] = select(counts, theta[k + 1], V(0.0));
+        const auto cut = [&](V& c) { c = select(counts, c, V(0.0)); };
+        cut(omega[k]);
+        cut(theta[k + 1]);
+        for (int j = 0; j < code.states; ++j) cut(series_[In::first_state + j][k]);
       }
   }
   /// Lets a leap end behind the first point of a table that is met within its length [s], and returns where, among
@@ -157,7 +157,7 @@ class TapedLeapOf {
     Mask certain = among;
     for (int k = 0; k < series_.code().sections; ++k) {
       const SectionOf<V>& section = series_.section(k);
-      const ArgumentOf<V, longest> x(series_[series_.code().arguments[k]], terms_, length);
+      const ArgumentOf<V, longest_by_terms> x(series_[series_.code().arguments[k]], terms_, length);
       const V now = x.terms[0], first = x.terms[1], sides = abs(first) + x.bends;
       const Mask stays = (now + sides < section.high) & (now - sides > section.low);
       certain = certain & (stays | (2.0 * x.turns <= abs(first)));
@@ -188,6 +188,7 @@ class TapedLeapOf {
   /// Angle and speed so many seconds after the latest moment.
   V angle_after(const V& s) const { return value(series_[In::angle], terms_.most + 2, s); }
   V speed_after(const V& s) const { return value(series_[In::speed], terms_.most + 1, s); }
+  V state_after(int state, const V& s) const { return value(series_[In::first_state + state], terms_.most + 1, s); }
 
   TapeSeriesOf<V>& series() { return series_; }
   const TapeSeriesOf<V>& series() const { return series_; }

@@ -24,11 +24,11 @@ template <class V>
   for (int j = 1; j <= k; ++j) sum += a[j] * b[k - j];
   return sum;
 }
-/// Coefficient k - 1 of a' b, times k.
+/// Coefficient k - 1 of a' b, times k. slope: its coefficients j a[j].
 template <class V>
-[[gnu::always_inline]] inline V chain(const V* a, const V* b, int k) {
+[[gnu::always_inline]] inline V chain(const V* slope, const V* b, int k) {
   V sum = 0.0;
-  for (int j = 1; j <= k; ++j) sum += static_cast<double>(j) * a[j] * b[k - j];
+  for (int j = 1; j <= k; ++j) sum += slope[j] * b[k - j];
   return sum;
 }
 /// Lengths of a section of a table within which the disc of an argument stays: its cubic holds for all arguments, but
@@ -60,8 +60,11 @@ void TapeSeriesOf<V>::work_out(int k, int operations, Functions&& functions) {
     const V* const b = (*this)[step->b];
     V* const r = (*this)[step->result];
     switch (step->operation) {
-      case Operation::add: r[k] = a[k] + b[k]; break;
-      case Operation::subtract: r[k] = a[k] - b[k]; break;
+      case Operation::combine: {
+        const V sum = line->factor * a[k] + line->second * b[k];
+        r[k] = k == 0 ? sum + line->offset : sum;
+        break;
+      }
       case Operation::multiply: r[k] = product(a, b, k); break;
       case Operation::affine: r[k] = k == 0 ? line->factor * a[0] + line->offset : line->factor * a[k]; break;
       case Operation::divide:
@@ -74,19 +77,25 @@ void TapeSeriesOf<V>::work_out(int k, int operations, Functions&& functions) {
         break;
       }
       case Operation::sine_cosine: {
-        V* const cosine = (*this)[step->result + 1];
+        V *const cosine = (*this)[step->result + 1], *const slope = (*this)[step->result + 2];
+        slope[k] = static_cast<double>(k) * a[k];
         if (k == 0) {
           const SineAndCosineOf<V> start = functions.sine_and_cosine(a[0]);
           r[0] = start.sine;
           cosine[0] = start.cosine;
         } else {
-          const V rises = chain(a, cosine, k), falls = chain(a, r, k);
+          const V rises = chain(slope, cosine, k), falls = chain(slope, r, k);
           r[k] = rises * share;
           cosine[k] = -falls * share;
         }
         break;
       }
-      case Operation::exponential: r[k] = k == 0 ? functions.exp(a[0]) : chain(a, r, k) * share; break;
+      case Operation::exponential: {
+        V* const slope = (*this)[step->result + 1];
+        slope[k] = static_cast<double>(k) * a[k];
+        r[k] = k == 0 ? functions.exp(a[0]) : chain(slope, r, k) * share;
+        break;
+      }
       case Operation::square_root: {
         V rest = a[k];
         for (int j = 1; j < k; ++j) rest = rest - r[j] * r[k - j];
@@ -128,8 +137,7 @@ void TapeSeriesOf<V>::work_out_discs() {
     const V ra = radius(s->a), rb = radius(s->b);
     V& r = radius(s->result);
     switch (s->operation) {
-      case Operation::add:
-      case Operation::subtract: r = ra + rb; break;
+      case Operation::combine: r = abs(line->factor) * ra + abs(line->second) * rb; break;
       case Operation::multiply: r = size(s->a) * rb + ra * (size(s->b) + rb); break;
       case Operation::affine: r = abs(line->factor) * ra; break;
       case Operation::divide:
@@ -179,8 +187,7 @@ V TapeSeriesOf<V>::shrinking() const {
         within(radius(s->a), tape_operations::sections_seen * (section->high - section->low));
         ++section;
         break;
-      case Operation::add:
-      case Operation::subtract:
+      case Operation::combine:
       case Operation::multiply:
       case Operation::affine: break;
     }

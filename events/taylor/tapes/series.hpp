@@ -12,21 +12,27 @@
 
 namespace wormdrive {
 
-/// What the equations on a tape take from outside, in the places that come first.
+/// What the equations on a tape take from outside, in the places that come first; states of effects come behind.
 struct TapeInput {
-  enum : int { time, angle, speed, command, load, disturbance, count };
+  enum : int { time, angle, speed, command, load, disturbance, first_state };
 };
 
 /// The operations on a tape and which of their results count, without any number: what drives that have the same
 /// effects have in common. The tape must outlive it.
 struct TapeCode {
+  static constexpr int most_states = 16;
+
   const Tape::Step* steps = nullptr;
-  int operations = 0, of_acceleration = 0;  ///< all, and those up to the acceleration
-  int places = 0;
+  int operations = 0, of_acceleration = 0;  ///< all, and those up to the acceleration and the rates of the states
+  int places = 0, states = 0;
   int acceleration = 0, beyond = 0, worm = 0, gear = 0;  ///< places of what counts
   const int* bounded = nullptr;                          ///< places that are bound to a least value ...
   const int* arguments = nullptr;                        ///< ... or to a section of a table
   int bounds = 0, sections = 0;
+  const int* rates = nullptr;      ///< places of the rates of the states
+  const int* decisions = nullptr;  ///< places that have to stay on their sides ...
+  const int* exponents = nullptr;  ///< ... and those of the arguments of exponentials
+  int comparisons = 0, exponentials = 0;
   int waves = 0;      ///< of the load over time
   bool lags = false;  ///< the motor's torque follows its command with a lag
 
@@ -47,10 +53,16 @@ struct SectionOf {
   V low, high, begin, value, slope, second, third;
 };
 
+/// The value on a side of which something has to stay: above, 1, or below, -1.
+template <class V>
+struct SideOf {
+  V value, side;
+};
+
 /// The constants of an operation.
 template <class V>
 struct LineOf {
-  V factor, offset;
+  V factor, offset, second;
 };
 
 /// What a leap needs of a drive in one mode beside the operations of its tape, of one drive or of several at once. It
@@ -82,7 +94,8 @@ class TapeSeriesOf {
     waves_ = reinterpret_cast<WaveOf<V>*>(motion_ + 1);
     lines_ = reinterpret_cast<LineOf<V>*>(waves_ + code.waves);
     least_ = reinterpret_cast<V*>(lines_ + code.operations);
-    sections_ = reinterpret_cast<SectionOf<V>*>(least_ + code.bounds);
+    sides_ = reinterpret_cast<SideOf<V>*>(least_ + code.bounds);
+    sections_ = reinterpret_cast<SectionOf<V>*>(sides_ + code.comparisons);
     radii_ = reinterpret_cast<V*>(sections_ + code.sections);
     coefficients_ = radii_ + code.places;
   }
@@ -90,9 +103,14 @@ class TapeSeriesOf {
   static std::size_t numbers(const TapeCode& code) {
     return (sizeof(TapedMotionOf<V>) + sizeof(SectionOf<V>) * static_cast<std::size_t>(code.sections) +
             sizeof(WaveOf<V>) * static_cast<std::size_t>(code.waves) +
-            sizeof(LineOf<V>) * static_cast<std::size_t>(code.operations)) /
+            sizeof(LineOf<V>) * static_cast<std::size_t>(code.operations) +
+            sizeof(SideOf<V>) * static_cast<std::size_t>(code.comparisons)) /
                sizeof(V) +
            static_cast<std::size_t>(code.bounds);
+  }
+  /// ... behind how many V the first coefficients of a place are ...
+  static std::size_t first_of(const TapeCode& code, int place, int stride) {
+    return numbers(code) + static_cast<std::size_t>(code.places + place * stride);
   }
   /// ... and how many V there are in all.
   static std::size_t room(const TapeCode& code, int stride) {
@@ -105,6 +123,8 @@ class TapeSeriesOf {
   WaveOf<V>& wave(int k) { return waves_[k]; }
   LineOf<V>& line(int step) { return lines_[step]; }
   V& least_of(int bound) { return least_[bound]; }
+  SideOf<V>& side(int comparison) { return sides_[comparison]; }
+  const SideOf<V>& side(int comparison) const { return sides_[comparison]; }
   SectionOf<V>& section(int k) { return sections_[k]; }
   const SectionOf<V>& section(int k) const { return sections_[k]; }
 
@@ -137,6 +157,7 @@ class TapeSeriesOf {
   WaveOf<V>* waves_;
   LineOf<V>* lines_;
   V* least_;
+  SideOf<V>* sides_;
   SectionOf<V>* sections_;
   V *radii_, *coefficients_;
 };

@@ -21,22 +21,32 @@ class Taped;
 class Tape {
  public:
   enum class Operation {
-    add,
-    subtract,
+    combine,  ///< factor a + second b + offset
     multiply,
     divide,
     affine,       ///< factor a + offset
     invert,       ///< factor / a
-    sine_cosine,  ///< sine, and cosine in the place behind it
-    exponential,
+    sine_cosine,  ///< sine, cosine in the place behind it, and behind that the slope of a
+    exponential,  ///< in the place behind it the slope of a
     square_root,
     table,  ///< in the place behind it the slope between the point where a cubic begins and a
   };
   struct Step {
     Operation operation;
     int a, b, result;
-    double factor, offset;
+    double factor, offset, second;
     const CubicTable* table;
+  };
+  /// A comparison: the equations hold while what stands in a place is on the side of a value on which it was, above
+  /// (1) or below (-1); 0 for a tie.
+  struct Decision {
+    int place;
+    double value, side;
+  };
+  /// A factor times what stands in a place, and a constant.
+  struct Multiple {
+    int place;
+    double factor, constant;
   };
   /// A place whose value the equations hold for only while it is above a least one.
   struct Condition {
@@ -55,14 +65,15 @@ class Tape {
   Taped input(int place, double value = std::numeric_limits<double>::quiet_NaN());
   /// Where a result stands, a constant as well.
   int place(const Taped& result);
+  /// The same without a place of its own.
+  static Multiple multiple(const Taped& result);
 
   const std::vector<Step>& steps() const { return steps_; }
   const std::vector<Condition>& conditions() const { return conditions_; }
   /// Places of the arguments of tables and of exponentials.
   const std::vector<int>& arguments() const { return arguments_; }
   const std::vector<int>& exponents() const { return exponents_; }
-  /// Places whose signs have decided a comparison.
-  const std::vector<int>& decisions() const { return decisions_; }
+  const std::vector<Decision>& decisions() const { return decisions_; }
   int places() const { return places_; }
   /// False where the equations compare what is not known beforehand.
   bool is_complete() const { return complete_; }
@@ -70,7 +81,8 @@ class Tape {
   // ---- while the equations are recorded --------------------------------------------------------------------------
 
   Taped record(Operation operation, double value, int a, int b = 0, double factor = 0.0, double offset = 0.0,
-               const CubicTable* table = nullptr);
+               double second = 0.0, const CubicTable* table = nullptr);
+  /// Notes that the equations hold while a difference has its sign.
   void decide_by(const Taped& difference);
   void hold(const Condition& condition) { conditions_.push_back(condition); }
   /// Of a comparison that cannot be recorded, an answer all the same.
@@ -81,14 +93,16 @@ class Tape {
 
   std::vector<Step> steps_;
   std::vector<Condition> conditions_;
-  std::vector<int> arguments_, exponents_, decisions_;
+  std::vector<Decision> decisions_;
+  std::vector<int> arguments_, exponents_;
   std::array<std::uint16_t, 1024> found_;  ///< by their hashes, numbers of steps from 1 on
   int places_;
   bool complete_;
 };
 
 /// A number in equations that are recorded: a constant, or a factor times the result in a place, and a constant. Sums
-/// and products with constants are recorded as one operation, and not before another operation asks for them.
+/// of two such numbers are one operation, and those and products with constants are not recorded before another
+/// operation asks for them.
 class Taped {
  public:
   Taped() = default;
@@ -100,25 +114,37 @@ class Taped {
   friend Taped operator+(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ + b.constant_;
     if (!a.tape_) return b + a;
-    if (b.tape_) return a.tape_->record(Operation::add, a.value_ + b.value_, a.place(), b.place());
+    if (b.tape_)
+      return a.tape_->record(Operation::combine, a.value_ + b.value_, a.place_, b.place_, a.factor_,
+                             a.constant_ + b.constant_, b.factor_);
     if (b.constant_ == 0.0) return a;
     return {a.tape_, a.place_, a.factor_, a.constant_ + b.constant_, a.value_ + b.constant_};
   }
   friend Taped operator-(const Taped& a, const Taped& b) {
     if (!b.tape_) return a + Taped(-b.constant_);
-    return a.tape_ ? a.tape_->record(Operation::subtract, a.value_ - b.value_, a.place(), b.place()) : -b + a;
+    return a + -b;
   }
   friend Taped operator*(const Taped& a, const Taped& b) {
     if (!a.tape_ && !b.tape_) return a.constant_ * b.constant_;
     if (!a.tape_) return b * a;
-    if (b.tape_) return a.tape_->record(Operation::multiply, a.value_ * b.value_, a.place(), b.place());
+    if (b.tape_) {
+      const Taped x = a.without_factor(), y = b.without_factor();
+      const Taped product = a.tape_->record(Operation::multiply, x.value_ * y.value_, x.place(), y.place());
+      return a.is_multiple() || b.is_multiple() ? a.outer_factor() * b.outer_factor() * product : product;
+    }
     if (b.constant_ == 0.0) return 0.0;
     return {a.tape_, a.place_, a.factor_ * b.constant_, a.constant_ * b.constant_, a.value_ * b.constant_};
   }
   friend Taped operator/(const Taped& a, const Taped& b) {
     if (!b.tape_) return a.tape_ ? a * Taped(1.0 / b.constant_) : Taped(a.constant_ / b.constant_);
-    if (!a.tape_) return b.tape_->record(Operation::invert, a.constant_ / b.value_, b.place(), 0, a.constant_);
-    return a.tape_->record(Operation::divide, a.value_ / b.value_, a.place(), b.place());
+    const Taped y = b.without_factor();
+    if (!a.tape_) {
+      const double dividend = a.constant_ / b.outer_factor();
+      return b.tape_->record(Operation::invert, dividend / y.value_, y.place(), 0, dividend);
+    }
+    const Taped x = a.without_factor();
+    const Taped quotient = a.tape_->record(Operation::divide, x.value_ / y.value_, x.place(), y.place());
+    return a.is_multiple() || b.is_multiple() ? a.outer_factor() / b.outer_factor() * quotient : quotient;
   }
   friend Taped sin(const Taped& x) { return sine_then_cosine(x)[0]; }
   friend Taped cos(const Taped& x) { return sine_then_cosine(x)[1]; }
@@ -132,7 +158,7 @@ class Taped {
   }
   friend Taped look_up(const CubicTable& table, const Taped& x) {
     const double y = table(x.value_);
-    return x.tape_ ? x.tape_->record(Operation::table, y, x.place(), 0, 0.0, 0.0, &table) : Taped(y);
+    return x.tape_ ? x.tape_->record(Operation::table, y, x.place(), 0, 0.0, 0.0, 0.0, &table) : Taped(y);
   }
   /// x, which stays above a limit where it has no value.
   friend Taped at_least(const Taped& x, double least) {
@@ -155,6 +181,11 @@ class Taped {
   Taped(Tape* tape, int place, double factor, double constant, double value)
       : tape_(tape), place_(place), is_plain_(false), factor_(factor), constant_(constant), value_(value) {}
 
+  /// Of a multiple, the factor, and what it is a multiple of: the signs of a mode do not get into products, where they
+  /// would be operations that other modes do without.
+  bool is_multiple() const { return !is_plain_ && constant_ == 0.0; }
+  double outer_factor() const { return is_multiple() ? factor_ : 1.0; }
+  Taped without_factor() const { return is_multiple() ? Taped(tape_, place_, value_ / factor_) : *this; }
   /// Where it stands; recorded even where it is the same, because in another mode it may be its negative.
   int place() const {
     return is_plain_ ? place_ : tape_->record(Operation::affine, value_, place_, 0, factor_, constant_).place_;
@@ -189,7 +220,8 @@ struct ConstantOfScalar<Taped> {
 inline void Tape::clear(int inputs) {
   steps_.clear();
   conditions_.clear();
-  for (std::vector<int>* const places : {&arguments_, &exponents_, &decisions_}) places->clear();
+  decisions_.clear();
+  for (std::vector<int>* const places : {&arguments_, &exponents_}) places->clear();
   found_.fill(0);
   places_ = inputs;
   complete_ = true;
@@ -202,37 +234,48 @@ inline int Tape::place(const Taped& result) {
                       : record(Operation::affine, result.constant_, 0, 0, 0.0, result.constant_).place_;
 }
 
+inline Tape::Multiple Tape::multiple(const Taped& result) {
+  return result.tape_ ? Multiple{result.place_, result.factor_, result.constant_} : Multiple{0, 0.0, result.constant_};
+}
+
 inline void Tape::decide_by(const Taped& difference) {
-  if (difference.tape_) decisions_.push_back(difference.place());
+  if (!difference.tape_) return;
+  const double value = difference.constant_ == 0.0 ? 0.0 : -difference.constant_ / difference.factor_;
+  for (const Decision& known : decisions_)
+    if (known.place == difference.place_ && known.value == value) return;
+  const double sign = difference.value_ > 0.0 ? 1.0 : difference.value_ < 0.0 ? -1.0 : 0.0;
+  decisions_.push_back({difference.place_, value, difference.factor_ < 0.0 ? -sign : sign});
 }
 
 inline std::size_t Tape::hash(const Step& s) {
   std::uint64_t sum = 0;
-  for (const std::uint64_t part :
-       {static_cast<std::uint64_t>(s.operation), static_cast<std::uint64_t>(s.a), static_cast<std::uint64_t>(s.b),
-        std::bit_cast<std::uint64_t>(s.factor), std::bit_cast<std::uint64_t>(s.offset)})
+  for (const std::uint64_t part : {static_cast<std::uint64_t>(s.operation), static_cast<std::uint64_t>(s.a),
+                                   static_cast<std::uint64_t>(s.b), std::bit_cast<std::uint64_t>(s.factor),
+                                   std::bit_cast<std::uint64_t>(s.offset), std::bit_cast<std::uint64_t>(s.second)})
     sum = (sum ^ part) * 0x9e3779b97f4a7c15U;  // Fibonacci hashing: the high bits have seen all of it
   return sum >> 54U;
 }
 
 /// What has been worked out before is not worked out again.
-inline Taped Tape::record(Operation operation, double value, int a, int b, double factor, double offset,
+inline Taped Tape::record(Operation operation, double value, int a, int b, double factor, double offset, double second,
                           const CubicTable* table) {
-  const Step step{operation, a, b, places_, factor, offset, table};
+  const Step step{operation, a, b, places_, factor, offset, second, table};
   std::size_t at = hash(step);
   for (; found_[at] != 0; at = (at + 1) % found_.size()) {
     const Step& s = steps_[found_[at] - 1U];
     if (s.operation == operation && s.a == a && s.b == b && s.factor == factor && s.offset == offset &&
-        s.table == table)
+        s.second == second && s.table == table)
       return {this, s.result, value};
   }
-  const bool two = operation == Operation::sine_cosine || operation == Operation::table;
+  const int further = operation == Operation::sine_cosine                                    ? 2
+                      : operation == Operation::exponential || operation == Operation::table ? 1
+                                                                                             : 0;
   steps_.push_back(step);
   if (operation == Operation::table) arguments_.push_back(a);
   if (operation == Operation::exponential) exponents_.push_back(a);
   // what would leave no room to look is recorded again
   if (steps_.size() < found_.size() / 2) found_[at] = static_cast<std::uint16_t>(steps_.size());
-  places_ += two ? 2 : 1;
+  places_ += 1 + further;
   return {this, step.result, value};
 }
 

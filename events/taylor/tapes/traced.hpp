@@ -83,8 +83,10 @@ class TracedMotion {
     const TapeSeriesOf<double> series = this->series();
     for (const int place : tape_.exponents())
       if (!(most_change(series[place], h) <= 1.0)) return false;
-    for (const int place : tape_.decisions())
-      if (!(std::abs(series[place][0]) > most_change(series[place], h))) return false;
+    for (const Tape::Decision& decision : tape_.decisions()) {
+      const double* const compared = series[decision.place];
+      if (!(std::abs(compared[0] - decision.value) > most_change(compared, h))) return false;
+    }
     for (std::size_t k = 0; k < tape_.arguments().size(); ++k) {
       const double* const x = series[tape_.arguments()[k]];
       const SectionOf<double>& section = series.section(static_cast<int>(k));
@@ -107,7 +109,8 @@ class TracedMotion {
     const std::size_t room = TapeSeriesOf<double>::room(code_, stride);
     if (memory_.size() < room) memory_.resize(room);
     TapeSeriesOf<double> series = this->series();
-    for (int k = 0; k < code_.operations; ++k) series.line(k) = {code_.steps[k].factor, code_.steps[k].offset};
+    for (int k = 0; k < code_.operations; ++k)
+      series.line(k) = {code_.steps[k].factor, code_.steps[k].offset, code_.steps[k].second};
     tables_ = TapeTables(tape_, series);
   }
   TapeSeriesOf<double> series() { return {code_, memory_.data(), stride}; }

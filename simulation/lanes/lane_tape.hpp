@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "control/lanes/trial.hpp"
-#include "events/taylor/tapes/series.hpp"
+#include "events/taylor/tapes/leap.hpp"
 
 namespace wormdrive {
 
@@ -16,6 +16,11 @@ class LaneTape {
       : code_(&code), numbers_(numbers), lanes_(static_cast<std::size_t>(lanes)) {}
 
   TapedMotionOf<double> motion() const { return from_lane<TapedMotionOf<double>>(numbers_, lanes_); }
+  /// Of the register's series, the value of a state; the numbers are those at its begin.
+  double& state(int k) const {
+    const int stride = TapedLeapOf<double>::stride(*code_);
+    return numbers_[TapeSeriesOf<double>::first_of(*code_, TapeInput::first_state + k, stride) * lanes_];
+  }
 
   /// Takes up that the lane has exchanged its numbers with those of another mode.
   void exchange(LaneTape& other) {

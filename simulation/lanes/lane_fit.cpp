@@ -2,7 +2,7 @@
 #include <variant>
 
 #include "core/elastic/elastic_teeth.hpp"
-#include "simulation/lane_run.hpp"
+#include "simulation/lanes/lane_run.hpp"
 
 namespace wormdrive {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 bool has_held_torque(const Scenario& scenario) {
   const Effects<double>& on = scenario.effects;
   return scenario.run.solver == SolverKind::taylor && std::holds_alternative<MeshParameters<double>>(scenario.mesh) &&
-         scenario.motor.terms.empty() && !has_elastic_teeth(on) && !on.have_states();
+         scenario.motor.terms.empty() && !has_elastic_teeth(on);
 }
 
 /// How far apart two times of a run have to be, so that rounding does not make them one [s].
@@ -43,9 +43,9 @@ bool has_lane_controller(const ControlScenario& control) {
 }  // namespace
 
 bool has_lane_plant(const Scenario& scenario) {
-  return has_held_torque(scenario) && std::holds_alternative<GravityArm>(scenario.load) &&
-         std::isinf(scenario.effects.torque_limit()) && scenario.effects.lag() <= 0.0 &&
-         scenario.effects.delay() <= 0.0;
+  return has_held_torque(scenario) && !scenario.effects.have_states() &&
+         std::holds_alternative<GravityArm>(scenario.load) && std::isinf(scenario.effects.torque_limit()) &&
+         scenario.effects.lag() <= 0.0 && scenario.effects.delay() <= 0.0;
 }
 
 bool fits_lane(const Scenario& scenario) {

@@ -1,36 +1,34 @@
-#include "simulation/lane_run.hpp"
-
+#pragma once
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
-#include "simulation/held_torque.hpp"
-#include "simulation/lane_tape.hpp"
+#include "simulation/lanes/held_torque.hpp"
+#include "simulation/lanes/lane_run.hpp"
+#include "simulation/lanes/lane_tape.hpp"
+#include "simulation/lanes/lane_trial.hpp"
 #include "simulation/run_drive.hpp"
 
 namespace wormdrive {
-namespace {
 
 /// What a load over time consists of.
 template <class Term>
-bool has(const Signal& load) {
+bool has_term(const Signal& load) {
   return std::any_of(load.terms.begin(), load.terms.end(),
                      [](const SignalTerm& term) { return std::holds_alternative<Term>(term); });
 }
-bool is_constant(const Signal& load) {
+inline bool is_constant(const Signal& load) {
   return std::all_of(load.terms.begin(), load.terms.end(),
                      [](const SignalTerm& term) { return std::holds_alternative<Constant>(term); });
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of a law for which nothing is promised.
-constexpr Lemma1Quiet<double> all_quiet{infinity, infinity, infinity};
-
-template <class Load>
+/// The run of a drive in a lane.
+template <class Drive>
 class LaneRunOf final : public LaneRun {
  public:
-  using Drive = WormDrive<double, Load>;
+  using Load = std::decay_t<decltype(std::declval<Drive>().load())>;
 
   LaneRunOf(const Scenario& scenario, Drive drive)
       : scenario_(scenario),
@@ -68,7 +66,7 @@ class LaneRunOf final : public LaneRun {
     if (!taped_) return nullptr;
     for (const Motion motion : {Motion::forward, Motion::backward})
       for (const Flank flank : {Flank::left, Flank::right, Flank::none})
-        if (const TapeCode* const code = solver_.taped().code({motion, flank})) return code;
+        if (const TapeCode* const code = solver_.taped().code(setting_off({motion, flank}))) return code;
     return nullptr;
   }
   void use_tape(const TapeCode& code, double* numbers, double* across, int lanes) override {
@@ -93,40 +91,8 @@ class LaneRunOf final : public LaneRun {
   void start(const Lane& lane) override {
     HeldTorque before{.held = true};
     advance(before);
-    const ControlScenario& control = *scenario_.control;
-    const auto* const scale = effect<EncoderScale<double>>();
-    const auto* const offset = effect<EncoderOffset<double>>();
-    const double zero_error = control.sensor.zero_error;
-    LaneTrial<double> trial{.sliding = {},
-                            .pid = {},
-                            .load_torque = nominal_.load_torque,
-                            .load_angle_offset = nominal_.load_angle_offset,
-                            .load_constant = nominal_.load_constant,
-                            .encoder_share = scale ? scale->share : 0.0,
-                            .encoder_zero = offset ? offset->angle : -0.0,  // which changes no angle, not even 0
-                            .count = encoder_.count(),
-                            .zero_error = zero_error != 0.0 ? zero_error : -0.0,
-                            .age = drive_.effects().measuring_delay(),
-                            .latched = 0.0,
-                            .speed = {control.sensor.filter_cutoff, control.sampling.period},
-                            .sums = watch_.meter.sums(),
-                            .quiet = watch_.lemma ? watch_.lemma->quiet() : all_quiet,
-                            .limit = drive_.torque_limit(),
-                            .left = 0.0,
-                            .torque = 0.0,
-                            .behind = drive_.effects().delay() + drive_.effects().lag(),
-                            .mode = {},
-                            .across = {},
-                            .flank_changes = 0.0,
-                            .counted_flank_changes = 0.0,
-                            .arm_offset = {},
-                            .per_speed = 1.0,
-                            .theta = 0.0,
-                            .omega = 0.0};
-    if (const auto* const sliding = std::get_if<SlidingParameters>(&control.law))
-      trial.sliding = {*sliding, nominal_, SlidingBounds(*sliding, lemma_)};
-    if (const auto* const pid = std::get_if<PidParameters>(&control.law))
-      trial.pid = {lqr_gains(*pid, mean_inertia(nominal_)), *pid, nominal_};
+    LaneTrial<double> trial =
+        lane_trial(*scenario_.control, drive_.effects(), nominal_, lemma_, watch_, drive_.torque_limit());
     if constexpr (has_formulas) {
       trial.arm_offset = solver_.nominal().arm_offset();
       if (falls()) trial.per_speed = solver_.nominal().fall({Motion::forward, Flank::left}).per_speed;
@@ -147,7 +113,10 @@ class LaneRunOf final : public LaneRun {
       take_up_flank_changes(trial);
       progress_.timetable.skip_to_sample(sample);
       progress_.now.t = t;
-      progress_.now.x = {trial.theta, trial.omega};
+      progress_.now.x[0] = trial.theta;
+      progress_.now.x[1] = trial.omega;
+      if constexpr (has_states)
+        for (int k = 0; k < states(); ++k) state(k) = tape_.state(k);
       progress_.cause = {Reason::sample};
       watch_.meter.instant(t, progress_.now.mode);
       run_.record(drive_, progress_.now);
@@ -185,7 +154,7 @@ class LaneRunOf final : public LaneRun {
     return !is_rough() && !is_late() && !effect<EncoderScale<double>>() && !effect<EncoderOffset<double>>();
   }
   using Solver = TaylorSolver<Drive>;
-  static constexpr bool has_formulas = NominalFlow<Drive>::known;
+  static constexpr bool has_formulas = NominalFlow<Drive>::known, has_states = Drive::state_size > 2;
 
   bool rubs() const { return solver_.nominal().rubs({Motion::forward, Flank::left}); }
   bool falls() const { return solver_.nominal().curve().falls(); }
@@ -211,8 +180,23 @@ class LaneRunOf final : public LaneRun {
     if constexpr (!has_formulas) return true;
     if constexpr (has_formulas)
       if (!solver_.nominal().covers()) return true;
-    if constexpr (std::is_same_v<Load, TimedLoad>) return has<Sinusoid>(drive_.load().signal);
+    if constexpr (std::is_same_v<Load, TimedLoad>) return has_term<Sinusoid>(drive_.load().signal);
     return false;
+  }
+
+  /// The drive where it sets off in a mode: there comparisons turn out as they mostly do.
+  typename Drive::Instant setting_off(Mode mode) const {
+    constexpr double barely = 1e-100;  // a direction, and no speed
+    typename Drive::Instant now = progress_.now;
+    now.mode = mode;
+    if constexpr (has_states)
+      now.x = starting_state(drive_, {scenario_.initial.theta_g, sign(mode.motion) * barely}, 0.0);
+    return now;
+  }
+  /// Of the states that the tape has, how many there are, and one of them.
+  int states() { return static_cast<int>(solver_.taped().states().size()); }
+  double& state(int k) {
+    return progress_.now.x[static_cast<int>(2 + solver_.taped().states()[static_cast<std::size_t>(k)])];
   }
 
   void advance(HeldTorque& torque) {
@@ -245,11 +229,15 @@ class LaneRunOf final : public LaneRun {
     const Mode across = Drive::across_surface(now.mode);
     if (taped_) {
       const auto leave_at = [&](LaneTape& tape, Mode mode) {
-        tape.leave(Drive::at_rest(mode) ? nullptr : solver_.taped().code(mode),
+        typename Drive::Instant then = now;
+        then.mode = mode;
+        tape.leave(Drive::at_rest(mode) ? nullptr : solver_.taped().code(then),
                    [&] { return solver_.taped().numbers(drive_.next_knot(now.t)); });
       };
       leave_at(tape_across_, across);
       leave_at(tape_, now.mode);
+      if constexpr (has_states)
+        for (int k = 0; k < states(); ++k) tape_.state(k) = state(k);
       return;
     }
     trial.mode = in_closed_form(now.mode);
@@ -280,20 +268,15 @@ class LaneRunOf final : public LaneRun {
   LaneTape tape_, tape_across_;  ///< of the present mode, and of the one across the switching surface
 };
 
-template <class Stated>
-std::unique_ptr<LaneRun> lane_run(const Scenario& scenario, const Stated& load) {
-  auto drive = make_drive(scenario, load, scenario.effects, scenario.motor);
-  using Load = std::decay_t<decltype(drive.load())>;
-  auto run = std::make_unique<LaneRunOf<Load>>(scenario, std::move(drive));
+/// The run of a scenario's drive, which must outlive it; nothing where it does not fit into a lane.
+template <class Drive>
+std::unique_ptr<LaneRun> lane_run_of(const Scenario& scenario, Drive drive) {
+  auto run = std::make_unique<LaneRunOf<Drive>>(scenario, std::move(drive));
   if (!run->fits()) return nullptr;
   return run;
 }
 
-}  // namespace
-
-std::unique_ptr<LaneRun> lane_run(const Scenario& scenario) {
-  if (!fits_lane(scenario)) return nullptr;
-  return std::visit([&](const auto& load) { return lane_run(scenario, load); }, scenario.load);
-}
+/// The same with the states of its effects.
+std::unique_ptr<LaneRun> lane_run_with_states(const Scenario& scenario);
 
 }  // namespace wormdrive

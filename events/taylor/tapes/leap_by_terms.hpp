@@ -1,0 +1,171 @@
+#pragma once
+#include "events/taylor/tapes/leap.hpp"
+
+namespace wormdrive {
+
+/// One step of a drive whose effects have states, without a search for events: of one drive or of several at once. It
+/// is worked out first and judged by the terms of its series. A state that follows within a step or two, as the current
+/// of a winding does, leaves no disc of complex times that would bound it beforehand and is wider than the step.
+template <class V>
+class LeapByTerms {
+ public:
+  using Mask = MaskOf<V>;
+  using In = TapeInput;
+
+  /// leap: what has taken up the moment at which the step begins.
+  explicit LeapByTerms(TapedLeapOf<V>& leap) : leap_(leap), series_(leap.series()), code_(series_.code()) {}
+
+  /// Whether the equations on the tape are those that hold, by the comparisons that decided them.
+  Mask holds() const {
+    Mask same = series_.motion().motion != V(0.0);
+    for (int k = 0; k < code_.comparisons; ++k)
+      same = same & (series_.side(k).side * (series_[code_.decisions[k]][0] - series_.side(k).value) > V(0.0));
+    return same;
+  }
+
+  /// Works out the motion, which value() tells of, and returns where, among these, it is accurate, no guard falls
+  /// through zero within h [s] and no comparison turns out otherwise, if the tables stay in their sections. h becomes
+  /// shorter where the series does not suffice for all of it.
+  template <class Functions>
+  Mask take(const Mask& among, V& h, const TaylorAccuracy& accuracy, Functions&& functions) {
+    expand(among, h, accuracy, functions);
+    Mask certain = among & (shorten(among & (!terms_.suffice), h, accuracy) | terms_.suffice);
+    leap_.end_series(terms_);
+    if (any(certain)) certain = certain & keeps_mode(h);
+    return certain;
+  }
+  /// How many coefficients of all operations that has taken.
+  int worked_out() const { return terms_.most; }
+
+  /// Whether the equations certainly remain these within h [s], by series of so many coefficients: no comparison turns
+  /// out otherwise, and no exponential changes so much that its terms may be too small to be seen at first.
+  Mask remains(const V& h, int coefficients) {
+    terms_ = {V(static_cast<double>(coefficients)), coefficients, h >= V(0.0), coefficients};
+    return remains(h);
+  }
+
+ private:
+  static constexpr int longest = TapedLeapOf<V>::longest_by_terms;
+  static constexpr int fewest = 6;  ///< coefficients, before no series is judged
+
+  /// Works out coefficients until the last ones are negligible over h.
+  template <class Functions>
+  void expand(const Mask& among, const V& h, const TaylorAccuracy& accuracy, Functions&& functions) {
+    leap_.expand_load(longest);
+    tolerate(h, accuracy);
+    V power = 1.0;  // h^(k - 2), the third before the last
+    Mask left = among;
+    terms_ = {V(0.0), longest, among};
+    for (int k = 0; k < longest; ++k) {
+      if (k > 0) series_.work_out(k, code_.operations, functions);
+      leap_.expand_motion(k);
+      if (k > 2) power = power * h;
+      if (k + 1 < fewest) continue;
+      const Mask enough = left & suffices(k + 1, h, power);
+      terms_.of_each = select(enough, V(static_cast<double>(k + 1)), terms_.of_each);
+      left = left & !enough;
+      if (terms_.fewest == 0 && any(enough)) terms_.fewest = k + 1;
+      if (any(left)) continue;
+      terms_.most = k + 1;
+      break;
+    }
+    terms_.of_each = select(left, V(static_cast<double>(longest)), terms_.of_each);
+    if (terms_.fewest == 0) terms_.fewest = longest;
+    terms_.suffice = among & !left;
+  }
+  /// Finds what a term may add to speed and states in a step of h [s].
+  void tolerate(const V& h, const TaylorAccuracy& accuracy) {
+    for (int j = 0; j <= code_.states; ++j) tolerated_[j] = accuracy.allowed(abs(series_[followed(j)][0]), h) * h;
+  }
+  /// Whether series up to coefficient n suffice in a step of h [s]: its last two terms are negligible, and the two
+  /// before as well, or so much larger that what is left out is less than they are. Of a drive that moves, every other
+  /// coefficient may vanish, as where an angle or a load over time is at an extreme. power: h^(n - 3).
+  Mask suffices(int n, const V& h, const V& power) const {
+    constexpr double falls = 16.0;  // by 4 from one to the next
+    const auto fades = [&](int j) {
+      const V* const c = series_[followed(j)] + n;
+      const V before = (abs(c[-3]) + abs(c[-2]) * h) * power, last = (abs(c[-1]) + abs(c[0]) * h) * (h * h) * power;
+      return (last <= tolerated_[j]) & ((before <= tolerated_[j]) | (falls * last <= before));
+    };
+    Mask all = fades(0);
+    for (int j = 1; j <= code_.states; ++j) all = all & fades(j);
+    return all;
+  }
+  static int followed(int j) { return j == 0 ? In::speed : In::first_state + j - 1; }
+  /// Lets steps be so short that their longest series suffice, and returns where there are such steps.
+  Mask shorten(const Mask& which, V& h, const TaylorAccuracy& accuracy) {
+    constexpr double share = 0.75;
+    constexpr int tries = 100;  // to 1e-12 of the step
+    Mask open = which;
+    for (int n = 0; n < tries && any(open); ++n) {
+      h = select(open, share * h, h);
+      tolerate(h, accuracy);
+      open = open & !suffices(longest, h, power_of(h, longest - 3));
+    }
+    return which & !open;
+  }
+  static V power_of(const V& h, int n) {
+    V power = 1.0, square = h;
+    for (; n > 0; n /= 2, square = square * square)
+      if (n % 2 == 1) power = power * square;
+    return power;
+  }
+
+  /// Where no guard falls through zero and the equations remain.
+  Mask keeps_mode(const V& h) const {
+    const TapedMotionOf<V>& m = series_.motion();
+    const V motion = m.motion, along = motion * series_[In::speed][0];
+    const Mask without_teeth = !(m.flank != V(0.0)), clear = least_value(In::speed, motion, h) > V(0.0);
+    const Mask moves = all(clear) ? clear : clear | ((along >= V(0.0)) & (least_slope(In::speed, motion, h) > V(0.0)));
+    return moves & (without_teeth | (least_value(code_.beyond, -m.flank, h) > V(0.0))) & remains(h);
+  }
+  Mask remains(const V& h) const {
+    Mask keeps = h >= V(0.0);
+    for (int k = 0; k < code_.comparisons; ++k) {
+      const SideOf<V>& side = series_.side(k);
+      keeps = keeps & (least_value(code_.decisions[k], side.side, h, side.value) > V(0.0));
+    }
+    for (int k = 0; k < code_.exponentials; ++k) keeps = keeps & (most_change(code_.exponents[k], h) <= V(1.0));
+    return keeps;
+  }
+  /// What is certainly no more than so many times what stands in a place, less a value, within h [s]: by Horner's rule
+  /// for intervals.
+  V least_value(int place, const V& side, const V& h, const V& less = 0.0) const {
+    return least_of([&, c = series_[place]](int k) { return k == 0 ? c[0] - less : c[k]; }, 0, side, h);
+  }
+  /// The same of its slope.
+  V least_slope(int place, const V& side, const V& h) const {
+    return least_of([&, c = series_[place]](int k) { return static_cast<double>(k) * c[k]; }, 1, side, h);
+  }
+  template <class Coefficient>
+  V least_of(const Coefficient& coefficient, int first, const V& side, const V& h) const {
+    V least_so_far = 0.0;
+    int k = terms_.most - 1;
+    const auto add = [&](const V& c) { least_so_far = c + least<V>(h * least_so_far, V(0.0)); };
+    for (; k > first && k + TaylorAccuracy::window >= terms_.fewest; --k) add(with_rest(k, side * coefficient(k)));
+    for (; k >= first; --k) add(side * coefficient(k));
+    return least_so_far;
+  }
+  /// The most by which what stands in a place may differ from its value within h [s].
+  V most_change(int place, const V& h) const {
+    const V* const c = series_[place];
+    V most = 0.0, power = h;
+    for (int k = 1; k < terms_.most; ++k, power = power * h) most = most - power * with_rest(k, -abs(c[k]));
+    return most;
+  }
+  /// A coefficient that comes to no more than what it stands for: what is left out of a series counts as much as its
+  /// last terms.
+  V with_rest(int k, const V& c) const {
+    const V number = static_cast<double>(k);
+    const V counted = select(number + static_cast<double>(TaylorAccuracy::window) < terms_.of_each, c, c - abs(c));
+    return select(number < terms_.of_each, counted, V(0.0));
+  }
+
+  TapedLeapOf<V>& leap_;
+  TapeSeriesOf<V>& series_;
+  const TapeCode& code_;
+  TermsOf<V> terms_{};
+  V tolerated_[1 + TapeCode::most_states];  ///< of a term of speed and states, in their units
+};
+
+}  // namespace wormdrive
