@@ -109,6 +109,18 @@ std::vector<Addition> additions(const Scenario& with_pid) {
        [](Scenario& s, double x) {
          put(s, TorqueMap<double>{MapAxis::worm_speed, x, {{-40, -10, 0, 10, 40}, {1e-3, 8e-4, 0, -8e-4, -1e-3}}});
        }},
+      {"thread_friction",
+       [](Scenario& s, double x) {
+         put(s, ThreadFriction<double>{0.2 * x, 0.0});
+       }},
+      {"crank", [](Scenario& s, double x) { put(s, LoadCrank<double>{.mass = 0.05 * x, .crank = 0.02, .rod = 0.08}); }},
+      // whose equations compare, or are others from a time on
+      {"friction_under_load", [](Scenario& s, double x) { put(s, FrictionUnderLoad<double>{0.2 * x}); }},
+      {"fan beside the arm",
+       [](Scenario& s, double x) {
+         s.load = LoadSum{{std::get<GravityArm>(s.load), Fan{.rated_torque = 0.01 * x, .rated_speed = 2.0}}};
+       }},
+      {"brake", [](Scenario& s, double x) { put(s, HoldingBrake<double>{.torque = 0.01 * x, .opens = 0.1}); }},
       // with states
       {"winding",
        [](Scenario& s, double x) {
