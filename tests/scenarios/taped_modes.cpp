@@ -57,4 +57,30 @@ TEST_CASE("tapes: the operations are the same in both directions and on both fla
   CHECK(with_states > 80);
 }
 
+TEST_CASE("tapes: a drive with states that is far from all events leaps, by few terms or many") {
+  for (const char* const effect :
+       {"effect.hard_stops={angle_low_deg=-6,angle_high_deg=6}",
+        "effect.worm_lugre={coulomb_torque_Nm=2e-3,stiffness_Nm_per_rad=0.05}",
+        "effect.gearbox_heat={friction_decay_per_K=5e-3,heat_capacity_J_per_K=100,thermal_resistance_K_per_W=1}",
+        "effect.dc_motor={resistance_ohm=0.8,torque_constant_Nm_per_A=0.04,inductance_H=6e-4,supply_voltage_V=24,"
+        "current_bandwidth_Hz=50,current_limit_A=8}"})
+    for (const char* const tolerance : {"1e-6", "1e-10", "1e-13"}) {
+      CAPTURE(effect, tolerance);
+      const Scenario scenario = load_scenario(
+          shipped("fig10_sliding_014rad_bare.toml"),
+          {"run.solver=taylor", fmt::format("run.relative_tolerance={}", tolerance), effect}, Purpose::run);
+      auto drive = make_drive<true>(scenario);
+      using Drive = decltype(drive);
+      drive.enter(0.0);
+      drive.command(0.0, 0.02);
+      TaylorSolver<Drive> solver(drive, scenario.run.solver_settings());
+      typename Drive::Instant now;
+      now.x = starting_state(drive, {0.01, 1.0}, 0.0);
+      now.mode = drive.settle(now);
+      REQUIRE(solver.taped().covers(now));
+      CHECK(solver.taped().leap(now, 1e-3, TaylorAccuracy(scenario.run.solver_settings())));
+      CHECK(now.t >= 0.25e-3);  // all of it, or as far as the longest series get
+    }
+}
+
 }  // namespace wormdrive::test::scenarios_taped_modes
