@@ -102,9 +102,7 @@ class TaylorAccuracy {
   using Powers = std::array<double, window>;
   static Powers powers_of(double h, int order) {
     Powers powers;
-    double power = h, square = h;
-    for (int n = order - window; n > 0; n /= 2, square *= square)
-      if (n % 2 == 1) power *= square;
+    double power = times_power(h, h, order - window);
     for (double& p : powers) p = std::exchange(power, power * h);
     return powers;
   }

@@ -24,6 +24,14 @@ inline constexpr auto reciprocal = [] {
 /// The same where no table may be: in kernels of lanes, whose symbols nobody else sees.
 [[gnu::always_inline]] inline double one_over(int k) { return 1.0 / static_cast<double>(k); }
 
+/// x h^n.
+template <class V>
+[[gnu::always_inline]] inline V times_power(V x, V h, int n) {
+  for (; n > 0; n /= 2, h = h * h)
+    if (n % 2 == 1) x = x * h;
+  return x;
+}
+
 /// Coefficients c[0], c[1], ... of the polynomial c[0] + c[1] s + ... in the time s since a step began.
 using Polynomial = std::span<const double>;
 

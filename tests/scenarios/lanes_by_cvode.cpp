@@ -21,12 +21,29 @@ namespace {
 
 using near_ties::Dice;
 
+/// A drive, and how far CVODE may be from it [rad].
+struct Drawn {
+  std::vector<std::string> words;
+  double most;
+};
+
 /// What a number of drives have shown.
 struct Judged {
   int drives = 0, in_lanes = 0;
   long events = 0;
   Deviation apart;
 
+  /// Judges so many drives of a seed, each drawn by draw(dice, loop), at most one in two of which may jam.
+  template <class Draw>
+  void judge(int count, std::uint64_t seed, const Draw& draw) {
+    for (int index = 0; drives < count; ++index) {
+      REQUIRE(index < 2 * count);
+      Dice dice(seed, static_cast<std::uint64_t>(index));
+      const RandomLoop loop = draw_loop(dice);
+      const Drawn drawn = draw(dice, loop);
+      judge(loop, drawn.words, static_cast<std::uint64_t>(index), drawn.most);
+    }
+  }
   /// Runs three trials of a drive, and counts it unless it jams.
   void judge(const RandomLoop& loop, const std::vector<std::string>& words, std::uint64_t index, double most) {
     INFO(fmt::format("drive {}: {}", index, fmt::join(words, " ")));
@@ -57,13 +74,10 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 
 TEST_CASE("lanes: 200 random drives with up to five effects are what CVODE finds, on any scale of time and size") {
   Judged all;
-  for (std::uint64_t index = 0; all.drives < 200; ++index) {
-    REQUIRE(index < 400);
-    Dice dice(22, index);
-    const RandomLoop loop = draw_loop(dice);
+  all.judge(200, 22, [](Dice& dice, const RandomLoop& loop) {
     const std::vector<std::string> words = nominal_words(dice, loop);
-    all.judge(loop, words + additions(dice, loop, 5), index, 1e-7);  // [rad], a tenth of what a sweep's referee asks
-  }
+    return Drawn{words + additions(dice, loop, 5), 1e-7};  // a tenth of what a sweep's referee asks
+  });
   CAPTURE(all.apart, all.events, all.in_lanes);
   CHECK(all.in_lanes >= 180);
   CHECK(all.events > 4000);
@@ -71,17 +85,14 @@ TEST_CASE("lanes: 200 random drives with up to five effects are what CVODE finds
 
 TEST_CASE("lanes: 60 random drives with winding, bristles, heat, coupling or stops are what CVODE finds as well") {
   Judged all;
-  for (std::uint64_t index = 0; all.drives < 60; ++index) {
-    REQUIRE(index < 120);
-    Dice dice(23, index);
-    const RandomLoop loop = draw_loop(dice);
+  all.judge(60, 23, [](Dice& dice, const RandomLoop& loop) {
     std::vector<std::string> words = nominal_words(dice, loop) + effects_with_states(dice, loop);
     const double tolerance = dice.decades(1e-12, 1e-9);
     words.push_back(fmt::format("run.relative_tolerance={}", tolerance));
     for (const std::string& word : additions(dice, loop, 3))
       if (!word.starts_with("effect.dc_motor") && !word.starts_with("effect.static_friction")) words.push_back(word);
-    all.judge(loop, words, index, std::min(1e-7, 3e3 * tolerance));
-  }
+    return Drawn{words, std::min(1e-7, 3e3 * tolerance)};
+  });
   CAPTURE(all.apart, all.events, all.in_lanes);
   CHECK(all.in_lanes >= 50);
   CHECK(all.events > 1000);

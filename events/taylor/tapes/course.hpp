@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/ripple.hpp"
 #include "core/worm_drive.hpp"
 #include "events/taylor/tapes/leap_by_terms.hpp"
 
@@ -70,8 +69,7 @@ class TapeCourse {
   std::vector<double> memory;
   std::optional<TapedLeapOf<double>> leap;  ///< nothing where the equations could not be recorded
   TapeTables tables;
-  bool has_exponential = false;  ///< of what moves: its terms may be too small to be seen at first
-  bool command_moves = false;    ///< the series of the command has more than a value
+  bool command_moves = false;  ///< the series of the command has more than a value
 
  private:
   using In = TapeInput;
@@ -112,7 +110,6 @@ class TapeCourse {
     }
   }
   void describe(const System& system) {
-    has_exponential = !tape_.exponents().empty();
     code.steps = tape_.steps().data();
     code.operations = static_cast<int>(tape_.steps().size());
     code.places = tape_.places();
@@ -135,8 +132,7 @@ class TapeCourse {
     memory.assign(TapeSeriesOf<double>::room(code, stride), 0.0);
     leap.emplace(TapeSeriesOf<double>(code, memory.data(), stride));
     TapeSeriesOf<double>& series = leap->series();
-    for (int k = 0; k < code.operations; ++k)
-      series.line(k) = {code.steps[k].factor, code.steps[k].offset, code.steps[k].second};
+    put_constants(series);
     for (int k = 0; k < code.bounds; ++k) series.least_of(k) = tape_.conditions()[static_cast<std::size_t>(k)].least;
     for (int k = 0; k < code.comparisons; ++k) {
       const Tape::Decision& decision = tape_.decisions()[static_cast<std::size_t>(k)];

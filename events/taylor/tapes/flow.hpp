@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "events/taylor/input.hpp"
@@ -128,7 +127,8 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     }
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
-    if (with_states ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->has_exponential)
+    // of an exponential the terms may be too small to be seen at first
+    if (with_states ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->code.exponentials > 0)
       SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.

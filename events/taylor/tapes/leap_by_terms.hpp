@@ -100,15 +100,9 @@ class LeapByTerms {
     for (int n = 0; n < tries && any(open); ++n) {
       h = select(open, share * h, h);
       tolerate(h, accuracy);
-      open = open & !suffices(longest, h, power_of(h, longest - 3));
+      open = open & !suffices(longest, h, times_power<V>(1.0, h, longest - 3));
     }
     return which & !open;
-  }
-  static V power_of(const V& h, int n) {
-    V power = 1.0, square = h;
-    for (; n > 0; n /= 2, square = square * square)
-      if (n % 2 == 1) power = power * square;
-    return power;
   }
 
   /// Where no guard falls through zero and the equations remain.

@@ -167,6 +167,14 @@ inline double resolution_of(const SectionOf<double>& s, double x) {
   return 1e-12 * greatest(std::fabs(x), least(s.high - s.low, 1.0));
 }
 
+/// Puts the constants of the operations on a tape where they belong.
+inline void put_constants(TapeSeriesOf<double>& series) {
+  for (int k = 0; k < series.code().operations; ++k) {
+    const Tape::Step& step = series.code().steps[k];
+    series.line(k) = {step.factor, step.offset, step.second};
+  }
+}
+
 /// The sections of the tables on the tape of a drive alone, and its elementary functions.
 class TapeTables {
  public:

@@ -109,8 +109,7 @@ class TracedMotion {
     const std::size_t room = TapeSeriesOf<double>::room(code_, stride);
     if (memory_.size() < room) memory_.resize(room);
     TapeSeriesOf<double> series = this->series();
-    for (int k = 0; k < code_.operations; ++k)
-      series.line(k) = {code_.steps[k].factor, code_.steps[k].offset, code_.steps[k].second};
+    put_constants(series);
     tables_ = TapeTables(tape_, series);
   }
   TapeSeriesOf<double> series() { return {code_, memory_.data(), stride}; }
