@@ -120,6 +120,11 @@ std::vector<Addition> additions(const Scenario& with_pid) {
        [](Scenario& s, double x) {
          s.load = LoadSum{{std::get<GravityArm>(s.load), Fan{.rated_torque = 0.01 * x, .rated_speed = 2.0}}};
        }},
+      {"soft stops beside the arm",
+       [](Scenario& s, double x) {
+         s.load = LoadSum{{std::get<GravityArm>(s.load),
+                           EndStops{.low = -0.13 * x, .high = 0.13 * x, .stiffness = 20.0, .damping = 0.1}}};
+       }},
       {"brake", [](Scenario& s, double x) { put(s, HoldingBrake<double>{.torque = 0.01 * x, .opens = 0.1}); }},
       // with states
       {"winding",

@@ -89,6 +89,10 @@ struct Effects {
         if (effect) effect->enter(t);
     });
   }
+  /// Torque of the brake that holds now [N m].
+  T braking() const {
+    return through(list, T(0.0), [](const auto& e, const T&) -> decltype(e.braking()) { return e.braking(); });
+  }
   /// First time after t at which an effect changes.
   double next_knot(double t) const {
     return through(
@@ -100,11 +104,8 @@ struct Effects {
   }
   /// Whether what effects do bends where the load changes its sign.
   bool bend_with_load() const {
-    bool any = false;
-    for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (requires { effect->bends_with_load(); }) any = any || (effect && effect->bends_with_load());
-    });
-    return any;
+    return through(list, false,
+                   [](const auto& e, bool any) -> decltype(e.bends_with_load()) { return any || e.bends_with_load(); });
   }
   /// Torque that the effects add on the worm shaft [N m]. M as above.
   template <class S, template <class> class M>
@@ -149,11 +150,8 @@ struct Effects {
   }
   /// Whether an effect makes the friction between the teeth another one.
   bool change_friction() const {
-    bool any = false;
-    for_each([&]<class E>(const std::optional<E>& effect) {
-      if constexpr (requires { effect->friction_range(FrictionRange{}, 0.0); }) any = any || effect;
-    });
-    return any;
+    return through(list, false,
+                   [](const auto& e, bool) -> decltype(e.friction_range(FrictionRange{}, 0.0), true) { return true; });
   }
   /// Highest angular frequency with which friction still changes after so long at rest [s], in rad/s.
   double fastest_at_rest(double rest) const {
@@ -172,11 +170,7 @@ struct Effects {
   }
   /// Whether the worm does not follow the gear with the ratio i throughout.
   bool pitch_varies() const {
-    bool any = false;
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->transmission(T(0)); }) any = any || effect;
-    });
-    return any;
+    return through(list, false, [](const auto& e, bool) -> decltype(e.transmission(T(0)), true) { return true; });
   }
   /// Smallest slope of the worm angle over the gear angle, per ratio i.
   double least_slope() const {
@@ -221,11 +215,7 @@ struct Effects {
   }
   /// Whether the inertia of the gear side depends on its angle.
   bool inertia_varies() const {
-    bool any = false;
-    for_each([&](const auto& effect) {
-      if constexpr (requires { effect->inertia_at(T(0)); }) any = any || effect;
-    });
-    return any;
+    return through(list, false, [](const auto& e, bool) -> decltype(e.inertia_at(T(0)), true) { return true; });
   }
   /// What the gear side, or the load behind a coupling, feels of inertias that depend on its angle.
   template <class S>

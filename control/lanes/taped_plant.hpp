@@ -46,7 +46,7 @@ class TapedPlant {
     Mask known = ahead & leap_.goes_on(), going = known;
     for (int leaps = 1;; ++leaps) {
       V end = length;
-      Mask leapt = states.any() ? leap_by_terms(going, end) : foresee_and_follow(going, end, motor, t);
+      Mask leapt = batch_.tapes.code->by_terms ? leap_by_terms(going, end) : foresee_and_follow(going, end, motor, t);
       if (any(leapt)) {
         leapt = leap_.end_with_sections(leapt, end) & (t + end > t);
         theta = select(leapt, leap_.angle_after(end), theta);
@@ -158,7 +158,6 @@ class TapedPlant {
     explicit LaneStates(TapeSeriesOf<V>& series) : series_(series), count_(series.code().states) {
       for (int k = 0; k < count_; ++k) now_[k] = begin_[k] = first(k);
     }
-    bool any() const { return count_ > 0; }
     void go_on(const TapedLeapOf<V>& leap, const Mask& leapt, const V& seconds) {
       for (int k = 0; k < count_; ++k) now_[k] = select(leapt, leap.state_after(k, seconds), now_[k]);
     }

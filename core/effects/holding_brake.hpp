@@ -41,10 +41,15 @@ struct HoldingBrake {
       if (time && value_of(*time) > t && value_of(*time) < next) next = value_of(*time);
     return next;
   }
-  /// Torque on the worm shaft [N m].
-  template <class S>
-  S worm_torque(const Moment<S>&, Motion motion) const {
-    return closed ? S(-sign(motion) * torque) : S(0.0);
+  /// Torque that holds now [N m].
+  T braking() const { return closed ? torque : T(0.0); }
+  /// Torque on the worm shaft [N m], by a moment that may say itself what holds.
+  template <class S, template <class> class M>
+  S worm_torque(const M<S>& at, Motion motion) const {
+    if constexpr (requires { at.brake; })
+      return T(-sign(motion)) * at.brake;
+    else
+      return closed ? S(-sign(motion) * torque) : S(0.0);
   }
 
  private:

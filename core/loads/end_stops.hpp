@@ -62,7 +62,8 @@ struct EndStops {
   template <class S>
   S push(const S& depth, const S& rate) const {
     const S force = stiffness * (depth + depth * (damping * rate));
-    return is_positive(depth) && is_positive(force) ? force : S(0.0);
+    const bool meets = is_positive(depth), pushes = is_positive(force);
+    return only_where(meets && pushes, force);
   }
 };
 

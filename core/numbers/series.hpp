@@ -186,6 +186,12 @@ S at_least(const S& x, double least) {
   return x < S(least) ? S(least) : x;
 }
 
+/// x where that holds, else 0: equations that are recorded have the same operations on both sides.
+template <class S>
+S only_where(bool holds, const S& x) {
+  return holds ? x : S(0.0);
+}
+
 /// Sine and cosine of one series, which need each other.
 template <class T, int N, bool open>
 struct SineCosine {

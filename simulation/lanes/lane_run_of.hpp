@@ -184,13 +184,15 @@ class LaneRunOf final : public LaneRun {
     return false;
   }
 
-  /// The drive where it sets off in a mode: there comparisons turn out as they mostly do.
+  /// The drive just after it has set off in a mode: there comparisons turn out as they mostly do, and are no ties.
   typename Drive::Instant setting_off(Mode mode) const {
     constexpr double barely = 1e-100;  // a direction, and no speed
+    const double way = sign(mode.motion), ahead = way * std::numeric_limits<double>::infinity();
     typename Drive::Instant now = progress_.now;
     now.mode = mode;
-    if constexpr (has_states)
-      now.x = starting_state(drive_, {scenario_.initial.theta_g, sign(mode.motion) * barely}, 0.0);
+    now.t += 0.5 * scenario_.control->sampling.period;
+    now.x =
+        starting_state(drive_, {std::nextafter(scenario_.initial.theta_g, ahead) + way * barely, way * barely}, 0.0);
     return now;
   }
   /// Of the states that the tape has, how many there are, and one of them.

@@ -98,6 +98,20 @@ TEST_CASE("lanes: 60 random drives with winding, bristles, heat, coupling or sto
   CHECK(all.events > 1000);
 }
 
+TEST_CASE("lanes: 120 random drives whose equations compare, or change at given times, are what CVODE finds as well") {
+  Judged all;
+  all.judge(120, 25, [](Dice& dice, const RandomLoop& loop) {
+    std::vector<std::string> words = nominal_words(dice, loop) + what_compares(dice, loop);
+    for (const std::string& word : additions(dice, loop, 2))
+      if (!word.starts_with("load=")) words.push_back(word);
+    if (dice.chance(0.2)) words = words + std::vector{effects_with_states(dice, loop).front()};
+    return Drawn{words, 1e-7};
+  });
+  CAPTURE(all.apart, all.events, all.in_lanes);
+  CHECK(all.in_lanes == 120);
+  CHECK(all.events > 1000);
+}
+
 TEST_CASE("a state that moves nothing, and settles within a third of a sample, is as exact as the motion") {
   const auto rise = [](const char* solver) {
     const std::vector<std::string> words{

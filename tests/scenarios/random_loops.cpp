@@ -106,6 +106,35 @@ std::vector<std::string> additions(Dice& dice, const RandomLoop& on, int most) {
   return chosen;
 }
 
+namespace {
+
+/// One of them, or two different ones.
+std::vector<std::string> one_or_two(Dice& dice, const std::vector<std::string>& all) {
+  const int first = dice.below(static_cast<int>(all.size())), second = dice.below(static_cast<int>(all.size()));
+  std::vector<std::string> chosen{all[static_cast<std::size_t>(first)]};
+  if (second != first) chosen.push_back(all[static_cast<std::size_t>(second)]);
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<std::string> what_compares(Dice& dice, const RandomLoop& on) {
+  const double tau = on.torque() * 1e-2 * dice.decades(0.1, 10.0), duration = 0.4 * on.T,
+               natural = dice.decades(10.0, 300.0) / on.T;
+  const std::string arm =
+      fmt::format("{{kind=\"gravity_arm\",torque_Nm={},angle_offset_deg={}}}", tau, dice.between(-180.0, 180.0));
+  std::string brake = fmt::format("effect.holding_brake={{torque_Nm={}", 0.1 * tau);
+  if (dice.chance(0.7)) brake += fmt::format(",opens_s={}", duration * dice.between(0.0, 1.0));
+  if (dice.chance(0.7)) brake += fmt::format(",closes_s={}", duration * dice.between(0.0, 1.0));
+  return one_or_two(
+      dice, {fmt::format("effect.friction_under_load.share={}", dice.between(0.01, 0.5)), brake + "}",
+             fmt::format("load=[{},{{kind=\"end_stops\",angle_low_deg={},angle_high_deg={},stiffness_Nm_per_rad={},"
+                         "damping_s_per_rad={}}}]",
+                         arm, -dice.decades(2.0, 30.0), dice.decades(2.0, 30.0), 0.018 * on.J * natural * natural,
+                         dice.chance(0.5) ? 0.0 : on.T * dice.decades(0.01, 1.0)),
+             fmt::format("load=[{},{{kind=\"fan\",torque_Nm={},speed_rad_per_s={}}}]", arm, tau, 2.0 / on.T)});
+}
+
 std::vector<std::string> effects_with_states(Dice& dice, const RandomLoop& on) {
   const double tau = on.torque() * 1e-3 * dice.decades(0.1, 10.0), sample = 1e-3 * on.T, speed = 4.0 / on.T,
                R = dice.decades(0.1, 10.0), K = std::sqrt(R * 2.5e-5 * on.drag() * dice.decades(0.1, 10.0));
@@ -126,21 +155,16 @@ std::vector<std::string> effects_with_states(Dice& dice, const RandomLoop& on) {
                             26.0 * speed * dice.decades(1e-3, 1.0));
   bristles += "}";
   const double inertia = 7.39e-4 * on.J * dice.decades(0.1, 10.0), natural = dice.decades(10.0, 1000.0) / on.T;
-  const std::vector<std::string> all{
-      motor + "}",
-      bristles,
-      fmt::format("effect.mesh_lugre={{stiffness_per_m={},damping_s_per_m={}}}", dice.decades(1e2, 1e5),
-                  on.T * dice.decades(1e-3, 1e-1)),
-      fmt::format("effect.gearbox_heat={{friction_decay_per_K={},heat_capacity_J_per_K={}}}", dice.decades(1e-3, 1e-2),
-                  0.02 * on.torque() / dice.decades(1.0, 100.0)),
-      fmt::format("effect.load_coupling={{inertia_kgm2={},stiffness_Nm_per_rad={},damping_Nms_per_rad={}}}", inertia,
-                  inertia * natural * natural, inertia * natural * dice.decades(0.01, 1.0)),
-      fmt::format("effect.hard_stops={{angle_low_deg={},angle_high_deg={}}}", -dice.decades(2.0, 100.0),
-                  dice.decades(2.0, 100.0))};
-  const int first = dice.below(static_cast<int>(all.size())), second = dice.below(static_cast<int>(all.size()));
-  std::vector<std::string> chosen{all[static_cast<std::size_t>(first)]};
-  if (second != first) chosen.push_back(all[static_cast<std::size_t>(second)]);
-  return chosen;
+  return one_or_two(
+      dice, {motor + "}", bristles,
+             fmt::format("effect.mesh_lugre={{stiffness_per_m={},damping_s_per_m={}}}", dice.decades(1e2, 1e5),
+                         on.T * dice.decades(1e-3, 1e-1)),
+             fmt::format("effect.gearbox_heat={{friction_decay_per_K={},heat_capacity_J_per_K={}}}",
+                         dice.decades(1e-3, 1e-2), 0.02 * on.torque() / dice.decades(1.0, 100.0)),
+             fmt::format("effect.load_coupling={{inertia_kgm2={},stiffness_Nm_per_rad={},damping_Nms_per_rad={}}}",
+                         inertia, inertia * natural * natural, inertia * natural * dice.decades(0.01, 1.0)),
+             fmt::format("effect.hard_stops={{angle_low_deg={},angle_high_deg={}}}", -dice.decades(2.0, 100.0),
+                         dice.decades(2.0, 100.0))});
 }
 
 }  // namespace wormdrive::test

@@ -21,6 +21,8 @@ const char* law_of(const RandomLoop& on);
 /// Up to so many effects, loads, sensors and motors without states; an asymmetry comes with the friction that it
 /// belongs to.
 std::vector<std::string> additions(near_ties::Dice& dice, const RandomLoop& on, int most);
+/// One or two that compare, or are others from a time on: friction under load, a brake, stops, a fan.
+std::vector<std::string> what_compares(near_ties::Dice& dice, const RandomLoop& on);
 /// One or two effects with states.
 std::vector<std::string> effects_with_states(near_ties::Dice& dice, const RandomLoop& on);
 

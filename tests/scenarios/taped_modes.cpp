@@ -27,11 +27,13 @@ void require_the_same(Drive drive, const Scenario& scenario) {
     for (const Flank flank : {Flank::left, Flank::right}) {
       typename Drive::Instant now;
       now.mode = {motion, flank};
-      now.x = starting_state(drive, {0.1, 1e-3 * sign(motion)}, 0.0);
-      const TapeCode* const code = solver.taped().code(now);
-      REQUIRE(code != nullptr);
-      if (first == nullptr) first = code;
-      REQUIRE(*code == *first);
+      for (const double theta_g : {-1.5, -0.1, 0.1, 1.5}) {  // also where stops push
+        now.x = starting_state(drive, {theta_g, 1e-3 * sign(motion)}, 0.0);
+        const TapeCode* const code = solver.taped().code(now);
+        REQUIRE(code != nullptr);
+        if (first == nullptr) first = code;
+        REQUIRE(*code == *first);
+      }
     }
 }
 
@@ -43,8 +45,10 @@ TEST_CASE("tapes: the operations are the same in both directions and on both fla
     Dice dice(24, index);
     const RandomLoop loop = draw_loop(dice);
     std::vector<std::string> words = nominal_words(dice, loop);
-    const bool states = dice.chance(0.5);
-    for (const std::string& word : states ? effects_with_states(dice, loop) : additions(dice, loop, 3))
+    const double kind = dice.between(0.0, 1.0);
+    for (const std::string& word : kind < 0.5    ? effects_with_states(dice, loop)
+                                   : kind < 0.75 ? what_compares(dice, loop)
+                                                 : additions(dice, loop, 3))
       words.push_back(word);
     INFO(fmt::format("drive {}: {}", index, fmt::join(words, " ")));
     const Scenario scenario = load_scenario(shipped(law_of(loop)), words, Purpose::run);

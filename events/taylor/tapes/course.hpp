@@ -10,16 +10,16 @@
 
 namespace wormdrive {
 
-/// A moment that says what comes from outside [N m]: what the motor is told, what all loads over time come to, and what
-/// disturbs the worm's shaft.
+/// A moment that says what comes from outside [N m]: what the motor is told, what all loads over time come to, what
+/// disturbs the worm's shaft, and how the brake holds it.
 template <class S>
 struct MomentOnTape : Moment<S> {
-  S command, load_over_time, disturbance;
+  S command, load_over_time, disturbance, brake;
 };
 /// The same with the states of the effects.
 template <class S>
 struct MomentOfEffectsOnTape : MomentOfEffects<S> {
-  S command, load_over_time, disturbance;
+  S command, load_over_time, disturbance, brake;
 };
 
 /// What of a load depends on time alone, or nullptr.
@@ -39,13 +39,15 @@ class TapeCourse {
   static constexpr bool has_states = System::state_size > 2;
   static_assert(System::state_size - 2 <= TapeCode::most_states);
 
-  /// Without states of effects they hold wherever the drive is; with states while all comparisons turn out as they do
-  /// at this moment.
+  /// Where no effect has states and nothing is compared, they hold wherever the drive is; else while all comparisons
+  /// turn out as they do at this moment.
   TapeCourse(const System& system, Mode mode, const Instant& now) {
     if constexpr (has_states)
       system.effects().for_each_state([&](const auto&, const auto&, std::size_t k) { states_.push_back(k); });
-    tape_.clear(In::first_state + static_cast<int>(states_.size()));
-    record(system, mode, now);
+    else
+      record(system, mode, now);
+    code.by_terms = has_states || !tape_.is_complete();
+    if (code.by_terms) record(system, mode, now);
     if (!tape_.is_complete()) return;
     for (const Tape::Decision& decision : tape_.decisions()) {
       if (decision.side == 0.0) return;
@@ -76,8 +78,11 @@ class TapeCourse {
   static constexpr int stride = highest_order + 2;  ///< a search for events takes the longest series
 
   void record(const System& system, Mode mode, const Instant& now) {
-    // without states nothing is known beforehand, so that a comparison stops the record
-    const auto known = [](double value) { return has_states ? value : std::numeric_limits<double>::quiet_NaN(); };
+    tape_.clear(In::first_state + static_cast<int>(states_.size()));
+    // where nothing is known beforehand, a comparison leaves the tape incomplete
+    const auto known = [this](double value) {
+      return code.by_terms ? value : std::numeric_limits<double>::quiet_NaN();
+    };
     const auto input = [&](int place, double value) { return tape_.input(place, known(value)); };
     std::array<Taped, System::state_size> x;
     x[0] = input(In::angle, now.x[0]);
@@ -88,7 +93,8 @@ class TapeCourse {
     const TimedLoad* const timed = over_time(system.load());
     const std::conditional_t<has_states, MomentOfEffectsOnTape<Taped>, MomentOnTape<Taped>> at{
         system.moment_at(input(In::time, now.t), x), input(In::command, system.motor_input()(now.t)),
-        timed ? input(In::load, timed->piece(now.t)) : Taped(0.0), input(In::disturbance, system.disturbance())};
+        timed ? input(In::load, timed->piece(now.t)) : Taped(0.0), input(In::disturbance, system.disturbance()),
+        input(In::brake, system.effects().braking())};
     const auto tau = system.side_torques(system.inputs(at, mode.motion), at, mode.motion);
     code.acceleration = tape_.place(system.acceleration(tau, at, mode));
     if constexpr (has_states) {
@@ -103,11 +109,12 @@ class TapeCourse {
       const Taped way = system.guards(at, mode)[System::stop_guard];
       tape_.decide_by(way);
       way_to_stop_ = Tape::multiple(way);
-      system.for_each_bend(at, mode.motion, [this](const Taped& bend) {
-        tape_.decide_by(bend);
-        bends_.push_back(Tape::multiple(bend));
-      });
     }
+    if (!code.by_terms) return;
+    system.for_each_bend(at, mode.motion, [this](const Taped& bend) {
+      tape_.decide_by(bend);
+      bends_.push_back(Tape::multiple(bend));
+    });
   }
   void describe(const System& system) {
     code.steps = tape_.steps().data();

@@ -21,8 +21,8 @@ class TapedFlow {
   explicit TapedFlow(const System&) {}
 };
 
-/// The motion of a worm drive with any effects by its own equations, recorded once in each mode, and with states once
-/// for every way in which comparisons turn out: what SeriesFlow finds, many times faster.
+/// The motion of a worm drive with any effects by its own equations, recorded in each mode once for every way in which
+/// comparisons turn out: what SeriesFlow finds, many times faster.
 template <class Load, bool with_states>
 class TapedFlow<WormDrive<double, Load, with_states>> {
  public:
@@ -32,27 +32,33 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   using Motion = Expansion<System::guard_count, System::state_size - 2>;
 
   /// The system must outlive the flow; its inputs may change between steps, its parameters must not.
-  explicit TapedFlow(const System& system)
-      : system_(system), changes_(std::isfinite(system.effects().next_knot(-never))) {}
+  explicit TapedFlow(const System& system) : system_(system) {}
 
   /// False where the equations that hold now cannot be recorded.
   bool covers(const Instant& now) {
-    if (changes_) return false;
+    if (now.mode.motion == wormdrive::Motion::stuck) return false;
     const int at = (sign(now.mode.motion) > 0 ? 3 : 0) + sign(now.mode.flank) + 1;
     std::vector<std::unique_ptr<Course>>& known_ones = courses_[static_cast<std::size_t>(at)];
-    if constexpr (with_states) return now.mode.motion != wormdrive::Motion::stuck && covers_one_of(known_ones, now);
-    if (known_ones.empty()) [[unlikely]]
-      known_ones.push_back(std::make_unique<Course>(system_, now.mode, now));
-    course_ = known_ones.front().get();
-    return course_->leap.has_value();
+    for (auto& course : known_ones)
+      if (takes_up(*course, now)) {
+        std::swap(course, known_ones.front());
+        return true;
+      }
+    if (known_ones.size() == most_ways) return false;
+    auto course = std::make_unique<Course>(system_, now.mode, now);
+    if (!course->leap) return false;
+    known_ones.push_back(std::move(course));
+    return takes_up(*known_ones.back(), now);
   }
+  /// Whether the equations may compare, so that steps are judged by the terms of their series.
+  bool by_terms() const { return course_->code.by_terms; }
 
   /// One step where the equations are covered, to next or to where its series or a section of a table ends, if it is
   /// certain that no guard falls through zero in it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     const double h = next - now.t;
     double end = h;
-    if constexpr (with_states) {  // covers() has taken up the moment
+    if (by_terms()) {  // covers() has taken up the moment
       LeapByTerms<double> by_terms(*course_->leap);
       const bool certain = by_terms.take(true, end, accuracy, course_->tables);
       worked_out_ = by_terms.worked_out();
@@ -101,7 +107,7 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     const int last = accuracy.order();
     TapedLeap& leap = *course_->leap;
     TapeSeriesOf<double>& series = leap.series();
-    if constexpr (!with_states) begin(now);  // else covers() has taken up the moment
+    if (!by_terms()) begin(now);  // else covers() has taken up the moment
     h = std::min(h, leap.longest_within_sections());
     leap.expand_load(last);
     const double* const omega = series[In::speed];
@@ -128,7 +134,7 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
     // of an exponential the terms may be too small to be seen at first
-    if (with_states ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->code.exponentials > 0)
+    if (by_terms() ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->code.exponentials > 0)
       SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
@@ -147,22 +153,12 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   /// So many ways in which comparisons turn out in a mode are kept; behind them a drive goes on without leaps.
   static constexpr std::size_t most_ways = 16;
 
-  bool covers_one_of(std::vector<std::unique_ptr<Course>>& known_ones, const Instant& now) {
-    const auto holds = [&](Course& course) {
-      course_ = &course;
-      begin(now);
-      return LeapByTerms<double>(*course.leap).holds();
-    };
-    for (auto& course : known_ones)
-      if (holds(*course)) {
-        std::swap(course, known_ones.front());
-        return true;
-      }
-    if (known_ones.size() == most_ways) return false;
-    auto course = std::make_unique<Course>(system_, now.mode, now);
-    if (!course->leap) return false;
-    known_ones.push_back(std::move(course));
-    return holds(*known_ones.back());
+  /// Whether the equations of a course hold now; the moment is taken up where that takes a look.
+  bool takes_up(Course& course, const Instant& now) {
+    course_ = &course;
+    if (!by_terms()) return true;
+    begin(now);
+    return LeapByTerms<double>(*course.leap).holds();
   }
 
   /// Whether a leap is certain beforehand, to its end or to an earlier one.
@@ -191,6 +187,7 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     TapedMotionOf<double>& m = course_->leap->series().motion();
     const TimedLoad* const timed = over_time(system_.load());
     m.time_disc = never;
+    m.brake = system_.effects().braking();
     if (timed == nullptr) return;
     const Piece& piece = timed->piece;
     m.time_disc = 1.0 / piece.fastest();
@@ -263,7 +260,6 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   }
 
   const System& system_;
-  bool changes_;                                                 ///< an effect is another one from a given time on
   std::array<std::vector<std::unique_ptr<Course>>, 6> courses_;  ///< of each mode
   Course* course_ = nullptr;                                     ///< of the latest one
   int worked_out_ = 0;                                           ///< coefficients of all operations

@@ -18,7 +18,7 @@ class TapedLeapOf {
   /// ... and where they are judged by their terms: a state that follows fast takes fewer of them in long steps.
   static constexpr int longest_by_terms = highest_order;
   /// Coefficients of the angle.
-  static int stride(const TapeCode& code) { return 2 + (code.states > 0 ? longest_by_terms : longest); }
+  static int stride(const TapeCode& code) { return 2 + (code.by_terms ? longest_by_terms : longest); }
   static constexpr double farthest = 64.0;  ///< leaps that the disc of times is wide
   /// Of the way to the edge of the disc, where a leap ends that would get further than half of it.
   static constexpr double within_reach = 0.25;
@@ -39,6 +39,7 @@ class TapedLeapOf {
     series_[In::command][0] = motor;
     series_[In::disturbance][0] = disturbs;
     const TapedMotionOf<V>& m = series_.motion();
+    series_[In::brake][0] = m.brake;
     V torque = m.load + m.slope * (t - m.start);
     for (int k = 0; k < series_.code().waves; ++k) {
       WaveOf<V>& wave = series_.wave(k);
@@ -259,7 +260,7 @@ class TapedLeapOf {
     put(In::speed, speed);
     put(In::command, command_disc(time));
     put(In::load, load_disc(time));
-    series_.radius(In::disturbance) = 0.0;
+    series_.radius(In::disturbance) = series_.radius(In::brake) = 0.0;
     series_.work_out_discs();
     return series_.shrinking();
   }

@@ -14,9 +14,9 @@ template void TapeSeriesOf<double>::work_out(int, int, TapeTables&);
 bool operator==(const TapeCode& a, const TapeCode& b) {
   const auto same = [](const auto* x, const auto* y, int count) { return std::equal(x, x + count, y); };
   const auto as_numbers = [](const TapeCode& c) {
-    return std::array{c.operations,  c.of_acceleration, c.places,   c.acceleration, c.beyond,    c.worm,
-                      c.gear,        c.bounds,          c.sections, c.waves,        int{c.lags}, c.states,
-                      c.comparisons, c.exponentials};
+    return std::array{c.operations,  c.of_acceleration, c.places,       c.acceleration, c.beyond,    c.worm,
+                      c.gear,        c.bounds,          c.sections,     c.waves,        int{c.lags}, c.states,
+                      c.comparisons, c.exponentials,    int{c.by_terms}};
   };
   return as_numbers(a) == as_numbers(b) && same(a.bounded, b.bounded, a.bounds) &&
          same(a.arguments, b.arguments, a.sections) && same(a.rates, b.rates, a.states) &&

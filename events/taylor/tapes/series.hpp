@@ -14,7 +14,7 @@ namespace wormdrive {
 
 /// What the equations on a tape take from outside, in the places that come first; states of effects come behind.
 struct TapeInput {
-  enum : int { time, angle, speed, command, load, disturbance, first_state };
+  enum : int { time, angle, speed, command, load, disturbance, brake, first_state };
 };
 
 /// The operations on a tape and which of their results count, without any number: what drives that have the same
@@ -33,8 +33,9 @@ struct TapeCode {
   const int* decisions = nullptr;  ///< places that have to stay on their sides ...
   const int* exponents = nullptr;  ///< ... and those of the arguments of exponentials
   int comparisons = 0, exponentials = 0;
-  int waves = 0;      ///< of the load over time
-  bool lags = false;  ///< the motor's torque follows its command with a lag
+  int waves = 0;          ///< of the load over time
+  bool lags = false;      ///< the motor's torque follows its command with a lag
+  bool by_terms = false;  ///< steps are judged by the terms of their series, not beforehand
 
   friend bool operator==(const TapeCode& a, const TapeCode& b);
 };
@@ -75,6 +76,7 @@ struct TapedMotionOf {
   V time_disc;           ///< of complex times in which the load changes little; infinite where it is constant
   V load, slope, start;  ///< of the load over time: load + slope (t - start) + its waves
   V steepness, fastest;  ///< of these the most slope and the highest angular frequency
+  V brake;               ///< torque of the brake [N m]
   V next_knot;           ///< when the inputs become others
   V leaps;               ///< that a lane has taken
 };

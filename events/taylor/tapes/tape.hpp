@@ -166,6 +166,11 @@ class Taped {
     if (x.tape_) x.tape_->hold({x.place(), least});
     return x;
   }
+  friend Taped only_where(bool holds, const Taped& x) {
+    if (!x.tape_) return holds ? x : Taped(0.0);
+    const double share = holds ? 1.0 : 0.0;
+    return x.tape_->record(Operation::affine, share * x.value_, x.place_, 0, share * x.factor_, share * x.constant_);
+  }
   friend bool operator<(const Taped& a, const Taped& b) { return decided(a, b, a.value_ < b.value_); }
   friend bool operator>(const Taped& a, const Taped& b) { return b < a; }
   friend bool operator<=(const Taped& a, const Taped& b) { return decided(a, b, a.value_ <= b.value_); }
