@@ -83,10 +83,6 @@ class MotorInput {
     lagged_ = {Piece{}, T(0), lag_, T(t), T(torque)};
     started_ = true;
   }
-  /// The most by which the torque differs from its value at t at other times, complex ones too, within so many seconds.
-  double change_within(double t, double seconds) const {
-    return lags() ? lagged_.change_within(t - late_, seconds) : piece_.change_within(seconds);
-  }
   /// When what holds now has arrived [s]: a knot of the command moves with the delay, one of the load does not.
   const T& arrival() const { return arrival_; }
   /// The smooth piece of the command that the motor has now; its time is delayed.

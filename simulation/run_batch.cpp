@@ -79,7 +79,7 @@ class LaneGroup {
   LaneTapes make_tapes() {
     const TapeCode* const code = runs_.front()->tape();
     if (code == nullptr) return {};
-    const std::size_t series = TapeSeriesOf<double>::room(*code, TapedLeapOf<double>::stride(*code));
+    const std::size_t series = TapeSeriesOf<double>::room(*code);
     const auto width = static_cast<std::size_t>(width_);
     const std::size_t room = (series + TapeSeriesOf<double>::numbers(*code)) * width;
     tapes_.assign(room * static_cast<std::size_t>(registers()) / std::size(Line{}.of) + 1, Line{});

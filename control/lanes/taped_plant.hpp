@@ -22,8 +22,8 @@ class TapedPlant {
   TapedPlant(const LaneBatch& batch, int r)
       : batch_(batch),
         r_(r),
-        leap_(TapeSeriesOf<V>(*batch.tapes.code, batch.tapes.memory + static_cast<std::size_t>(r) * batch.tapes.room,
-                              TapedLeapOf<V>::stride(*batch.tapes.code))) {}
+        leap_(TapeSeriesOf<V>(*batch.tapes.code, batch.tapes.memory + static_cast<std::size_t>(r) * batch.tapes.room)) {
+  }
 
   /// Moves angle and speed on to the next sample where that is certain beforehand, and returns where it is.
   [[gnu::always_inline]] Mask step(const LaneSample& sample, LaneTrial<V>& x, V& theta, V& omega, const V& command,
@@ -46,7 +46,7 @@ class TapedPlant {
     Mask known = ahead & leap_.goes_on(), going = known;
     for (int leaps = 1;; ++leaps) {
       V end = length;
-      Mask leapt = batch_.tapes.code->by_terms ? leap_by_terms(going, end) : foresee_and_follow(going, end, motor, t);
+      Mask leapt = take(going, end);
       if (any(leapt)) {
         leapt = leap_.end_with_sections(leapt, end) & (t + end > t);
         theta = select(leapt, leap_.angle_after(end), theta);
@@ -126,16 +126,8 @@ class TapedPlant {
       if (lags_) left_ = begin_ * plant_.exp((sample_ - t) / trial_.behind);
     }
     [[gnu::always_inline]] V now() const { return lags_ ? command_ + left_ : command_; }
-    [[gnu::always_inline]] CommandReach<V> reach(const V& t) const {
-      constexpr double never = std::numeric_limits<double>::infinity();
-      return lags_ ? reach_of_lag<V>(trial_.behind, t - sample_)
-                   : CommandReach<V>{V(never), V(never), TapedLeapOf<V>::farthest};
-    }
-    [[gnu::always_inline]] V change_within(const V& seconds) const {
-      return lags_ ? abs(left_) * (plant_.exp(seconds * (1.0 / trial_.behind)) - 1.0) : V(0.0);
-    }
     [[gnu::always_inline]] void expand(V* c) const {
-      if (lags_) expand_decay(left_, trial_.behind, TapedLeapOf<V>::stride(*plant_.batch_.tapes.code) - 2, c);
+      if (lags_) expand_decay(left_, trial_.behind, TapedLeapOf<V>::longest, c);
     }
     /// Keeps what the torque has become at the next sample.
     [[gnu::always_inline]] void end_sample(const Mask& known, double next) {
@@ -178,13 +170,7 @@ class TapedPlant {
     std::array<V, TapeCode::most_states> begin_, now_;
   };
 
-  [[gnu::always_inline]] Mask foresee_and_follow(const Mask& going, V& end, const MotorTorque& motor, const V& t) {
-    const Mask leapt = leap_.foresee(going, end, leap_.worth_while, batch_.accuracy, motor.reach(t),
-                                     [&](const V& seconds) { return motor.change_within(seconds); });
-    if (any(leapt)) leap_.follow(*this);
-    return leapt;
-  }
-  [[gnu::noinline]] Mask leap_by_terms(const Mask& going, V& end) {
+  [[gnu::noinline]] Mask take(const Mask& going, V& end) {
     LeapByTerms<V> by_terms(leap_);
     const Mask holds = going & by_terms.holds();
     return any(holds) ? by_terms.take(holds, end, batch_.accuracy, *this) : holds;
@@ -194,8 +180,7 @@ class TapedPlant {
   [[gnu::noinline]] void change_mode(const Mask& which) {
     const TapeCode& code = *batch_.tapes.code;
     V* const numbers = reinterpret_cast<V*>(&leap_.series().motion());
-    swap_where<V>(which, numbers, numbers + TapeSeriesOf<V>::room(code, TapedLeapOf<V>::stride(code)),
-                  TapeSeriesOf<V>::numbers(code));
+    swap_where<V>(which, numbers, numbers + TapeSeriesOf<V>::room(code), TapeSeriesOf<V>::numbers(code));
   }
 
   /// Within a sample; what needs more goes on alone.

@@ -24,10 +24,6 @@ class LaggedPiece {
     return staying(t) + excess_ * exp((begin_ - t) / lag_);
   }
 
-  /// The most by which it differs from its value at t at other times, complex ones too, within so many seconds.
-  double change_within(double t, double seconds) const {
-    return u_.change_within(seconds) + std::abs(decaying(t)) * (portable::exp(seconds * (1.0 / value_of(lag_))) - 1.0);
-  }
   /// The part of it that decays.
   double decaying(double t) const { return value_of(excess_) * portable::exp((value_of(begin_) - t) / value_of(lag_)); }
   /// From when on what decays is below rounding [s].

@@ -38,12 +38,6 @@ struct Piece {
   }
 
   bool is_constant() const { return cosines.empty() && slope == 0.0; }
-  /// The most by which it differs from its value at a time at other times, complex ones too, within so many seconds.
-  double change_within(double seconds) const {
-    double most = std::abs(slope) * seconds;
-    for (const Cosine& c : cosines) most += std::abs(c.amplitude) * (portable::exp(std::abs(c.omega) * seconds) - 1.0);
-    return most;
-  }
 
   /// Highest angular frequency in the piece [rad/s], 0 without cosines.
   double fastest() const {

@@ -244,8 +244,7 @@ class TaylorSolver {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
     if constexpr (TapedFlow<System>::known) {
-      // a tape that compares holds from where the latest leap was tried
-      expanded_by_tape_ = taped_covers_ || (System::state_size == 2 && bends_.none() && taped_.covers(now));
+      expanded_by_tape_ = taped_covers_ || taped_.covers(now);
       if (expanded_by_tape_) return taped_.expand(now, h, accuracy_, series_);
     }
     flow_.expand(system_, now, h, accuracy_, series_);

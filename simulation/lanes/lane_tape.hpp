@@ -18,8 +18,7 @@ class LaneTape {
   TapedMotionOf<double> motion() const { return from_lane<TapedMotionOf<double>>(numbers_, lanes_); }
   /// Of the register's series, the value of a state; the numbers are those at its begin.
   double& state(int k) const {
-    const int stride = TapedLeapOf<double>::stride(*code_);
-    return numbers_[TapeSeriesOf<double>::first_of(*code_, TapeInput::first_state + k, stride) * lanes_];
+    return numbers_[TapeSeriesOf<double>::first_of(*code_, TapeInput::first_state + k) * lanes_];
   }
 
   /// Takes up that the lane has exchanged its numbers with those of another mode.

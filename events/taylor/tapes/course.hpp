@@ -1,7 +1,5 @@
 #pragma once
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -39,21 +37,16 @@ class TapeCourse {
   static constexpr bool has_states = System::state_size > 2;
   static_assert(System::state_size - 2 <= TapeCode::most_states);
 
-  /// Where no effect has states and nothing is compared, they hold wherever the drive is; else while all comparisons
-  /// turn out as they do at this moment.
+  /// They hold while all comparisons turn out as they do at this moment.
   TapeCourse(const System& system, Mode mode, const Instant& now) {
     if constexpr (has_states)
       system.effects().for_each_state([&](const auto&, const auto&, std::size_t k) { states_.push_back(k); });
-    else
-      record(system, mode, now);
-    code.by_terms = has_states || !tape_.is_complete();
-    if (code.by_terms) record(system, mode, now);
+    record(system, mode, now);
     if (!tape_.is_complete()) return;
     for (const Tape::Decision& decision : tape_.decisions()) {
       if (decision.side == 0.0) return;
       decisions_.push_back(decision.place);
     }
-    for (const Tape::Condition& c : tape_.conditions()) bounded_.push_back(c.place);
     describe(system);
     lay_out(system, mode);
   }
@@ -75,26 +68,20 @@ class TapeCourse {
 
  private:
   using In = TapeInput;
-  static constexpr int stride = highest_order + 2;  ///< a search for events takes the longest series
 
   void record(const System& system, Mode mode, const Instant& now) {
     tape_.clear(In::first_state + static_cast<int>(states_.size()));
-    // where nothing is known beforehand, a comparison leaves the tape incomplete
-    const auto known = [this](double value) {
-      return code.by_terms ? value : std::numeric_limits<double>::quiet_NaN();
-    };
-    const auto input = [&](int place, double value) { return tape_.input(place, known(value)); };
     std::array<Taped, System::state_size> x;
-    x[0] = input(In::angle, now.x[0]);
-    x[1] = input(In::speed, now.x[1]);
+    x[0] = tape_.input(In::angle, now.x[0]);
+    x[1] = tape_.input(In::speed, now.x[1]);
     for (int k = 2; k < System::state_size; ++k) x[k] = Taped(now.x[k]);  // of an effect that is off
     for (std::size_t k = 0; k < states_.size(); ++k)
-      x[2 + states_[k]] = input(In::first_state + static_cast<int>(k), now.x[2 + states_[k]]);
+      x[2 + states_[k]] = tape_.input(In::first_state + static_cast<int>(k), now.x[2 + states_[k]]);
     const TimedLoad* const timed = over_time(system.load());
     const std::conditional_t<has_states, MomentOfEffectsOnTape<Taped>, MomentOnTape<Taped>> at{
-        system.moment_at(input(In::time, now.t), x), input(In::command, system.motor_input()(now.t)),
-        timed ? input(In::load, timed->piece(now.t)) : Taped(0.0), input(In::disturbance, system.disturbance()),
-        input(In::brake, system.effects().braking())};
+        system.moment_at(tape_.input(In::time, now.t), x), tape_.input(In::command, system.motor_input()(now.t)),
+        timed ? tape_.input(In::load, timed->piece(now.t)) : Taped(0.0),
+        tape_.input(In::disturbance, system.disturbance()), tape_.input(In::brake, system.effects().braking())};
     const auto tau = system.side_torques(system.inputs(at, mode.motion), at, mode.motion);
     code.acceleration = tape_.place(system.acceleration(tau, at, mode));
     if constexpr (has_states) {
@@ -110,7 +97,6 @@ class TapeCourse {
       tape_.decide_by(way);
       way_to_stop_ = Tape::multiple(way);
     }
-    if (!code.by_terms) return;
     system.for_each_bend(at, mode.motion, [this](const Taped& bend) {
       tape_.decide_by(bend);
       bends_.push_back(Tape::multiple(bend));
@@ -122,8 +108,6 @@ class TapeCourse {
     code.places = tape_.places();
     code.states = static_cast<int>(states_.size());
     code.rates = rates_.data();
-    code.bounded = bounded_.data();
-    code.bounds = static_cast<int>(bounded_.size());
     code.arguments = tape_.arguments().data();
     code.sections = static_cast<int>(tape_.arguments().size());
     code.decisions = decisions_.data();
@@ -136,11 +120,10 @@ class TapeCourse {
   }
   /// Puts the numbers of the tape and the mode into memory.
   void lay_out(const System& system, Mode mode) {
-    memory.assign(TapeSeriesOf<double>::room(code, stride), 0.0);
-    leap.emplace(TapeSeriesOf<double>(code, memory.data(), stride));
+    memory.assign(TapeSeriesOf<double>::room(code), 0.0);
+    leap.emplace(TapeSeriesOf<double>(code, memory.data()));
     TapeSeriesOf<double>& series = leap->series();
     put_constants(series);
-    for (int k = 0; k < code.bounds; ++k) series.least_of(k) = tape_.conditions()[static_cast<std::size_t>(k)].least;
     for (int k = 0; k < code.comparisons; ++k) {
       const Tape::Decision& decision = tape_.decisions()[static_cast<std::size_t>(k)];
       series.side(k) = {decision.value, decision.side};
@@ -149,14 +132,12 @@ class TapeCourse {
     motion.motion = sign(mode.motion);
     motion.flank = sign(mode.flank);
     motion.surface = system.surface();
-    const double ripple = system.ripple();
-    motion.angle_disc = ripple > 0.0 ? TapeSeriesOf<double>::widest / ripple : 1.0;
     tables = TapeTables(tape_, series);
   }
 
   Tape tape_{0};
   std::vector<std::size_t> states_;
-  std::vector<int> rates_, bounded_, decisions_;
+  std::vector<int> rates_, decisions_;
   Tape::Multiple way_to_stop_{};
   std::vector<Tape::Multiple> bends_;
 };

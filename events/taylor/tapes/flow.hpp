@@ -50,24 +50,15 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     known_ones.push_back(std::move(course));
     return takes_up(*known_ones.back(), now);
   }
-  /// Whether the equations may compare, so that steps are judged by the terms of their series.
-  bool by_terms() const { return course_->code.by_terms; }
-
-  /// One step where the equations are covered, to next or to where its series or a section of a table ends, if it is
-  /// certain that no guard falls through zero in it; otherwise nothing changes.
+  /// One step from the moment that was covered last, to next or to where its series or a section of a table ends, if it
+  /// is certain that no guard falls through zero in it; otherwise nothing changes.
   bool leap(Instant& now, double next, const TaylorAccuracy& accuracy) {
     const double h = next - now.t;
     double end = h;
-    if (by_terms()) {  // covers() has taken up the moment
-      LeapByTerms<double> by_terms(*course_->leap);
-      const bool certain = by_terms.take(true, end, accuracy, course_->tables);
-      worked_out_ = by_terms.worked_out();
-      if (!certain) return false;
-    } else {
-      begin(now);
-      if (!foresee(now, end, accuracy)) return false;
-      course_->leap->follow(course_->tables);
-    }
+    LeapByTerms<double> by_terms(*course_->leap);
+    const bool certain = by_terms.take(true, end, accuracy, course_->tables);
+    worked_out_ = by_terms.worked_out();
+    if (!certain) return false;
     if (!course_->leap->end_with_sections(true, end) || !(now.t + end > now.t)) return false;
     now.x = state(now.x, end);
     now.t = end < h ? now.t + end : next;
@@ -102,14 +93,13 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     return course_->leap->series().section(number);
   }
 
-  /// The motion from now on where the equations are covered, accurate over a step of at most h.
+  /// The motion from the moment on that was covered last, accurate over a step of at most h.
   void expand(const Instant& now, double h, const TaylorAccuracy& accuracy, Motion& e) {
     const int last = accuracy.order();
     TapedLeap& leap = *course_->leap;
     TapeSeriesOf<double>& series = leap.series();
-    if (!by_terms()) begin(now);  // else covers() has taken up the moment
     h = std::min(h, leap.longest_within_sections());
-    leap.expand_load(last);
+    leap.expand_load(1, last);
     const double* const omega = series[In::speed];
     double allowed = accuracy.allowed(now.x[1], h), power = 1.0 / h;  // power: h^(k-1)
     bool suffices = false;
@@ -134,7 +124,7 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
     // of an exponential the terms may be too small to be seen at first
-    if (by_terms() ? !LeapByTerms<double>(leap).remains(e.step, e.order + 1) : course_->code.exponentials > 0)
+    if (!LeapByTerms<double>(leap).remains(e.step, e.order + 1))
       SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
@@ -153,24 +143,11 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   /// So many ways in which comparisons turn out in a mode are kept; behind them a drive goes on without leaps.
   static constexpr std::size_t most_ways = 16;
 
-  /// Whether the equations of a course hold now; the moment is taken up where that takes a look.
+  /// Takes up a moment, and returns whether the equations of a course hold there.
   bool takes_up(Course& course, const Instant& now) {
     course_ = &course;
-    if (!by_terms()) return true;
     begin(now);
     return LeapByTerms<double>(*course.leap).holds();
-  }
-
-  /// Whether a leap is certain beforehand, to its end or to an earlier one.
-  bool foresee(const Instant& now, double& end, const TaylorAccuracy& accuracy) {
-    const MotorInput<double>& motor = system_.motor_input();
-    const auto command_disc = [&](double seconds) { return motor.change_within(now.t, seconds); };
-    CommandReach<double> reach{never, never, TapedLeap::farthest};
-    if (motor.lags()) reach = reach_of_lag(motor.lag(), now.t - motor.arrival());
-    reach.disc = std::min(reach.disc, 1.0 / motor.piece().fastest());
-    // where sections of a table are short, a step would end with them, too
-    const double part = course_->code.sections > 0 ? 0x1p-10 : TapedLeap::worth_while;
-    return course_->leap->foresee(true, end, part, accuracy, reach, command_disc);
   }
 
   void begin(const Instant& now) {
@@ -186,21 +163,16 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   void read_inputs() {
     TapedMotionOf<double>& m = course_->leap->series().motion();
     const TimedLoad* const timed = over_time(system_.load());
-    m.time_disc = never;
     m.brake = system_.effects().braking();
     if (timed == nullptr) return;
     const Piece& piece = timed->piece;
-    m.time_disc = 1.0 / piece.fastest();
     m.load = piece.constant;
     m.slope = piece.slope;
     m.start = piece.start;
-    m.steepness = m.fastest = 0.0;
     for (int k = 0; k < course_->code.waves; ++k) {
       const bool holds = static_cast<std::size_t>(k) < piece.cosines.size();
       const Cosine wave = holds ? piece.cosines[static_cast<std::size_t>(k)] : Cosine{0.0, 0.0, 0.0};
       course_->leap->series().wave(k) = {wave.amplitude, wave.omega, wave.phase, {}};
-      m.steepness += std::abs(wave.amplitude * wave.omega);
-      m.fastest = std::max(m.fastest, std::abs(wave.omega));
     }
   }
   /// The series of the motor's command, without its value.

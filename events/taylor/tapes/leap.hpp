@@ -1,7 +1,5 @@
 #pragma once
-#include "events/taylor/accuracy.hpp"
 #include "events/taylor/tapes/argument.hpp"
-#include "events/taylor/tapes/reach.hpp"
 #include "events/taylor/tapes/series.hpp"
 #include "events/taylor/terms.hpp"
 
@@ -14,16 +12,7 @@ class TapedLeapOf {
   using Mask = MaskOf<V>;
   using In = TapeInput;
 
-  static constexpr int longest = 20;  ///< coefficients of the acceleration ...
-  /// ... and where they are judged by their terms: a state that follows fast takes fewer of them in long steps.
-  static constexpr int longest_by_terms = highest_order;
-  /// Coefficients of the angle.
-  static int stride(const TapeCode& code) { return 2 + (code.by_terms ? longest_by_terms : longest); }
-  static constexpr double farthest = 64.0;  ///< leaps that the disc of times is wide
-  /// Of the way to the edge of the disc, where a leap ends that would get further than half of it.
-  static constexpr double within_reach = 0.25;
-  /// The part of what was asked for that is worth a leap.
-  static constexpr double worth_while = 0.125;
+  static constexpr int longest = highest_order;  ///< coefficients that a step may take
 
   explicit TapedLeapOf(const TapeSeriesOf<V>& series) : series_(series) {}
 
@@ -49,7 +38,7 @@ class TapedLeapOf {
     series_[In::load][0] = torque;
     series_.work_out(0, series_.code().operations, functions);
     if (series_.code().sections == 0) return;
-    expand_load(1);
+    expand_load(1, 1);
     expand_motion(0);
     series_.work_out(1, series_.code().of_acceleration, functions);  // of the arguments of tables
   }
@@ -64,70 +53,6 @@ class TapedLeapOf {
   /// Whether the other flank certainly carries under them.
   [[gnu::always_inline]] Mask changes_flank() const { return clear_of_surface(series_.motion().flank); }
 
-  /// Where, among these, it is certain beforehand that no guard falls through zero within h [s] and how far the series
-  /// must go, if the tables stay in their sections. h becomes shorter where that is not so for all of it, if that is at
-  /// least a part of it. reach: of the motor's torque; command_disc: that in which it stays within one of times.
-  ///
-  /// Around the present moment there is a disc of complex times in which angle and speed stay in discs of theirs, and
-  /// so nothing strays from its value f by more than some r. What is so bounded in a disc of a radius R differs from f
-  /// by at most r |s|/R at a time s (Schwarz), and its k-th coefficient is at most r/R^k (Cauchy).
-  template <class CommandDisc>
-  [[gnu::always_inline]] Mask foresee(const Mask& among, V& h, double part, const TaylorAccuracy& accuracy,
-                                      const CommandReach<V>& reach, CommandDisc&& command_disc) {
-    const TapeCode& code = series_.code();
-    const TapedMotionOf<V>& m = series_.motion();
-    const V v = abs(first(In::speed)), alpha = first(code.acceleration);
-    h = least<V>(least<V>(h, reach.leap), longest_within_sections());
-    const V T = least<V>(reach.leaps_in_disc * h, least<V>(m.time_disc, reach.disc)), turn = m.angle_disc;
-    // A disc of the speed with which that of the angle is used up at about the same time.
-    const V change =
-        greatest<V>(0.5 * (root(v * v + 4.0 * turn * abs(alpha)) - v), turn * (1.0 / (4.0 * farthest * h)));
-    const V factor = look(among, T, turn, change, command_disc);
-    Mask certain = factor >= V(1.0);
-    if (!all(certain | (!among))) {
-      // What bounds one of them need not bound the others: time as far as the others reach in proportion, and at least
-      // as far as the leap needs; else all in proportion.
-      const V smaller = (1.0 - 1e-6) * factor, less = smaller * change, reached = less / abs(alpha);
-      const V near = least<V>(reached, greatest<V>(8.0 * h, smaller * turn / (v + less)));
-      certain = look(among & (!certain), least<V>(near, T),
-                     least<V>(turn, greatest<V>(smaller * turn, near * (v + less))), less, command_disc) >= V(1.0);
-      if (!all(certain | (!among)))
-        certain = look(among & (!certain), smaller * T, smaller * turn, less, command_disc) >= V(1.0);
-    }
-    const V disc = disc_of_times();
-    V ratio = above_one * h / disc;
-    certain = certain & among & (part * ratio <= V(within_reach));
-    if (!any(certain)) return certain;
-    const auto shorten = [&](const Mask& which) {
-      if (!any(which)) return false;
-      h = select(which, disc * (within_reach / above_one), h);
-      ratio = select(which, V(within_reach), ratio);
-      return true;
-    };
-    shorten(certain & (ratio > V(0.5)));
-    V gain = count_terms(certain, h, ratio, accuracy);
-    if (shorten(certain & (!terms_.suffice) & (ratio > V(within_reach)))) [[unlikely]]
-      gain = count_terms(certain, h, ratio, accuracy);
-    const Mask kept = terms_.suffice & keeps_mode(h, ratio), open = terms_.suffice & (!kept);
-    if (!any(open)) return kept;
-    // A disc hardly wider than the leap tells more of it.
-    const V near = 1.25 * h, less = 1.25 * gain;
-    const Mask fits = look(open, least<V>(near, T), near * (v + less), less, command_disc) >= V(1.0);
-    ratio = above_one * h / disc_of_times();
-    return kept | (open & fits & (ratio <= V(1.0)) & keeps_mode(h, ratio));
-  }
-
-  /// Works out the motion from there, which value() tells.
-  template <class Functions>
-  [[gnu::always_inline]] void follow(Functions&& functions) {
-    expand_load();
-    const int known = series_.code().sections > 0 ? 1 : 0;
-    for (int k = 0; k < terms_.most; ++k) {
-      if (k > known) series_.work_out(k, series_.code().of_acceleration, functions);
-      expand_motion(k);
-    }
-    end_series(terms_);
-  }
   /// Works out coefficient k + 1 of angle, speed and states.
   [[gnu::always_inline]] void expand_motion(int k) {
     const TapeCode& code = series_.code();
@@ -158,7 +83,7 @@ class TapedLeapOf {
     Mask certain = among;
     for (int k = 0; k < series_.code().sections; ++k) {
       const SectionOf<V>& section = series_.section(k);
-      const ArgumentOf<V, longest_by_terms> x(series_[series_.code().arguments[k]], terms_, length);
+      const ArgumentOf<V, longest> x(series_[series_.code().arguments[k]], terms_, length);
       const V now = x.terms[0], first = x.terms[1], sides = abs(first) + x.bends;
       const Mask stays = (now + sides < section.high) & (now - sides > section.low);
       certain = certain & (stays | (2.0 * x.turns <= abs(first)));
@@ -194,18 +119,18 @@ class TapedLeapOf {
   TapeSeriesOf<V>& series() { return series_; }
   const TapeSeriesOf<V>& series() const { return series_; }
 
-  /// Coefficients of the load over time from the second on, up to the order that is asked for.
-  void expand_load(int order) {
-    const TapedMotionOf<V>& m = series_.motion();
+  /// Coefficients of the load over time, from one behind the value up to another.
+  void expand_load(int first, int last) {
     V* const c = series_[In::load];
-    for (int k = 1; k <= order; ++k) c[k] = k == 1 ? m.slope : V(0.0);
+    if (series_.code().waves == 0) last = 1;  // those behind it are zero for good
+    for (int k = first; k <= last; ++k) c[k] = k == 1 ? series_.motion().slope : V(0.0);
     for (int n = 0; n < series_.code().waves; ++n) {
       const WaveOf<V>& wave = series_.wave(n);
       const V cosine = wave.amplitude * wave.now.cosine, sine = wave.amplitude * wave.now.sine;
       V weight = 1.0;  // omega^k / k!
-      for (int k = 1; k <= order; ++k) {
+      for (int k = 1; k <= last; ++k) {
         weight = weight * (wave.omega * one_over(k));
-        c[k] += weight * (k % 4 == 0 ? cosine : k % 4 == 1 ? -sine : k % 4 == 2 ? -cosine : sine);
+        if (k >= first) c[k] += weight * (k % 4 == 0 ? cosine : k % 4 == 1 ? -sine : k % 4 == 2 ? -cosine : sine);
       }
     }
   }
@@ -218,63 +143,6 @@ class TapedLeapOf {
     const V most = abs(first(series_.code().worm)) + abs(series_.motion().surface * first(series_.code().gear));
     return moves() & (side * first(series_.code().beyond) > 2e-3 * most);
   }
-  /// The disc of times in which angle and speed stay in theirs.
-  [[gnu::always_inline]] V disc_of_times() const {
-    const V strays = series_.radius(series_.code().acceleration), alpha = abs(first(series_.code().acceleration));
-    return least<V>(least<V>(series_.radius(In::speed) / (above_one * (alpha + strays)),
-                             series_.radius(In::angle) / (abs(first(In::speed)) + series_.radius(In::speed))),
-                    series_.radius(In::time));
-  }
-  /// Finds how many terms a leap of h [s] takes, so large a share of the way to the edge of the disc, and returns by
-  /// how much it may change the speed.
-  [[gnu::always_inline]] V count_terms(const Mask& among, const V& h, const V& ratio, const TaylorAccuracy& accuracy) {
-    const V bend = series_.radius(series_.code().acceleration) * ratio;
-    const V gain = above_one * (abs(first(series_.code().acceleration)) + bend) * h;
-    const V allowed = accuracy.allowed(abs(first(In::speed)) + gain, h) * (1.0 - ratio);
-    // of the arguments of tables it has to be known how they bend
-    terms_ = series_.code().sections > 0 ? TermsOf<V>::needed(among, 3, longest, bend * ratio * ratio, ratio, allowed)
-                                         : TermsOf<V>::needed(among, 1, longest, bend, ratio, allowed);
-    return gain;
-  }
-  /// Where no guard falls through zero and nothing leaves its range in a leap of h [s], so large a share of the way to
-  /// the edge of the disc.
-  [[gnu::always_inline]] Mask keeps_mode(const V& h, const V& ratio) const {
-    const TapeCode& code = series_.code();
-    const TapedMotionOf<V>& m = series_.motion();
-    const V alpha = first(code.acceleration), along = m.motion * first(In::speed);
-    const V bend = series_.radius(code.acceleration) * ratio;
-    const Mask turns =
-        !((along > above_one * (abs(alpha) + bend) * h) | ((along >= V(0.0)) & (m.motion * alpha > bend)));
-    const Mask without_teeth = !(m.flank != V(0.0));
-    return (!turns) & (without_teeth | (-m.flank * first(code.beyond) > series_.radius(code.beyond) * ratio)) &
-           series_.stays_in_range(ratio);
-  }
-  /// Works out discs with others of time, angle and speed in some lanes, and returns by how much all are too large.
-  template <class CommandDisc>
-  V look(const Mask& which, const V& time, const V& angle, const V& speed, CommandDisc&& command_disc) {
-    const auto put = [&](int input, const V& radius) {
-      series_.radius(input) = select(which, radius, series_.radius(input));
-    };
-    put(In::time, time);
-    put(In::angle, angle);
-    put(In::speed, speed);
-    put(In::command, command_disc(time));
-    put(In::load, load_disc(time));
-    series_.radius(In::disturbance) = series_.radius(In::brake) = 0.0;
-    series_.work_out_discs();
-    return series_.shrinking();
-  }
-  void expand_load() { expand_load(terms_.most - 1); }
-
-  /// The most by which the load over time differs from its value within so many seconds, complex ones too: a cosine by
-  /// amplitude (e^x - 1), x = omega seconds, which is at most as steep as where x is greatest, and there is at most 1.
-  V load_disc(const V& seconds) const {
-    const TapedMotionOf<V>& m = series_.motion();
-    const V x = m.fastest * seconds;
-    const V growth = 1.0 + x * (1.0 / 2) * (1.0 + x * (1.0 / 3) * (1.0 + x * (1.0 / 4) * (1.0 + x * (1.3 / 5))));
-    return select(seconds > V(0.0), seconds * (abs(m.slope) + m.steepness * growth), V(0.0));
-  }
-
   [[gnu::always_inline]] static V value(const V* c, int size, const V& s) {
     if constexpr (std::is_same_v<V, double>) {
       return wormdrive::value({c, static_cast<std::size_t>(size)}, s);

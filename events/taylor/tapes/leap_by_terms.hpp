@@ -1,12 +1,12 @@
 #pragma once
+#include "events/taylor/accuracy.hpp"
 #include "events/taylor/tapes/leap.hpp"
 
 namespace wormdrive {
 
-/// One step of a drive whose effects have states or whose equations compare, without a search for events: of one drive
-/// or of several at once. It is worked out first and judged by the terms of its series. A state that follows within a
-/// step or two, as the current of a winding does, leaves no disc of complex times that would bound it beforehand and is
-/// wider than the step.
+/// One step of a drive, without a search for events: of one drive or of several at once. It is worked out first and
+/// judged by the terms of its series. A state that follows within a step or two, as the current of a winding does,
+/// leaves no disc of complex times that would bound it beforehand and is wider than the step.
 template <class V>
 class LeapByTerms {
  public:
@@ -29,6 +29,7 @@ class LeapByTerms {
   /// shorter where the series does not suffice for all of it.
   template <class Functions>
   Mask take(const Mask& among, V& h, const TaylorAccuracy& accuracy, Functions&& functions) {
+    h = least<V>(h, leap_.longest_within_sections());
     expand(among, h, accuracy, functions);
     Mask certain = among & (shorten(among & (!terms_.suffice), h, accuracy) | terms_.suffice);
     leap_.end_series(terms_);
@@ -46,18 +47,20 @@ class LeapByTerms {
   }
 
  private:
-  static constexpr int longest = TapedLeapOf<V>::longest_by_terms;
+  static constexpr int longest = TapedLeapOf<V>::longest;
   static constexpr int fewest = 6;  ///< coefficients, before no series is judged
+  static constexpr int mostly = 8;  ///< so many suffice mostly
 
   /// Works out coefficients until the last ones are negligible over h.
   template <class Functions>
   void expand(const Mask& among, const V& h, const TaylorAccuracy& accuracy, Functions&& functions) {
-    leap_.expand_load(longest);
     tolerate(h, accuracy);
     V power = 1.0;  // h^(k - 2), the third before the last
     Mask left = among;
     terms_ = {V(0.0), longest, among};
     for (int k = 0; k < longest; ++k) {
+      if (k == 0) leap_.expand_load(1, mostly);
+      if (k == mostly + 1) leap_.expand_load(k, longest);
       if (k > 0) series_.work_out(k, code_.operations, functions);
       leap_.expand_motion(k);
       if (k > 2) power = power * h;

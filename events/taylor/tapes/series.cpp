@@ -14,13 +14,14 @@ template void TapeSeriesOf<double>::work_out(int, int, TapeTables&);
 bool operator==(const TapeCode& a, const TapeCode& b) {
   const auto same = [](const auto* x, const auto* y, int count) { return std::equal(x, x + count, y); };
   const auto as_numbers = [](const TapeCode& c) {
-    return std::array{c.operations,  c.of_acceleration, c.places,       c.acceleration, c.beyond,    c.worm,
-                      c.gear,        c.bounds,          c.sections,     c.waves,        int{c.lags}, c.states,
-                      c.comparisons, c.exponentials,    int{c.by_terms}};
+    return std::array{
+        c.operations, c.of_acceleration, c.places,    c.acceleration, c.beyond,      c.worm,         c.gear,
+        c.sections,   c.waves,           int{c.lags}, c.states,       c.comparisons, c.exponentials,
+    };
   };
-  return as_numbers(a) == as_numbers(b) && same(a.bounded, b.bounded, a.bounds) &&
-         same(a.arguments, b.arguments, a.sections) && same(a.rates, b.rates, a.states) &&
-         same(a.decisions, b.decisions, a.comparisons) && same(a.exponents, b.exponents, a.exponentials) &&
+  return as_numbers(a) == as_numbers(b) && same(a.arguments, b.arguments, a.sections) &&
+         same(a.rates, b.rates, a.states) && same(a.decisions, b.decisions, a.comparisons) &&
+         same(a.exponents, b.exponents, a.exponentials) &&
          std::equal(a.steps, a.steps + a.operations, b.steps, [](const Tape::Step& x, const Tape::Step& y) {
            return x.operation == y.operation && x.a == y.a && x.b == y.b && x.result == y.result;
          });

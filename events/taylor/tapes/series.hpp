@@ -26,16 +26,14 @@ struct TapeCode {
   int operations = 0, of_acceleration = 0;  ///< all, and those up to the acceleration and the rates of the states
   int places = 0, states = 0;
   int acceleration = 0, beyond = 0, worm = 0, gear = 0;  ///< places of what counts
-  const int* bounded = nullptr;                          ///< places that are bound to a least value ...
-  const int* arguments = nullptr;                        ///< ... or to a section of a table
-  int bounds = 0, sections = 0;
+  const int* arguments = nullptr;                        ///< places that are bound to a section of a table
+  int sections = 0;
   const int* rates = nullptr;      ///< places of the rates of the states
   const int* decisions = nullptr;  ///< places that have to stay on their sides ...
   const int* exponents = nullptr;  ///< ... and those of the arguments of exponentials
   int comparisons = 0, exponentials = 0;
-  int waves = 0;          ///< of the load over time
-  bool lags = false;      ///< the motor's torque follows its command with a lag
-  bool by_terms = false;  ///< steps are judged by the terms of their series, not beforehand
+  int waves = 0;      ///< of the load over time
+  bool lags = false;  ///< the motor's torque follows its command with a lag
 
   friend bool operator==(const TapeCode& a, const TapeCode& b);
 };
@@ -72,17 +70,14 @@ template <class V>
 struct TapedMotionOf {
   V motion, flank;       ///< +1, -1 or (flank) 0; motion 0 where the lane has to wait
   V surface;             ///< Jw i/Jg
-  V angle_disc;          ///< of complex angles that is looked at
-  V time_disc;           ///< of complex times in which the load changes little; infinite where it is constant
   V load, slope, start;  ///< of the load over time: load + slope (t - start) + its waves
-  V steepness, fastest;  ///< of these the most slope and the highest angular frequency
   V brake;               ///< torque of the brake [N m]
   V next_knot;           ///< when the inputs become others
   V leaps;               ///< that a lane has taken
 };
 
-/// The power series in time of all that stands on a tape, and how far each may stray from its value at the start, in
-/// memory that is somebody else's: of one drive or of several at once.
+/// The power series in time of all that stands on a tape, in memory that is somebody else's: of one drive or of several
+/// at once.
 ///
 /// The numbers that describe a drive come first in it, in the same order for one as for several.
 template <class V>
@@ -90,16 +85,16 @@ class TapeSeriesOf {
  public:
   using Mask = MaskOf<V>;
 
-  /// stride: coefficients of each place.
-  TapeSeriesOf(const TapeCode& code, double* memory, int stride) : code_(&code), stride_(stride) {
+  /// Coefficients of each place: an angle has two more than the order of the series.
+  static constexpr int stride = highest_order + 2;
+
+  TapeSeriesOf(const TapeCode& code, double* memory) : code_(&code) {
     motion_ = reinterpret_cast<TapedMotionOf<V>*>(memory);
     waves_ = reinterpret_cast<WaveOf<V>*>(motion_ + 1);
     lines_ = reinterpret_cast<LineOf<V>*>(waves_ + code.waves);
-    least_ = reinterpret_cast<V*>(lines_ + code.operations);
-    sides_ = reinterpret_cast<SideOf<V>*>(least_ + code.bounds);
+    sides_ = reinterpret_cast<SideOf<V>*>(lines_ + code.operations);
     sections_ = reinterpret_cast<SectionOf<V>*>(sides_ + code.comparisons);
-    radii_ = reinterpret_cast<V*>(sections_ + code.sections);
-    coefficients_ = radii_ + code.places;
+    coefficients_ = reinterpret_cast<V*>(sections_ + code.sections);
   }
   /// How many numbers describe a drive ...
   static std::size_t numbers(const TapeCode& code) {
@@ -107,16 +102,15 @@ class TapeSeriesOf {
             sizeof(WaveOf<V>) * static_cast<std::size_t>(code.waves) +
             sizeof(LineOf<V>) * static_cast<std::size_t>(code.operations) +
             sizeof(SideOf<V>) * static_cast<std::size_t>(code.comparisons)) /
-               sizeof(V) +
-           static_cast<std::size_t>(code.bounds);
+           sizeof(V);
   }
   /// ... behind how many V the first coefficients of a place are ...
-  static std::size_t first_of(const TapeCode& code, int place, int stride) {
-    return numbers(code) + static_cast<std::size_t>(code.places + place * stride);
+  static std::size_t first_of(const TapeCode& code, int place) {
+    return numbers(code) + static_cast<std::size_t>(place * stride);
   }
   /// ... and how many V there are in all.
-  static std::size_t room(const TapeCode& code, int stride) {
-    return numbers(code) + static_cast<std::size_t>(code.places) * static_cast<std::size_t>(1 + stride);
+  static std::size_t room(const TapeCode& code) {
+    return numbers(code) + static_cast<std::size_t>(code.places * stride);
   }
 
   const TapeCode& code() const { return *code_; }
@@ -124,44 +118,28 @@ class TapeSeriesOf {
   const TapedMotionOf<V>& motion() const { return *motion_; }
   WaveOf<V>& wave(int k) { return waves_[k]; }
   LineOf<V>& line(int step) { return lines_[step]; }
-  V& least_of(int bound) { return least_[bound]; }
   SideOf<V>& side(int comparison) { return sides_[comparison]; }
   const SideOf<V>& side(int comparison) const { return sides_[comparison]; }
   SectionOf<V>& section(int k) { return sections_[k]; }
   const SectionOf<V>& section(int k) const { return sections_[k]; }
 
   /// The coefficients of a place.
-  V* operator[](int place) { return coefficients_ + place * stride_; }
-  const V* operator[](int place) const { return coefficients_ + place * stride_; }
+  V* operator[](int place) { return coefficients_ + place * stride; }
+  const V* operator[](int place) const { return coefficients_ + place * stride; }
   /// Works out coefficient k of the results of the first so many operations, in order; inputs have theirs. functions:
   /// sine_and_cosine() and exp() of a V; find(section, x) lets a section be that of x, turns(section, x, k) the next
   /// one if coefficient k of x is what takes x out of it just now, and says whether it did.
   template <class Functions>
   void work_out(int k, int operations, Functions&& functions);
 
-  static constexpr double widest = 2.0;  ///< disc of a phase [rad] that is told about
-
-  // ---- discs of complex numbers around coefficient 0 -------------------------------------------------------------
-
-  V& radius(int place) { return radii_[place]; }
-  const V& radius(int place) const { return radii_[place]; }
-  /// Works out discs that hold the results wherever in theirs the inputs are, if shrinking() is 1.
-  void work_out_discs();
-  /// The factor, at most 1, by which the discs of the inputs have to be smaller.
-  V shrinking() const;
-  /// Whether all that is bound to a least value stays above it where everything strays by this share of its radius.
-  Mask stays_in_range(const V& share) const;
-
  private:
   const TapeCode* code_;
-  int stride_;
   TapedMotionOf<V>* motion_;
   WaveOf<V>* waves_;
   LineOf<V>* lines_;
-  V* least_;
   SideOf<V>* sides_;
   SectionOf<V>* sections_;
-  V *radii_, *coefficients_;
+  V* coefficients_;
 };
 
 /// How near to its end a section of a table ends: what rounding leaves of the time at which a point is met.

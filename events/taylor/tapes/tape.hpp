@@ -48,12 +48,6 @@ class Tape {
     int place;
     double factor, constant;
   };
-  /// A place whose value the equations hold for only while it is above a least one.
-  struct Condition {
-    int place;
-    double least;
-  };
-
   /// Places of inputs come first.
   explicit Tape(int inputs) { clear(inputs); }
   Tape(const Tape&) = delete;  // scalars point to it
@@ -61,21 +55,19 @@ class Tape {
   /// Begins anew.
   void clear(int inputs);
 
-  /// Without a value one that is not known beforehand.
-  Taped input(int place, double value = std::numeric_limits<double>::quiet_NaN());
+  Taped input(int place, double value);
   /// Where a result stands, a constant as well.
   int place(const Taped& result);
   /// The same without a place of its own.
   static Multiple multiple(const Taped& result);
 
   const std::vector<Step>& steps() const { return steps_; }
-  const std::vector<Condition>& conditions() const { return conditions_; }
   /// Places of the arguments of tables and of exponentials.
   const std::vector<int>& arguments() const { return arguments_; }
   const std::vector<int>& exponents() const { return exponents_; }
   const std::vector<Decision>& decisions() const { return decisions_; }
   int places() const { return places_; }
-  /// False where the equations compare what is not known beforehand.
+  /// False where something that is compared is a tie, so that it takes the series itself to decide it.
   bool is_complete() const { return complete_; }
 
   // ---- while the equations are recorded --------------------------------------------------------------------------
@@ -84,7 +76,6 @@ class Tape {
                double second = 0.0, const CubicTable* table = nullptr);
   /// Notes that the equations hold while a difference has its sign.
   void decide_by(const Taped& difference);
-  void hold(const Condition& condition) { conditions_.push_back(condition); }
   /// Of a comparison that cannot be recorded, an answer all the same.
   bool give_up() { return complete_ = false; }
 
@@ -92,7 +83,6 @@ class Tape {
   static std::size_t hash(const Step& s);
 
   std::vector<Step> steps_;
-  std::vector<Condition> conditions_;
   std::vector<Decision> decisions_;
   std::vector<int> arguments_, exponents_;
   std::array<std::uint16_t, 1024> found_;  ///< by their hashes, numbers of steps from 1 on
@@ -160,12 +150,6 @@ class Taped {
     const double y = table(x.value_);
     return x.tape_ ? x.tape_->record(Operation::table, y, x.place(), 0, 0.0, 0.0, 0.0, &table) : Taped(y);
   }
-  /// x, which stays above a limit where it has no value.
-  friend Taped at_least(const Taped& x, double least) {
-    if (!std::isnan(x.value_)) return x < Taped(least) ? Taped(least) : x;
-    if (x.tape_) x.tape_->hold({x.place(), least});
-    return x;
-  }
   friend Taped only_where(bool holds, const Taped& x) {
     if (!x.tape_) return holds ? x : Taped(0.0);
     const double share = holds ? 1.0 : 0.0;
@@ -196,8 +180,7 @@ class Taped {
     return is_plain_ ? place_ : tape_->record(Operation::affine, value_, place_, 0, factor_, constant_).place_;
   }
   static std::array<Taped, 2> sine_then_cosine(const Taped& x) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const auto [sine, cosine] = std::isnan(x.value_) ? SineAndCosine{unknown, unknown} : sine_and_cosine(x.value_);
+    const auto [sine, cosine] = sine_and_cosine(x.value_);
     if (!x.tape_) return {sine, cosine};
     const Taped first = x.tape_->record(Operation::sine_cosine, sine, x.place());
     return {first, Taped(x.tape_, first.place_ + 1, cosine)};
@@ -205,7 +188,6 @@ class Taped {
   static bool decided(const Taped& a, const Taped& b, bool decision) {
     Tape* const tape = a.tape_ ? a.tape_ : b.tape_;
     if (!tape) return decision;
-    if (std::isnan(a.value_) || std::isnan(b.value_)) return tape->give_up();
     tape->decide_by(a - b);
     return decision;
   }
@@ -214,7 +196,7 @@ class Taped {
   int place_ = 0;
   bool is_plain_ = true;
   double factor_ = 1.0, constant_ = 0.0;
-  double value_ = 0.0;  ///< not a number where it is not known beforehand
+  double value_ = 0.0;
 };
 
 template <>
@@ -224,7 +206,6 @@ struct ConstantOfScalar<Taped> {
 
 inline void Tape::clear(int inputs) {
   steps_.clear();
-  conditions_.clear();
   decisions_.clear();
   for (std::vector<int>* const places : {&arguments_, &exponents_}) places->clear();
   found_.fill(0);

@@ -97,7 +97,6 @@ class TracedMotion {
 
  private:
   enum Input : int { time, angle, speed, first_state };
-  static constexpr int stride = highest_order + 2;
 
   /// Prepares the memory for the operations that are recorded.
   void lay_out() {
@@ -106,13 +105,13 @@ class TracedMotion {
     code_.operations = static_cast<int>(tape_.steps().size());
     code_.places = tape_.places();
     code_.sections = static_cast<int>(tape_.arguments().size());
-    const std::size_t room = TapeSeriesOf<double>::room(code_, stride);
+    const std::size_t room = TapeSeriesOf<double>::room(code_);
     if (memory_.size() < room) memory_.resize(room);
     TapeSeriesOf<double> series = this->series();
     put_constants(series);
     tables_ = TapeTables(tape_, series);
   }
-  TapeSeriesOf<double> series() { return {code_, memory_.data(), stride}; }
+  TapeSeriesOf<double> series() { return {code_, memory_.data()}; }
 
   /// The most by which a series may differ from its value within h [s]; what is left out of it counts as much as its
   /// last terms.
