@@ -74,16 +74,18 @@ class FallSeriesOf {
     for (int j = 0; j <= k; ++j) sum += beyond_[j] * u_[k - j];
     return fall_.pull * sum;
   }
-  /// Whether a series of this order can be judged by its last terms over a step of h. Far above its speed an
-  /// exponential fall is flat, and terms too small to be seen would hide the friction that returns as the drive slows
-  /// down.
+  /// Whether a series of this order can be judged by its last terms over a step of h. Far above its speed the fall is
+  /// flat, and terms too small to be seen would hide the friction that returns as the drive slows down.
   bool holds(int order, double h) const {
-    if (fall_.has_tail) return true;
-    constexpr double flat = 45.0;  // e^-45 is nothing in a double
     double slower = 0.0;
     for (int k = order - 1; k >= 1; --k) slower = (slower + std::abs(x_[k])) * h;
-    const double lowest = fall_.power(std::max(x_[0] - slower, 0.0));
-    return lowest >= flat || fall_.power(x_[0]) - lowest <= 0.5 * order;
+    const double highest = fall_.power(x_[0]), lowest = fall_.power(std::max(x_[0] - slower, 0.0));
+    if (fall_.has_tail) {
+      constexpr double flat = 1e20, most_growth = 64.0;
+      return lowest >= flat || 1.0 + highest <= most_growth * (1.0 + lowest);
+    }
+    constexpr double flat = 45.0;  // e^-45 is nothing in a double
+    return lowest >= flat || highest - lowest <= 0.5 * order;
   }
 
  private:

@@ -123,8 +123,9 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     }
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
-    // of an exponential the terms may be too small to be seen at first
-    if (!LeapByTerms<double>(leap).remains(e.step, e.order + 1))
+    for (int k = 0; k < series.code().exponentials; ++k)
+      e.step = end_of_rise(series[series.code().exponents[k]], e.order, e.step, search_);
+    if (!LeapByTerms<double>(leap).keeps_sides(e.step, e.order + 1))
       SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
@@ -235,7 +236,7 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   std::array<std::vector<std::unique_ptr<Course>>, 6> courses_;  ///< of each mode
   Course* course_ = nullptr;                                     ///< of the latest one
   int worked_out_ = 0;                                           ///< coefficients of all operations
-  RootSearch search_;                                            ///< of the ends of sections
+  RootSearch search_;                                            ///< of the ends of sections and of rises
 };
 
 }  // namespace wormdrive

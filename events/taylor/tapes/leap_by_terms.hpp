@@ -1,5 +1,6 @@
 #pragma once
 #include "events/taylor/accuracy.hpp"
+#include "events/taylor/tapes/exponent.hpp"
 #include "events/taylor/tapes/leap.hpp"
 
 namespace wormdrive {
@@ -39,11 +40,10 @@ class LeapByTerms {
   /// How many coefficients of all operations that has taken.
   int worked_out() const { return terms_.most; }
 
-  /// Whether the equations certainly remain these within h [s], by series of so many coefficients: no comparison turns
-  /// out otherwise, and no exponential changes so much that its terms may be too small to be seen at first.
-  Mask remains(const V& h, int coefficients) {
+  /// Whether certainly no comparison turns out otherwise within h [s], by series of so many coefficients.
+  Mask keeps_sides(const V& h, int coefficients) {
     terms_ = {V(static_cast<double>(coefficients)), coefficients, h >= V(0.0), coefficients};
-    return remains(h);
+    return keeps_sides(h);
   }
 
  private:
@@ -55,7 +55,7 @@ class LeapByTerms {
   template <class Functions>
   void expand(const Mask& among, const V& h, const TaylorAccuracy& accuracy, Functions&& functions) {
     tolerate(h, accuracy);
-    V power = 1.0;  // h^(k - 2), the third before the last
+    V power = 1.0;  // h^(k - 4), the fifth before the last
     Mask left = among;
     terms_ = {V(0.0), longest, among};
     for (int k = 0; k < longest; ++k) {
@@ -63,7 +63,7 @@ class LeapByTerms {
       if (k == mostly + 1) leap_.expand_load(k, longest);
       if (k > 0) series_.work_out(k, code_.operations, functions);
       leap_.expand_motion(k);
-      if (k > 2) power = power * h;
+      if (k > 4) power = power * h;
       if (k + 1 < fewest) continue;
       const Mask enough = left & suffices(k + 1, h, power);
       terms_.of_each = select(enough, V(static_cast<double>(k + 1)), terms_.of_each);
@@ -82,14 +82,19 @@ class LeapByTerms {
     for (int j = 0; j <= code_.states; ++j) tolerated_[j] = accuracy.allowed(abs(series_[followed(j)][0]), h) * h;
   }
   /// Whether series up to coefficient n suffice in a step of h [s]: its last two terms are negligible, and the two
-  /// before as well, or so much larger that what is left out is less than they are. Of a drive that moves, every other
-  /// coefficient may vanish, as where an angle or a load over time is at an extreme. power: h^(n - 3).
+  /// before as well, or it falls so evenly from pair to pair that what is left out is less than they are. Of a drive
+  /// that moves, every other coefficient may vanish, as where an angle or a load over time is at an extreme; where
+  /// friction begins as a power of the speed, only every third or fourth does not. power: h^(n - 5).
   Mask suffices(int n, const V& h, const V& power) const {
     constexpr double falls = 16.0;  // by 4 from one to the next
+    const V square = h * h;
     const auto fades = [&](int j) {
       const V* const c = series_[followed(j)] + n;
-      const V before = (abs(c[-3]) + abs(c[-2]) * h) * power, last = (abs(c[-1]) + abs(c[0]) * h) * (h * h) * power;
-      return (last <= tolerated_[j]) & ((before <= tolerated_[j]) | (falls * last <= before));
+      const auto pair = [&](int k, const V& factor) { return (abs(c[k]) + abs(c[k + 1]) * h) * factor; };
+      const V first = pair(-5, power), second = pair(-3, square * power), last = pair(-1, square * square * power);
+      const Mask falls_evenly =
+          (falls * last <= second) & (falls * second <= first) & (falls * last >= second / first * second);
+      return (last <= tolerated_[j]) & ((second <= tolerated_[j]) | falls_evenly);
     };
     Mask all = fades(0);
     for (int j = 1; j <= code_.states; ++j) all = all & fades(j);
@@ -104,7 +109,7 @@ class LeapByTerms {
     for (int n = 0; n < tries && any(open); ++n) {
       h = select(open, share * h, h);
       tolerate(h, accuracy);
-      open = open & !suffices(longest, h, times_power<V>(1.0, h, longest - 3));
+      open = open & !suffices(longest, h, times_power<V>(1.0, h, longest - 5));
     }
     return which & !open;
   }
@@ -115,16 +120,24 @@ class LeapByTerms {
     const V motion = m.motion, along = motion * series_[In::speed][0];
     const Mask without_teeth = !(m.flank != V(0.0)), clear = least_value(In::speed, motion, h) > V(0.0);
     const Mask moves = all(clear) ? clear : clear | ((along >= V(0.0)) & (least_slope(In::speed, motion, h) > V(0.0)));
-    return moves & (without_teeth | (least_value(code_.beyond, -m.flank, h) > V(0.0))) & remains(h);
+    return moves & (without_teeth | (least_value(code_.beyond, -m.flank, h) > V(0.0))) & keeps_sides(h) &
+           sees_exponentials(h);
   }
-  Mask remains(const V& h) const {
+  Mask keeps_sides(const V& h) const {
     Mask keeps = h >= V(0.0);
     for (int k = 0; k < code_.comparisons; ++k) {
       const SideOf<V>& side = series_.side(k);
       keeps = keeps & (least_value(code_.decisions[k], side.side, h, side.value) > V(0.0));
     }
-    for (int k = 0; k < code_.exponentials; ++k) keeps = keeps & (most_change(code_.exponents[k], h) <= V(1.0));
     return keeps;
+  }
+  Mask sees_exponentials(const V& h) const {
+    Mask sees = h >= V(0.0);
+    for (int k = 0; k < code_.exponentials; ++k) {
+      const int place = code_.exponents[k];
+      sees = sees & (least_value(place, V(-1.0), h, highest_exponent(series_[place][0])) > V(0.0));
+    }
+    return sees;
   }
   /// What is certainly no more than so many times what stands in a place, less a value, within h [s]: by Horner's rule
   /// for intervals.
@@ -143,13 +156,6 @@ class LeapByTerms {
     for (; k > first && k + TaylorAccuracy::window >= terms_.fewest; --k) add(with_rest(k, side * coefficient(k)));
     for (; k >= first; --k) add(side * coefficient(k));
     return least_so_far;
-  }
-  /// The most by which what stands in a place may differ from its value within h [s].
-  V most_change(int place, const V& h) const {
-    const V* const c = series_[place];
-    V most = 0.0, power = h;
-    for (int k = 1; k < terms_.most; ++k, power = power * h) most = most - power * with_rest(k, -abs(c[k]));
-    return most;
   }
   /// A coefficient that comes to no more than what it stands for: what is left out of a series counts as much as its
   /// last terms.

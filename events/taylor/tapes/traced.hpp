@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "events/taylor/expansion.hpp"
+#include "events/taylor/tapes/exponent.hpp"
 #include "events/taylor/tapes/series.hpp"
 
 namespace wormdrive {
@@ -77,12 +78,16 @@ class TracedMotion {
     return all;
   }
 
-  /// Whether the equations certainly remain these within h [s]: no comparison turns out otherwise, no table goes on to
-  /// its next section, and no exponential changes so much that its terms may be too small to be seen at first.
+  /// How long, of h [s], no exponential rises so much that its terms may be too small to be seen at first.
+  double sees_exponentials(double h) {
+    const TapeSeriesOf<double> series = this->series();
+    for (const int place : tape_.exponents()) h = end_of_rise(series[place], known_ - 1, h, search_);
+    return h;
+  }
+  /// Whether the equations certainly remain these within h [s]: no comparison turns out otherwise, and no table goes on
+  /// to its next section.
   bool remain(double h) {
     const TapeSeriesOf<double> series = this->series();
-    for (const int place : tape_.exponents())
-      if (!(most_change(series[place], h) <= 1.0)) return false;
     for (const Tape::Decision& decision : tape_.decisions()) {
       const double* const compared = series[decision.place];
       if (!(std::abs(compared[0] - decision.value) > most_change(compared, h))) return false;
@@ -132,6 +137,7 @@ class TracedMotion {
   TapeTables tables_;
   Instant begin_{};
   int known_ = 0;  ///< coefficients
+  RootSearch search_;
 };
 
 }  // namespace wormdrive
