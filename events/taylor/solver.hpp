@@ -125,7 +125,7 @@ class TaylorSolver {
     bool held = false;
     if constexpr (NominalFlow<System>::known) {
       // Where they know the drive, their series cost less than a tape's.
-      held = nominal_.covers() && !(nominal_.load_alone_varies() && (nominal_.lags() || covers_phase(now.t, limit)));
+      held = nominal_.covers() && !nominal_.load_alone_varies();
       if (held && !nominal_.leap(now, limit, accuracy_)) return false;
     }
     if (!held && !leap_by_tape(now, limit)) return false;
@@ -135,8 +135,6 @@ class TaylorSolver {
     end_ = now.t;
     return true;
   }
-  /// Whether a series around the begin may reach to the end: an input turns by less than half a radian.
-  bool covers_phase(double begin, double end) const { return (end - begin) * system_.fastest_input(begin) <= 0.5; }
   [[gnu::noinline]] bool leap_by_tape(Instant& now, double limit) {
     if constexpr (TapedFlow<System>::known) {
       taped_covers_ = taped_.covers(now);

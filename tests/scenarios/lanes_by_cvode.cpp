@@ -112,6 +112,23 @@ TEST_CASE("lanes: 120 random drives whose equations compare, or change at given 
   CHECK(all.events > 1000);
 }
 
+TEST_CASE("lanes: 40 random drives under a load that turns up to twenty times within a sample, as CVODE finds them") {
+  Judged all;
+  all.judge(40, 27, [](Dice& dice, const RandomLoop& loop) {
+    std::vector<std::string> words = nominal_words(dice, loop);
+    for (const std::string& word : additions(dice, loop, 2))
+      if (!word.starts_with("load=")) words.push_back(word);
+    words.push_back("run.relative_tolerance=1e-11");
+    words.push_back(fmt::format("run.duration_s={}", 0.1 * loop.T));  // CVODE takes its time
+    words.push_back(fmt::format("load={{kind=\"sinusoid\",amplitude_Nm={},frequency_Hz={}}}",
+                                loop.torque() * dice.decades(1e-4, 0.1), dice.decades(50.0, 2e4) / loop.T));
+    return Drawn{words, 1e-7};
+  });
+  CAPTURE(all.apart, all.events, all.in_lanes);
+  CHECK(all.in_lanes >= 32);
+  CHECK(all.events > 200);
+}
+
 TEST_CASE("a state that moves nothing, and settles within a third of a sample, is as exact as the motion") {
   const auto rise = [](const char* solver) {
     const std::vector<std::string> words{
