@@ -6,8 +6,7 @@
 namespace wormdrive {
 
 /// One step of a drive, without a search for events: of one drive or of several at once. It is worked out first and
-/// judged by the terms of its series. A state that follows within a step or two, as the current of a winding does,
-/// leaves no disc of complex times that would bound it beforehand and is wider than the step.
+/// judged by the terms of its series: bounds beforehand would be too wide, as of a state that follows within a step.
 template <class V>
 class LeapByTerms {
  public:
