@@ -49,7 +49,7 @@ struct HoldingBrake {
     if constexpr (requires { at.brake; })
       return T(-sign(motion)) * at.brake;
     else
-      return closed ? S(-sign(motion) * torque) : S(0.0);
+      return S(-sign(motion) * braking());
   }
 
  private:

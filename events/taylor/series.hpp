@@ -37,7 +37,7 @@ class SeriesFlow {
       e.step = accuracy.step(e, h);
       break;
     }
-    if (is_traced_) e.step = traced_.sees_exponentials(e.step);
+    if (is_traced_) e.step = traced_.end_of_rise(e.step);
     if (!(is_traced_ && traced_.remain(e.step))) end_where_it_fails(system, now, accuracy, e);
   }
 

@@ -120,13 +120,11 @@ class TaylorSolver {
   /// Goes on without a search for events to the limit, or to where a formula ends, where they can vouch for it.
   bool leap(Instant& now, double limit) {
     leapt_ = Leap::none;
-    taped_covers_ = false;
-    if (limit - now.t > max_step_) return false;
     bool held = false;
     if constexpr (NominalFlow<System>::known) {
       // Where they know the drive, their series cost less than a tape's.
       held = nominal_.covers() && !nominal_.load_alone_varies();
-      if (held && !nominal_.leap(now, limit, accuracy_)) return false;
+      if (held && !(may_reach(limit, now) && nominal_.leap(now, limit, accuracy_))) return false;
     }
     if (!held && !leap_by_tape(now, limit)) return false;
     leapt_ = held ? Leap::nominal : Leap::taped;
@@ -138,10 +136,11 @@ class TaylorSolver {
   [[gnu::noinline]] bool leap_by_tape(Instant& now, double limit) {
     if constexpr (TapedFlow<System>::known) {
       taped_covers_ = taped_.covers(now);
-      return taped_covers_ && taped_.leap(now, limit, accuracy_);
+      return taped_covers_ && may_reach(limit, now) && taped_.leap(now, limit, accuracy_);
     }
     return false;
   }
+  bool may_reach(double limit, const Instant& now) const { return limit - now.t <= max_step_; }
 
   /// The motion at a time of the present step.
   Instant at(double t) {
@@ -241,16 +240,14 @@ class TaylorSolver {
   void expand(const Instant& now, double h) {
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
-    if constexpr (TapedFlow<System>::known) {
-      expanded_by_tape_ = taped_covers_ || taped_.covers(now);
-      if (expanded_by_tape_) return taped_.expand(now, h, accuracy_, series_);
-    }
+    if constexpr (TapedFlow<System>::known)
+      if (taped_covers_) return taped_.expand(now, h, accuracy_, series_);  // as where the leap was tried
     flow_.expand(system_, now, h, accuracy_, series_);
   }
 
   std::vector<Coefficients> bends() {
     if constexpr (TapedFlow<System>::known)
-      if (expanded_by_tape_) return taped_.bends(series_.order);
+      if (taped_covers_) return taped_.bends(series_.order);
     return flow_.bends();
   }
 
@@ -277,12 +274,11 @@ class TaylorSolver {
   SeriesFlow<System> flow_;
   BendWatch<System> bends_;
   typename SeriesFlow<System>::Motion series_;
-  Instant begin_{};                ///< of the present step
-  double end_ = 0.0;               ///< of the present step [s] ...
-  double length_ = 0.0;            ///< ... and how far it goes, which may be less than time resolves [s]
-  double waited_ = 0.0;            ///< how long the clock has stood [s]
-  bool taped_covers_ = false;      ///< the moment at which the latest leap was tried ...
-  bool expanded_by_tape_ = false;  ///< ... and the present step is by the tape
+  Instant begin_{};            ///< of the present step
+  double end_ = 0.0;           ///< of the present step [s] ...
+  double length_ = 0.0;        ///< ... and how far it goes, which may be less than time resolves [s]
+  double waited_ = 0.0;        ///< how long the clock has stood [s]
+  bool taped_covers_ = false;  ///< the moment at which the latest leap was tried
   enum class Leap { none, nominal, taped };
   Leap leapt_ = Leap::none;  ///< the step is a leap to there_; else series_ describes it
   Instant there_{};

@@ -69,6 +69,13 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
+/// Those words that do not begin so.
+std::vector<std::string> without(std::vector<std::string> words, std::initializer_list<const char*> begins) {
+  std::erase_if(words, [&](const std::string& word) {
+    return std::ranges::any_of(begins, [&](const char* begin) { return word.starts_with(begin); });
+  });
+  return words;
+}
 
 }  // namespace
 
@@ -89,9 +96,8 @@ TEST_CASE("lanes: 60 random drives with winding, bristles, heat, coupling or sto
     std::vector<std::string> words = nominal_words(dice, loop) + effects_with_states(dice, loop);
     const double tolerance = dice.decades(1e-12, 1e-9);
     words.push_back(fmt::format("run.relative_tolerance={}", tolerance));
-    for (const std::string& word : additions(dice, loop, 3))
-      if (!word.starts_with("effect.dc_motor") && !word.starts_with("effect.static_friction")) words.push_back(word);
-    return Drawn{words, std::min(1e-7, 3e3 * tolerance)};
+    const auto others = without(additions(dice, loop, 3), {"effect.dc_motor", "effect.static_friction"});
+    return Drawn{words + others, std::min(1e-7, 3e3 * tolerance)};
   });
   CAPTURE(all.apart, all.events, all.in_lanes);
   CHECK(all.in_lanes >= 50);
@@ -101,9 +107,9 @@ TEST_CASE("lanes: 60 random drives with winding, bristles, heat, coupling or sto
 TEST_CASE("lanes: 120 random drives whose equations compare, or change at given times, are what CVODE finds as well") {
   Judged all;
   all.judge(120, 25, [](Dice& dice, const RandomLoop& loop) {
-    std::vector<std::string> words = nominal_words(dice, loop) + what_compares(dice, loop);
-    for (const std::string& word : additions(dice, loop, 2))
-      if (!word.starts_with("load=")) words.push_back(word);
+    std::vector<std::string> words = nominal_words(dice, loop);
+    words = words + what_compares(dice, loop);
+    words = words + without(additions(dice, loop, 2), {"load="});
     if (dice.chance(0.2)) words = words + std::vector{effects_with_states(dice, loop).front()};
     return Drawn{words, 1e-7};
   });
@@ -116,8 +122,7 @@ TEST_CASE("lanes: 40 random drives under a load that turns up to twenty times wi
   Judged all;
   all.judge(40, 27, [](Dice& dice, const RandomLoop& loop) {
     std::vector<std::string> words = nominal_words(dice, loop);
-    for (const std::string& word : additions(dice, loop, 2))
-      if (!word.starts_with("load=")) words.push_back(word);
+    words = words + without(additions(dice, loop, 2), {"load="});
     words.push_back("run.relative_tolerance=1e-11");
     words.push_back(fmt::format("run.duration_s={}", 0.1 * loop.T));  // CVODE takes its time
     words.push_back(fmt::format("load={{kind=\"sinusoid\",amplitude_Nm={},frequency_Hz={}}}",

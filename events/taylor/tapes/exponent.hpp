@@ -1,6 +1,10 @@
 #pragma once
+#include <cstddef>
+#include <span>
+
 #include "core/numbers/lanes.hpp"
 #include "events/taylor/polynomial_root.hpp"
+#include "events/taylor/tapes/series.hpp"
 
 namespace wormdrive {
 
@@ -13,12 +17,18 @@ V highest_exponent(const V& now) {
   return greatest<V>(now, least<V>(0x1p-10 * now, V(-40.0))) + 4.0;
 }
 
-/// When an exponent gets so high along its series to an order, within h [s]; h if it does not.
-inline double end_of_rise(const double* exponent, int order, double h, RootSearch& search) {
-  Coefficients left{};
-  left[0] = highest_exponent(exponent[0]) - exponent[0];
-  for (int k = 1; k <= order; ++k) left[static_cast<std::size_t>(k)] = -exponent[k];
-  return search.first_root({left.data(), static_cast<std::size_t>(order) + 1}, h).value_or(h);
+/// When the first of the exponents in these places gets so high along its series to an order, within h [s]; h if none
+/// does.
+inline double end_of_rise(const TapeSeriesOf<double>& series, std::span<const int> exponents, int order, double h,
+                          RootSearch& search) {
+  for (const int place : exponents) {
+    const double* const exponent = series[place];
+    Coefficients left{};
+    left[0] = highest_exponent(exponent[0]) - exponent[0];
+    for (int k = 1; k <= order; ++k) left[static_cast<std::size_t>(k)] = -exponent[k];
+    h = search.first_root({left.data(), static_cast<std::size_t>(order) + 1}, h).value_or(h);
+  }
+  return h;
 }
 
 }  // namespace wormdrive

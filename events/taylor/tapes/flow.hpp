@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "events/taylor/input.hpp"
@@ -79,9 +80,8 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
   const TapeCode* code(const Instant& now) { return covers(now) ? &course_->code : nullptr; }
   /// Which states of effects they have, by their places among all.
   const std::vector<std::size_t>& states() const { return course_->states(); }
-  /// The numbers of the latest mode and of the inputs that hold until they become others [s].
+  /// The numbers of the moment that was covered last, and of the inputs that hold until they become others [s].
   const double* numbers(double next_knot) {
-    read_inputs();
     TapedMotionOf<double>& m = course_->leap->series().motion();
     m.next_knot = next_knot;
     m.leaps = 0.0;
@@ -123,8 +123,8 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     }
     for (int k = 0; k < series.code().sections; ++k)
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
-    for (int k = 0; k < series.code().exponentials; ++k)
-      e.step = end_of_rise(series[series.code().exponents[k]], e.order, e.step, search_);
+    const std::span exponents(series.code().exponents, static_cast<std::size_t>(series.code().exponentials));
+    e.step = end_of_rise(series, exponents, e.order, e.step, search_);
     if (!LeapByTerms<double>(leap).keeps_sides(e.step, e.order + 1))
       SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }

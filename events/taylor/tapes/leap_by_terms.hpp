@@ -57,8 +57,8 @@ class LeapByTerms {
     V power = 1.0;  // h^(k - 4), the fifth before the last
     Mask left = among;
     terms_ = {V(0.0), longest, among};
+    leap_.expand_load(1, mostly);
     for (int k = 0; k < longest; ++k) {
-      if (k == 0) leap_.expand_load(1, mostly);
       if (k == mostly + 1) leap_.expand_load(k, longest);
       if (k > 0) series_.work_out(k, code_.operations, functions);
       leap_.expand_motion(k);

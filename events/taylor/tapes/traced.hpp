@@ -79,11 +79,7 @@ class TracedMotion {
   }
 
   /// How long, of h [s], no exponential rises so much that its terms may be too small to be seen at first.
-  double sees_exponentials(double h) {
-    const TapeSeriesOf<double> series = this->series();
-    for (const int place : tape_.exponents()) h = end_of_rise(series[place], known_ - 1, h, search_);
-    return h;
-  }
+  double end_of_rise(double h) { return wormdrive::end_of_rise(series(), tape_.exponents(), known_ - 1, h, search_); }
   /// Whether the equations certainly remain these within h [s]: no comparison turns out otherwise, and no table goes on
   /// to its next section.
   bool remain(double h) {
