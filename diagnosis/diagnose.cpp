@@ -239,7 +239,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   judge(d, found, all, sizes);
 
   const bool claimed = !d.causes.empty(), withdrawn = !claimed && !found.causes.empty();
-  if (const auto alone = withdrawn ? better_alone(evaluation, found) : std::nullopt) {
+  if (const auto alone = withdrawn ? better_alone(evaluation, found, all) : std::nullopt) {
     found = *alone;
     last = fitted_anew(by_all, found.model);
     calibrate(covariance(by_all, last, 2));

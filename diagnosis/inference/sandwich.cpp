@@ -7,7 +7,6 @@
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
 #include "diagnosis/rules/evidence.hpp"
-#include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
 #include "statistics/symmetric_eigen.hpp"
 
@@ -26,13 +25,13 @@ std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hyp
                                          const std::vector<std::vector<double>>& J) {
   const InnovationLayout& layout = evaluation.layout();
   const auto n = static_cast<Eigen::Index>(h.free.size());
-  constexpr double nu = rules::tail_freedom;
   std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
   std::vector<std::uint8_t> used(layout.blocks, 0);
   Eigen::VectorXd row(n);
   for (std::size_t r = 0; r < layout.size; ++r) {
     if (layout.part[r] != 1) continue;
-    const double s = h.noise_model.groups[layout.group[r]].scale, z = h.residuals[r] / s, z2 = z * z;
+    const NoiseGroup& group = h.noise_model.groups[layout.group[r]];
+    const double nu = group.freedom, s = group.scale, z = h.residuals[r] / s, z2 = z * z;
     for (Eigen::Index k = 0; k < n; ++k) row[k] = J[static_cast<std::size_t>(k)][r] / s;
     BlockSlopes& block = all[layout.block[r]];
     block.slope += ((nu + 1.0) * z / (nu + z2)) * row;

@@ -12,7 +12,6 @@ namespace wormdrive {
 namespace {
 
 constexpr std::size_t terms = rules::whitening_times.size();
-constexpr double nu = rules::tail_freedom;
 using Vector = Eigen::Matrix<double, terms, 1>;
 using Matrix = Eigen::Matrix<double, terms, terms>;
 
@@ -52,15 +51,54 @@ double robust_scale(std::vector<double>& sizes) {
   return *middle / 0.741;
 }
 
-double iterated_scale(const std::vector<double>& squares, double scale, double least, int rounds) {
-  for (int k = 0; k < rounds; ++k) {
-    double sum = 0.0;
-    const double inverse = 1.0 / (scale * scale);
-    for (const double q : squares) sum += (nu + 1.0) * q / (nu + q * inverse);
-    scale = std::max(least, std::sqrt(sum / static_cast<double>(squares.size())));
-    if (scale == least) break;
+/// Degrees of freedom with which errors within half a step of the encoder weigh nearly alike.
+double freedom_within_step(double scale, double resolution) {
+  constexpr double wide = (1.0 - rules::unequal_within_step) / rules::unequal_within_step;
+  const double half_step = 0.5 * resolution / scale;
+  return std::max(rules::tail_freedom, wide * half_step * half_step);
+}
+
+double iterated_scale(const std::vector<double>& squares, double scale, double nu, double least) {
+  double sum = 0.0;
+  const double inverse = 1.0 / (scale * scale);
+  for (const double q : squares) sum += (nu + 1.0) * q / (nu + q * inverse);
+  return std::max(least, std::sqrt(sum / static_cast<double>(squares.size())));
+}
+
+/// Student's t as a negative log likelihood, less what it is at zero with the usual degrees of freedom.
+class Unlikeliness {
+ public:
+  explicit Unlikeliness(const NoiseGroup& g)
+      : level_(std::log(g.scale)), power_(0.5 * (g.freedom + 1.0)), inverse_(1.0 / (g.freedom * g.scale * g.scale)) {
+    if (g.freedom != rules::tail_freedom) level_ += constant(g.freedom) - constant(rules::tail_freedom);
   }
-  return scale;
+  double operator()(double square) const { return level_ + power_ * std::log1p(square * inverse_); }
+  double operator()(const std::vector<double>& squares) const {
+    return std::accumulate(squares.begin(), squares.end(), 0.0,
+                           [&](double sum, double square) { return sum + (*this)(square); });
+  }
+
+ private:
+  static double constant(double nu) {
+    return std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + 1.0)) + 0.5 * std::log(nu);
+  }
+
+  double level_, power_, inverse_;
+};
+
+/// Scale and tails of a group: the usual tails, or those of errors of rounding where they make the errors more likely.
+void settle_tails(NoiseGroup& group, const std::vector<double>& squares, double least, double resolution, int rounds) {
+  NoiseGroup rounding = group;
+  for (int k = 0; k < rounds && (k == 0 || group.scale > least); ++k)
+    group.scale = iterated_scale(squares, group.scale, rules::tail_freedom, least);
+  group.freedom = rules::tail_freedom;
+  rounding.scale = group.scale;
+  for (int k = 0; k < rounds; ++k) {
+    rounding.freedom = freedom_within_step(rounding.scale, resolution);
+    if (rounding.freedom == rules::tail_freedom) return;
+    rounding.scale = iterated_scale(squares, rounding.scale, rounding.freedom, least);
+  }
+  if (Unlikeliness(rounding)(squares) < Unlikeliness(group)(squares)) group = rounding;
 }
 
 }  // namespace
@@ -128,7 +166,7 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
         if (round > 0) {
           Matrix A = Matrix::Zero();
           Vector b = Vector::Zero();
-          const double inverse = 1.0 / (group.scale * group.scale);
+          const double nu = group.freedom, inverse = 1.0 / (group.scale * group.scale);
           for (const std::size_t k : members) {
             const Eigen::Map<const Vector> z(&means[k * terms]);
             const double x = e[k] - predicted(group.weights, z.data());
@@ -145,7 +183,7 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
           const double x = e[k] - (whitens ? predicted(group.weights, &means[k * terms]) : 0.0);
           rest.push_back(x * x);
         }
-        group.scale = iterated_scale(rest, group.scale, least, round == rounds ? 6 : 3);
+        settle_tails(group, rest, least, channel.resolution, round == rounds ? 6 : 3);
       }
     }
   }
@@ -209,15 +247,10 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
 Misfit misfit(const InnovationLayout& layout, std::span<const double> w, const NoiseModel& noise) {
   Misfit sum;
   sum.blocks.assign(layout.blocks, 0.0);
-  std::vector<double> level, inverse;
-  for (const NoiseGroup& g : noise.groups) {
-    level.push_back(std::log(g.scale));
-    inverse.push_back(1.0 / (nu * g.scale * g.scale));
-  }
+  const std::vector<Unlikeliness> unlikeliness(noise.groups.begin(), noise.groups.end());
   for (std::size_t k = 0; k < layout.size; ++k) {
     if (layout.part[k] == 0) continue;
-    const std::size_t g = layout.group[k];
-    sum.blocks[layout.block[k]] += level[g] + 0.5 * (nu + 1.0) * std::log1p(w[k] * w[k] * inverse[g]);
+    sum.blocks[layout.block[k]] += unlikeliness[layout.group[k]](w[k] * w[k]);
   }
   std::vector<std::uint8_t> out(layout.blocks, 0);
   for (std::size_t k = 0; k < layout.size; ++k)
@@ -230,7 +263,8 @@ std::vector<double> fit_weights(const InnovationLayout& layout, std::span<const 
   std::vector<double> weight(layout.size, 0.0);
   for (std::size_t k = 0; k < layout.size; ++k) {
     if (layout.part[k] != 1) continue;
-    const double s2 = noise.groups[layout.group[k]].scale * noise.groups[layout.group[k]].scale;
+    const NoiseGroup& group = noise.groups[layout.group[k]];
+    const double nu = group.freedom, s2 = group.scale * group.scale;
     weight[k] = (nu + 1.0) / ((nu + w[k] * w[k] / s2) * s2);
   }
   return weight;

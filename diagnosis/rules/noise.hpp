@@ -9,6 +9,9 @@ namespace wormdrive::rules {
 
 /// degrees of freedom | standard | of Student's t, whose tails keep single samples from deciding [Lange et al. 1989]
 inline constexpr double tail_freedom = 4.0;
+/// share | set | by which weights may differ within half a step of an encoder: errors of rounding are skewed where the
+/// gear moves by simple fractions of a step per sample, and unequal weights would make a bias of that
+inline constexpr double unequal_within_step = 0.05;
 /// s | set | time constants of the means that whiten innovations; the first is one sample
 inline constexpr std::array<double, 6> whitening_times{0.0, 0.003, 0.008, 0.02, 0.05, 0.12};
 /// s | set | time constant of a torque that lasts

@@ -27,8 +27,9 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
   std::vector<double> w(n, 0.0);
   for (std::size_t k = 0; k < n * bin; ++k) {
     if (!r.used[k] || !r.moving[k]) continue;
-    const double s = h.noise_model.groups[layout.group[begin + k]].scale, z = h.residuals[begin + k] / s;
-    w[k / bin] += z / (1.0 + z * z / rules::tail_freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
+    const NoiseGroup& group = h.noise_model.groups[layout.group[begin + k]];
+    const double z = h.residuals[begin + k] / group.scale;
+    w[k / bin] += z / (1.0 + z * z / group.freedom) * (factor ? (*factor)[layout.begins[recording] + k] : 1.0);
   }
   Eigen::FFT<double> transform;
   std::vector<std::complex<double>> spectrum;

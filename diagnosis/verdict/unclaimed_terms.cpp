@@ -1,6 +1,7 @@
 #include "diagnosis/verdict/unclaimed_terms.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,17 +11,23 @@
 
 namespace wormdrive {
 
-std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection) {
-  if (selection.causes.size() < 2) return std::nullopt;
+std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection,
+                                      const std::vector<Candidate>& all) {
+  std::vector<const Tried*> eligible;
+  double bic = std::numeric_limits<double>::infinity();
+  for (const Tried& one : selection.tried)
+    if (!all[one.candidate].of_recording && accepted(one.evidence, all[one.candidate])) {
+      eligible.push_back(&one);
+      bic = std::min(bic, one.model.bic);
+    }
+  const double enough = bic + equivalence_margin(selection.base.bic - bic);
   double least = error_ahead(evaluation, selection.model, rules::reported_horizon);
   const Tried* best = nullptr;
-  for (const Tried& one : selection.tried) {
-    if (std::none_of(selection.causes.begin(), selection.causes.end(),
-                     [&](const Found& found) { return found.candidate == one.candidate; }))
-      continue;
-    if (const double error = error_ahead(evaluation, one.model, rules::reported_horizon); error < least) {
+  for (const Tried* one : eligible) {
+    if (one->model.bic > enough) continue;
+    if (const double error = error_ahead(evaluation, one->model, rules::reported_horizon); error < least) {
       least = error;
-      best = &one;
+      best = one;
     }
   }
   if (!best) return std::nullopt;

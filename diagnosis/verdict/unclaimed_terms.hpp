@@ -9,9 +9,10 @@
 
 namespace wormdrive {
 
-/// One of several causes whose names were withdrawn, with its fit beside the base, if it alone predicts what it was not
-/// fitted to better than all of them together do.
-std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection);
+/// Where the names of all causes were withdrawn, the effect that alone, beside the base, predicts what it was not fitted
+/// to better than they do, of those with the most evidence: it need not be one of them.
+std::optional<Selection> better_alone(const Evaluation& evaluation, const Selection& selection,
+                                      const std::vector<Candidate>& all);
 
 /// Whether causes whose names were withdrawn stay in the extended scenario, as terms that claim none: if they predict
 /// what they were not fitted to better than the drive does as stated, with other numbers within their tolerances, or

@@ -26,7 +26,7 @@ std::string recorded(const Folder& folder, const std::string& name, std::uint64_
   drive.sensor.counts = 16384;
   truth::Generator generator(seed);
   for (const auto& [effect, size] : hidden) truth::secret(effect).hide(drive, size, generator);
-  const auto law = truth::follow(truth::rich_course(seed, duration, period), truth::Geometry{}, 0.25);
+  const auto law = truth::follow(truth::rich_course(seed, duration, period), truth::Sheet{});
   truth::write_csv(truth::record(drive, law, {.duration = duration, .period = period, .seed = seed}), folder / name);
   return folder / name;
 }

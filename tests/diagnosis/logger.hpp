@@ -29,7 +29,7 @@ struct Logger {
       at.push_back(std::lround((t + (at.empty() ? 0.0 : early_or_late(random)) * period) / tick));
     // noise of the torque that is new at every tick, and as strong as what the truth holds over a millisecond
     drive.noise.white *= std::sqrt(static_cast<double>(pilot_ticks));
-    const auto law = [&at, pilot = truth::follow(truth::rich_course(seed, duration), truth::Geometry{}, 0.25),
+    const auto law = [&at, pilot = truth::follow(truth::rich_course(seed, duration), truth::Sheet{}),
                       asked = 0.0, held = 0.0, sample = std::size_t{0}](double t, double seen) mutable {
       const long now = std::lround(t / tick);
       if (now % pilot_ticks == 0) asked = pilot(t, seen);

@@ -17,7 +17,7 @@ const truth::Recording& sine() {
     truth::Drive drive;
     drive.sensor.counts = 16384;
     constexpr double duration = 40.0;
-    return truth::record(drive, truth::follow(truth::slow_course(0.3, 2.5, duration), truth::Geometry{}, 0.25),
+    return truth::record(drive, truth::follow(truth::slow_course(0.3, 2.5, duration), truth::Sheet{}),
                          {.duration = duration, .seed = 9});
   }();
   return recording;

@@ -103,10 +103,9 @@ TEST_CASE("torques that never acted are told from those that did") {
              51);
 
   // the same torques from a controller that commands them
-  const truth::Geometry sheet;
   std::vector<double> kicks(6000, 0.0);
   spikes(kicks, 0.5);
-  const auto law = [&, follow = truth::follow(truth::rich_course(51, 6.0), sheet, 0.25)](double t, double seen) {
+  const auto law = [&, follow = truth::follow(truth::rich_course(51, 6.0), truth::Sheet{})](double t, double seen) {
     return follow(t, seen) + kicks[std::min<std::size_t>(5999, static_cast<std::size_t>(std::lround(t / period)))];
   };
   const truth::Recording kicked = truth::record(truth::Drive{}, law, {.duration = 6.0, .seed = 51});

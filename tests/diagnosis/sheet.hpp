@@ -40,7 +40,7 @@ inline const Sheet& sound() {
   static const Sheet sheet = [] {
     truth::Drive drive;
     drive.sensor.counts = 16384;
-    const auto r = truth::record(drive, truth::follow(truth::rich_course(3, 8.0), truth::Geometry{}, 0.25),
+    const auto r = truth::record(drive, truth::follow(truth::rich_course(3, 8.0), truth::Sheet{}),
                                  {.duration = 8.0, .seed = 9});
     Sheet made{{"time_s", "motor_torque_Nm", "gear_angle_rad"}, {}};
     for (std::size_t k = 0; k < r.time.size(); ++k)

@@ -36,27 +36,38 @@ struct StatedNumber {
   std::string_view effect;
   double tolerance;
 };
-std::vector<StatedNumber> stated_numbers() {
-  const truth::Geometry g;
+std::vector<StatedNumber> stated_numbers(const truth::Sheet& stated) {
+  const truth::Geometry& g = stated.geometry;
   const double share = stated_errors.share;
-  return {{"mesh_friction", share * truth::MeshFriction{}.level},
+  return {{"mesh_friction", share * stated.friction},
           {"load_magnitude", share},
           {"load_angle", stated_errors.angle},
           {"torque_gain", share},
-          {"torque_offset", stated_errors.offset},
+          {"torque_offset", stated_errors.offset * times_usual(truth::Dimension::worm_torque, stated)},
           {"worm_inertia", share * g.worm_inertia},
           {"gear_inertia", share * (g.gear_inertia + g.mass * g.arm * g.arm)}};
 }
 
 /// Whether an effect is a stated number, or leaves the same data as one.
 bool is_stated(const truth::Secret& secret) {
-  const auto all = stated_numbers();
+  const auto all = stated_numbers({});
   return std::any_of(all.begin(), all.end(), [&](const StatedNumber& n) { return same_or_twin(n.effect, secret); });
 }
 
-double signed_amount(const truth::Secret& secret, truth::Size size, truth::Generator& generator) {
+double signed_amount(const truth::Secret& secret, truth::Size size, const truth::Sheet& sheet,
+                     truth::Generator& generator) {
   const bool turn = secret.either_sign && std::bernoulli_distribution(0.5)(generator);
-  return turn ? -secret.amount(size) : secret.amount(size);
+  return turn ? -secret.amount(size, sheet) : secret.amount(size, sheet);
+}
+
+/// A drive with an encoder, a rate and a duration.
+void draw_bench(Case& drawn, truth::Generator& generator) {
+  constexpr double rates[] = {250, 500, 1000, 2000, 4000};
+  drawn.stated = truth::any_drive(generator);
+  drawn.conditions.counts = drawn.stated.sensor.counts;
+  drawn.period = 1.0 / rates[std::uniform_int_distribution<std::size_t>(0, std::size(rates) - 1)(generator)];
+  drawn.duration = 8.0 * std::pow(5.0, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
+  drawn.duration = std::round(drawn.duration / drawn.period) * drawn.period;
 }
 
 std::vector<const truth::Secret*> pool(const Plan& plan) {
@@ -109,6 +120,8 @@ std::vector<Case> draw(const Plan& plan) {
   std::vector<Case> cases;
   for (long k = 0; k < plan.cases; ++k) {
     Case drawn{plan.kind, plan.conditions, generator(), {}, plan.duration, plan.period};
+    if (plan.any_bench) draw_bench(drawn, generator);
+    const truth::Sheet& sheet = drawn.stated.sheet;
     const auto in_turn = static_cast<std::size_t>(k);
     const truth::Size size = plan.sizes[(in_turn / secrets.size()) % plan.sizes.size()];
     const auto hide = [&](const truth::Secret& secret, double amount) {
@@ -119,21 +132,22 @@ std::vector<Case> draw(const Plan& plan) {
       case Kind::single:
       case Kind::outside: {
         const truth::Secret& secret = *secrets[in_turn % secrets.size()];
-        hide(secret, signed_amount(secret, size, generator));
+        hide(secret, signed_amount(secret, size, sheet, generator));
         break;
       }
       case Kind::pair: {
         const truth::Secret* first = one_of(secrets, generator);
         const truth::Secret* second = first;
         while (same_or_twin(second->effect, *first)) second = one_of(secrets, generator);
-        for (const truth::Secret* secret : {first, second}) hide(*secret, signed_amount(*secret, size, generator));
+        for (const truth::Secret* secret : {first, second})
+          hide(*secret, signed_amount(*secret, size, sheet, generator));
         break;
       }
       case Kind::stated_off: {
         const truth::Secret* effect = one_of(secrets, generator);
         while (is_stated(*effect)) effect = one_of(secrets, generator);
-        hide(*effect, signed_amount(*effect, size, generator));
-        const StatedNumber number = one_of(stated_numbers(), generator);
+        hide(*effect, signed_amount(*effect, size, sheet, generator));
+        const StatedNumber number = one_of(stated_numbers(sheet), generator);
         const double off = number.tolerance * std::uniform_real_distribution(5.0, 20.0)(generator);
         hide(truth::secret(number.effect), std::bernoulli_distribution(0.5)(generator) ? -off : off);
         break;
@@ -141,9 +155,9 @@ std::vector<Case> draw(const Plan& plan) {
       case Kind::cancelling: {
         const Cancelling& pair = cancelling_pairs[in_turn % std::size(cancelling_pairs)];
         const truth::Secret &first = truth::secret(pair.first), &second = truth::secret(pair.second);
-        const double amount = signed_amount(first, size, generator);
+        const double amount = signed_amount(first, size, sheet, generator);
         hide(first, amount);
-        hide(second, pair.sign * std::copysign(second.amount(size), amount));
+        hide(second, pair.sign * std::copysign(second.amount(size, sheet), amount));
         break;
       }
     }
@@ -155,8 +169,8 @@ std::vector<Case> draw(const Plan& plan) {
 /// Of teeth that an encoder on the worm does not see yield [N/m].
 constexpr double rigid_teeth = 1e9;
 
-wormdrive::Scenario data_sheet(const Conditions& conditions) {
-  const truth::Geometry g;
+wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& of) {
+  const truth::Geometry& g = of.geometry;
   wormdrive::Scenario sheet;
   sheet.title = "test bench";
   sheet.mesh = wormdrive::MeshParameters<double>{.i = g.ratio,
@@ -164,7 +178,7 @@ wormdrive::Scenario data_sheet(const Conditions& conditions) {
                                                  .phi_n = g.pressure_angle,
                                                  .lw = g.worm_radius,
                                                  .lg = g.gear_radius,
-                                                 .mu = truth::MeshFriction{}.level,
+                                                 .mu = of.friction,
                                                  .Jw = g.worm_inertia,
                                                  .Jg = g.gear_inertia};
   wormdrive::GravityArm arm;
@@ -173,32 +187,37 @@ wormdrive::Scenario data_sheet(const Conditions& conditions) {
   sheet.load = arm;
   sheet.run.duration = 24.0;
   const truth::NominalErrors stated = conditions.errors.share > 0.0 ? stated_errors : truth::NominalErrors{};
-  sheet.tolerance = wormdrive::Tolerances{.friction = stated.share,
-                                          .load = stated.share,
-                                          .load_angle = stated.angle,
-                                          .worm_inertia = stated.share,
-                                          .gear_inertia = stated.share,
-                                          .torque_gain = stated.share,
-                                          .torque_offset = stated.offset};
+  sheet.tolerance =
+      wormdrive::Tolerances{.friction = stated.share,
+                            .load = stated.share,
+                            .load_angle = stated.angle,
+                            .worm_inertia = stated.share,
+                            .gear_inertia = stated.share,
+                            .torque_gain = stated.share,
+                            .torque_offset = stated.offset * times_usual(truth::Dimension::worm_torque, of)};
   return sheet;
 }
 
 truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator) {
-  truth::Drive drive;
-  drive.noise.coloured = drawn.conditions.coloured_torque;
+  truth::Drive drive = drawn.stated;
+  const double torque = times_usual(truth::Dimension::worm_torque, drive.sheet);
+  drive.noise.coloured = drawn.conditions.coloured_torque * torque;
   drive.sensor.counts = drawn.conditions.counts;
   drive.sensor.worm_counts = drawn.conditions.worm_counts;
   if (drawn.conditions.worm_counts > 0.0) drive.teeth.stiffness = rigid_teeth;
-  truth::disturb_nominal(drive, drawn.conditions.errors, generator);
+  truth::NominalErrors errors = drawn.conditions.errors;
+  errors.offset *= torque;
+  truth::disturb_nominal(drive, errors, generator);
   for (const Hiding& hiding : drawn.hidden) hiding.secret->hide(drive, hiding.amount, generator);
   return drive;
 }
 
 wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
                             const wormdrive::Scenario& sheet, std::uint64_t seed) {
-  truth::Geometry stated;
-  if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass) stated.mass = *arm->mass;
-  const auto law = truth::follow(course, stated, truth::MeshFriction{}.level);
+  truth::Sheet stated = drive.sheet;
+  if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass)
+    stated.geometry.mass = *arm->mass;
+  const auto law = truth::follow(course, stated);
   const double duration = static_cast<double>(course.angle.size()) * course.period;
   const auto recorded = truth::record(
       drive, law, {.duration = duration, .period = course.period, .start_angle = course.angle.front(), .seed = seed});
@@ -221,7 +240,7 @@ Bench record(const Case& drawn) {
   truth::Generator generator(drawn.seed);
   Bench bench{disturbed_drive(drawn, generator), {}};
   const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
-  bench.recording = follow(bench.drive, course, data_sheet(drawn.conditions), generator());
+  bench.recording = follow(bench.drive, course, data_sheet(drawn.conditions, drawn.stated.sheet), generator());
   return bench;
 }
 
@@ -236,7 +255,8 @@ std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnos
       try {
         const Bench bench = record(cases[k]);
         const auto start = std::chrono::steady_clock::now();
-        const wormdrive::Diagnosis found = diagnose(data_sheet(cases[k].conditions), {bench.recording});
+        const wormdrive::Diagnosis found =
+            diagnose(data_sheet(cases[k].conditions, cases[k].stated.sheet), {bench.recording});
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         outcome = judge(cases[k], bench.drive, found);
         outcome.seconds = took.count();

@@ -55,6 +55,7 @@ struct Case {
   std::uint64_t seed;
   std::vector<Hiding> hidden;
   double duration = 24.0, period = 1e-3;  ///< [s]
+  truth::Drive stated{};                  ///< the drive as its data sheet has it
 };
 
 /// What a campaign draws from.
@@ -66,6 +67,7 @@ struct Plan {
   long cases = 100;
   std::uint64_t seed = 1;
   double duration = 24.0, period = 1e-3;  ///< [s]
+  bool any_bench = false;                 ///< drives, encoders, rates and durations are drawn, too
 };
 
 /// The cases of a plan: effects in turn, sizes in turn, everything else drawn from the seed.
@@ -73,7 +75,7 @@ std::vector<Case> draw(const Plan& plan);
 
 /// What the data sheet says of the bench: all that the diagnosis is told. Where the nominal values are exact it says
 /// so; else it states 1 %, also where the errors are larger.
-wormdrive::Scenario data_sheet(const Conditions& conditions);
+wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& stated = {});
 
 /// Records a case, writes it to a CSV file, and reads it as a user's.
 struct Bench {

@@ -50,12 +50,11 @@ wormdrive::Scenario at_work(const wormdrive::Scenario& drive) {
 
 /// The data sheet with all in which the drive differs from it.
 wormdrive::Scenario as_it_is(const Case& drawn, const truth::Drive& drive) {
-  wormdrive::Scenario scenario = data_sheet(drawn.conditions);
-  const truth::Drive nominal;
+  wormdrive::Scenario scenario = data_sheet(drawn.conditions, drawn.stated.sheet);
   for (const truth::Secret& secret : truth::catalogue()) {
     if (secret.needs_worm_encoder) continue;
     for (const truth::TrueParameter& parameter : secret.parameters)
-      if (const double value = parameter.of(drive); value != parameter.of(nominal))
+      if (const double value = parameter.of(drive); value != parameter.of(drawn.stated))
         wormdrive::set_field(scenario.effects, {secret.effect, parameter.field, value});
   }
   return scenario;

@@ -23,7 +23,7 @@ truth::Drive quiet() {
 }
 
 truth::Law follow(std::uint64_t seed, double duration) {
-  return truth::follow(truth::rich_course(seed, duration), truth::Geometry{}, 0.25);
+  return truth::follow(truth::rich_course(seed, duration), truth::Sheet{});
 }
 
 Scenario sheet(const truth::Geometry& g, double friction) {

@@ -23,15 +23,15 @@ bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding, const
 /// Whether a stated number is off by so many of its tolerances that naming it is no fault.
 bool is_off(std::string_view named, const truth::Drive& drive, const wormdrive::Tolerances& stated) {
   constexpr double far = 2.5;
-  const truth::Geometry sheet;
+  const truth::Geometry& sheet = drive.sheet.geometry;
   const double gear_inertia = sheet.gear_inertia + sheet.mass * sheet.arm * sheet.arm;
   const auto beyond = [&](std::string_view effect, double tolerance) {
     return same_or_twin(named, truth::secret(effect)) &&
            std::abs(truth::secret(effect).parameters.front().of(drive)) >= far * tolerance && tolerance > 0.0;
   };
-  return beyond("mesh_friction", stated.friction * truth::MeshFriction{}.level) ||
-         beyond("load_magnitude", stated.load) || beyond("load_angle", stated.load_angle) ||
-         beyond("torque_gain", stated.torque_gain) || beyond("torque_offset", stated.torque_offset.value_or(0.0)) ||
+  return beyond("mesh_friction", stated.friction * drive.sheet.friction) || beyond("load_magnitude", stated.load) ||
+         beyond("load_angle", stated.load_angle) || beyond("torque_gain", stated.torque_gain) ||
+         beyond("torque_offset", stated.torque_offset.value_or(0.0)) ||
          beyond("worm_inertia", stated.worm_inertia * sheet.worm_inertia) ||
          beyond("gear_inertia", stated.gear_inertia * gear_inertia);
 }
@@ -93,7 +93,7 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
   const bool only_hidden =
       std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
-  const auto stated = data_sheet(drawn.conditions).tolerance.value_or(wormdrive::Tolerances{});
+  const auto stated = data_sheet(drawn.conditions, drawn.stated.sheet).tolerance.value_or(wormdrive::Tolerances{});
   const auto off = [&](const std::string& cause) { return is_off(cause, drive, stated); };
   const bool only_true = std::all_of(outcome.named.begin(), outcome.named.end(), [&](const std::string& cause) {
     return is_hidden(cause) || off(cause) ||

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     drive.sensor.counts = 16384;
     truth::Generator generator(seed);
     if (effect != "none") truth::secret(effect).hide(drive, std::stod(argv[3]), generator);
-    const auto law = truth::follow(truth::rich_course(seed, duration), truth::Geometry{}, 0.25);
+    const auto law = truth::follow(truth::rich_course(seed, duration), truth::Sheet{});
     truth::write_csv(truth::record(drive, law, {.duration = duration, .seed = seed}), argv[1]);
   } catch (const std::exception& fault) {
     std::cerr << "make_recording: " << fault.what() << "\n";

@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
   app.add_option("--cases", plan.cases, "number of recordings");
   app.add_option("--seed", plan.seed, "seed of all random numbers");
   app.add_option("--duration", plan.duration, "of a recording [s]");
+  app.add_flag("--any-bench", plan.any_bench, "drives, encoders, rates and durations are drawn, too");
   app.add_option("--threads", threads, "recordings at a time");
   app.add_flag("--worm-encoder", worm_encoder, "with an encoder of 4096 counts on the worm");
   app.add_flag("--all", all, "every campaign of the benchmark page instead");

@@ -18,6 +18,12 @@ struct Geometry {
   double gravity = 9.81;
 };
 
+/// What a data sheet states of a drive.
+struct Sheet {
+  Geometry geometry;
+  double friction = 0.25;  ///< between the teeth
+};
+
 /// Friction between the teeth, a function of everything that it may depend on.
 struct MeshFriction {
   enum class Fall { gaussian, lorentzian, hyperbolic };
@@ -79,6 +85,7 @@ struct Noise {
 };
 
 struct Drive {
+  Sheet sheet;
   Geometry geometry;
   double worm_inertia_excess = 0.0, gear_inertia_excess = 0.0;
   MeshFriction friction;

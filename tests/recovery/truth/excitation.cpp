@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "recovery/truth/size.hpp"
+
 namespace truth {
 namespace {
 
@@ -69,13 +71,16 @@ std::vector<Sine> sines(Stage::Kind kind, std::mt19937_64& generator) {
 /// The controller as a law of time and seen angle.
 class Pilot {
  public:
-  Pilot(EventSequence course, const Geometry& g, double mu) : course_(std::move(course)) {
-    const double cp = std::cos(g.pressure_angle), sl = std::sin(g.lead_angle), cl = std::cos(g.lead_angle);
-    with_load_ = g.worm_radius / g.gear_radius * (cp * sl - mu * cl) / (cp * cl + mu * sl);
-    against_load_ = g.worm_radius / g.gear_radius * (cp * sl + mu * cl) / (cp * cl - mu * sl);
+  Pilot(EventSequence course, const Sheet& sheet) : course_(std::move(course)) {
+    const Geometry& g = sheet.geometry;
+    with_load_ = torque_ratio(g, -sheet.friction);
+    against_load_ = torque_ratio(g, sheet.friction);
     weight_ = g.mass * g.gravity * g.arm;
     worm_ = g.worm_inertia * g.ratio;
     gear_ = g.gear_inertia + g.mass * g.arm * g.arm;
+    limit_ = 0.25 * times_usual(Dimension::worm_torque, sheet);
+    filter_ = std::min(250.0, 0.5 / course_.period);
+    bandwidth_ = 0.1 * filter_;
   }
   double operator()(double t, double seen) {
     const std::size_t k = std::min(static_cast<std::size_t>(std::lround(t / course_.period)), course_.angle.size() - 1);
@@ -83,22 +88,23 @@ class Pilot {
     started_ = true;
     // a second-order filter follows the encoder and knows its speed
     const double T = course_.period, error = seen - angle_;
-    angle_ += T * (speed_ + 2.0 * filter * error);
-    speed_ += T * filter * filter * error;
+    angle_ += T * (speed_ + 2.0 * filter_ * error);
+    speed_ += T * filter_ * filter_ * error;
     const double load = weight_ * std::cos(course_.angle[k]), wanted = course_.acceleration[k];
     // friction is fed forward with the direction that is asked for, not at all where a rest is asked for
     const double way = std::clamp(course_.speed[k] / 0.03, -1.0, 1.0) * (load - gear_ * wanted >= 0.0 ? 1.0 : -1.0);
     const double C = 0.5 * (against_load_ + with_load_) - 0.5 * way * (against_load_ - with_load_);
     const double M = worm_ + C * gear_;
     const double law =
-        wanted + 2.0 * bandwidth * (course_.speed[k] - speed_) + bandwidth * bandwidth * (course_.angle[k] - angle_);
-    return std::clamp(M * law - C * load, -0.25, 0.25);
+        wanted + 2.0 * bandwidth_ * (course_.speed[k] - speed_) + bandwidth_ * bandwidth_ * (course_.angle[k] - angle_);
+    return std::clamp(M * law - C * load, -limit_, limit_);
   }
 
  private:
-  static constexpr double bandwidth = 25.0, filter = 250.0;  ///< [rad/s]
   EventSequence course_;
   double with_load_, against_load_, weight_, worm_, gear_;
+  double limit_;               ///< [N m]
+  double bandwidth_, filter_;  ///< [rad/s]
   double angle_ = 0.0, speed_ = 0.0;
   bool started_ = false;
 };
@@ -168,8 +174,8 @@ EventSequence course_through(std::vector<double> angle, double period) {
   return course;
 }
 
-Law follow(EventSequence course, const Geometry& sheet, double friction) {
-  return [pilot = Pilot(std::move(course), sheet, friction)](double t, double seen) mutable { return pilot(t, seen); };
+Law follow(EventSequence course, const Sheet& sheet) {
+  return [pilot = Pilot(std::move(course), sheet)](double t, double seen) mutable { return pilot(t, seen); };
 }
 
 }  // namespace truth

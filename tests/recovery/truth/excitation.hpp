@@ -24,7 +24,7 @@ EventSequence slow_course(double amplitude, double frequency, double duration);
 EventSequence course_through(std::vector<double> angle, double period = 1e-3);
 
 /// Proportional-derivative control of the course, fed forward with what the data sheet says of inertia, load and
-/// friction; the gains keep every hidden effect stable.
-Law follow(EventSequence course, const Geometry& sheet, double friction);
+/// friction; the gains keep every hidden effect stable, and fall with the rate of slow controllers.
+Law follow(EventSequence course, const Sheet& sheet);
 
 }  // namespace truth

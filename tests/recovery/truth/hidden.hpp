@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "recovery/truth/drive.hpp"
+#include "recovery/truth/size.hpp"
 
 namespace truth {
 
@@ -22,15 +22,16 @@ struct TrueParameter {
 
 /// Something that can be hidden in a drive.
 struct Secret {
-  std::string_view effect;  ///< id in the catalogue; of what stands outside it, our name
-  double small, medium, large;
+  std::string_view effect;      ///< id in the catalogue; of what stands outside it, our name
+  double small, medium, large;  ///< in the usual drive
   bool either_sign;
   bool needs_worm_encoder;  ///< the gear's own encoder does not show it
   void (*hide)(Drive&, double size, Generator&);
   std::vector<TrueParameter> parameters;
-  std::vector<std::string_view> twins{};  ///< effects with exactly the same data: naming one of them is right
+  std::vector<std::string_view> twins{};   ///< effects with exactly the same data: naming one of them is right
+  Dimension dimension = Dimension::plain;  ///< of the sizes
 
-  double amount(Size size) const;
+  double amount(Size size, const Sheet& sheet = {}) const;
 };
 
 /// Every effect of the catalogue that a recording can show.
@@ -46,6 +47,9 @@ struct NominalErrors {
   double angle = 0.0;   ///< of the arm [rad]
   double offset = 0.0;  ///< of the motor torque [N m]
 };
+
+/// A drive by its data sheet, drawn: ratios of 8 to 100, friction of 0.03 to 0.25, 0.3 to 30 times the usual size.
+Drive any_drive(Generator& generator);
 
 /// Moves everything that a data sheet states by a normal deviate.
 void disturb_nominal(Drive& drive, const NominalErrors& errors, Generator& generator);
