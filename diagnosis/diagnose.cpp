@@ -134,9 +134,8 @@ void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& befo
   d.prediction = prediction_errors(evaluation, before, after, d.seed);
   d.examples = prediction_examples(evaluation, before, after);
   d.residual = residual_torque(evaluation, before, after);
-  const NoiseSizes noise = noise_sizes(evaluation, after);
-  d.noise_angle = noise.angle;
-  d.noise_torque = noise.torque;
+  d.noise_angle = noise_sizes(evaluation, after).angle;
+  d.noise_torque = noise_sizes(evaluation, with_least_noise(evaluation, after)).torque;
 }
 
 /// The same with its numbers as they are: nothing that is added moves them.

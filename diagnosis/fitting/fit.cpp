@@ -84,6 +84,20 @@ void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
     }
 }
 
+Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h) {
+  const InnovationLayout& layout = evaluation.layout();
+  double enough = h.misfit.fitted + rules::of_process_noise;
+  for (std::size_t k = 0; k < layout.size; ++k)
+    if (layout.part[k] == 1 && h.noise_model.groups[layout.group[k]].freedom > rules::tail_freedom)
+      enough += rules::feigned_by_rounding;
+  for (Hypothesis less = h; less.noise.white > rules::least_process_noise; h = less) {
+    less.noise.white *= 0.5;
+    less.noise.coloured *= 0.5;
+    if (!evaluate(evaluation, less) || less.misfit.fitted > enough) break;
+  }
+  return h;
+}
+
 void restart_noise(const Evaluation& evaluation, Hypothesis& h) {
   using Starts = std::array<ProcessNoise, 3>;
   const Starts starts = h.whitens ? Starts{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}

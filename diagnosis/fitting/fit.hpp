@@ -20,6 +20,9 @@ void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth);
 /// Tries three different mixtures of process noise, where there is a model of it.
 void restart_noise(const Evaluation& evaluation, Hypothesis& h);
 
+/// The same with the least process noise that the data demand.
+Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h);
+
 /// Precision of the tolerances in scales, on the diagonal, and their pull on the right-hand side.
 void add_tolerances(const Hypothesis& h, Eigen::MatrixXd& A, Eigen::VectorXd& b);
 

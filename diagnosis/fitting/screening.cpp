@@ -40,7 +40,7 @@ class Trial {
     tolerances.free.resize(h_.free.size());
     add_tolerances(tolerances, A, b);
     const Eigen::VectorXd step = solve_normal(A, b, 1e-6);
-    const double promised = b.dot(step), price = added_terms();
+    const double promised = b.dot(step) + lifted_tolerance(), price = added_terms();
     // where a spring is slack shows only once it has a stiffness: then a step does not promise all that there is
     const bool promises_all = !candidate_.finite && (A.diagonal().tail(fresh).array() > 0.0).all();
     if (promises_all && promised < rules::least_promise * price) {
@@ -83,6 +83,9 @@ class Trial {
     for (std::size_t k = old; k < with_.free.size(); ++k)
       signatures_.push_back(sensitivity(evaluation_, moved, k, 5.0 * derivative_step));
   }
+
+  /// What a stated number that has moved costs as long as it has its tolerance, as BIC.
+  double lifted_tolerance() const { return 2.0 * (with_tolerances(0.0, h_) - with_tolerances(0.0, with_)); }
 
   /// What the coordinates that are free here and not in the hypothesis cost, as BIC.
   double added_terms() const {

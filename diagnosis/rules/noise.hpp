@@ -28,6 +28,10 @@ inline constexpr double hides_what_is_slow = 0.5;
 inline constexpr double rounding_at_rest = 0.29;
 /// steps of the encoder | set | while the gear moves, rounding is predicted in part
 inline constexpr double rounding_moving = 0.1;
+/// nats | derived | a process noise that makes the data less likely by less is in its 95 % confidence interval
+inline constexpr double of_process_noise = 1.92;
+/// nats per innovation | set | what errors of rounding, which are no white noise, feign of process noise
+inline constexpr double feigned_by_rounding = 0.005;
 /// scales of the noise | set | a process noise beyond these is none, or all there is
 inline constexpr double least_process_noise = 1e-5, most_process_noise = 3.0;
 /// rad | derived | so far off a prediction follows no motion, in steps that grow ever shorter

@@ -46,6 +46,27 @@ TEST_CASE("a stated number that is far off is named beside another cause", "[slo
   }
 }
 
+TEST_CASE("a stated number that exact data show far off is named, however little it moves beyond its tolerance",
+          "[slow]") {
+  const auto stated = recovery::stated_errors;
+  const truth::Geometry g;
+  for (const Hidden& number : std::vector<Hidden>{{"mesh_friction", 6.0 * stated.share * truth::Sheet{}.friction},
+                                                  {"load_magnitude", -6.0 * stated.share},
+                                                  {"load_angle", 6.0 * stated.angle},
+                                                  {"torque_offset", -6.0 * stated.offset},
+                                                  {"worm_inertia", 6.0 * stated.share * g.worm_inertia}}) {
+    recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("ideal"), 45, {}, 8.0};
+    drawn.hidden.push_back({&truth::secret(number.effect), truth::Size::medium, number.amount});
+    const recovery::Bench bench = recovery::record(drawn);
+    const Diagnosis d =
+        diagnose(recovery::data_sheet(recovery::conditions("realistic")), {bench.recording}, {.threads = 2});
+    CAPTURE(d.sentence, number.effect);
+    REQUIRE(d.causes.size() == 1);
+    CHECK(recovery::same_or_twin(d.causes[0].effect, truth::secret(number.effect)));
+    CHECK(std::abs(d.causes[0].parameters[0].value / number.amount - 1.0) < 0.2);
+  }
+}
+
 TEST_CASE("every class is told, that of a second cause too", "[slow]") {
   const Diagnosis d =
       diagnosed(realistic_case(42, {{"encoder_delay", 3e-3}, {"load_angle", -12.0 * recovery::stated_errors.angle}}));
