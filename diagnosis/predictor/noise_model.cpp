@@ -55,7 +55,7 @@ double robust_scale(std::vector<double>& sizes) {
 double freedom_within_step(double scale, double resolution) {
   constexpr double wide = (1.0 - rules::unequal_within_step) / rules::unequal_within_step;
   const double half_step = 0.5 * resolution / scale;
-  return std::max(rules::tail_freedom, wide * half_step * half_step);
+  return wide * half_step * half_step;
 }
 
 double iterated_scale(const std::vector<double>& squares, double scale, double nu, double least) {
@@ -66,9 +66,9 @@ double iterated_scale(const std::vector<double>& squares, double scale, double n
 }
 
 /// Student's t as a negative log likelihood, less what it is at zero with the usual degrees of freedom.
-class Unlikeliness {
+class NegativeLogLikelihood {
  public:
-  explicit Unlikeliness(const NoiseGroup& g)
+  explicit NegativeLogLikelihood(const NoiseGroup& g)
       : level_(std::log(g.scale)), power_(0.5 * (g.freedom + 1.0)), inverse_(1.0 / (g.freedom * g.scale * g.scale)) {
     if (g.freedom != rules::tail_freedom) level_ += constant(g.freedom) - constant(rules::tail_freedom);
   }
@@ -86,19 +86,21 @@ class Unlikeliness {
   double level_, power_, inverse_;
 };
 
-/// Scale and tails of a group: the usual tails, or those of errors of rounding where they make the errors more likely.
-void settle_tails(NoiseGroup& group, const std::vector<double>& squares, double least, double resolution, int rounds) {
+/// Scale and tails of a group: the usual tails, or those of errors of rounding where these dominate and the errors
+/// become more likely.
+void fit_scale_and_tails(NoiseGroup& group, const std::vector<double>& squares, double least, double resolution,
+                         int rounds) {
   NoiseGroup rounding = group;
   for (int k = 0; k < rounds && (k == 0 || group.scale > least); ++k)
     group.scale = iterated_scale(squares, group.scale, rules::tail_freedom, least);
   group.freedom = rules::tail_freedom;
+  if (resolution * resolution / 12.0 < rules::mere_rounding * group.scale * group.scale) return;
   rounding.scale = group.scale;
   for (int k = 0; k < rounds; ++k) {
     rounding.freedom = freedom_within_step(rounding.scale, resolution);
-    if (rounding.freedom == rules::tail_freedom) return;
     rounding.scale = iterated_scale(squares, rounding.scale, rounding.freedom, least);
   }
-  if (Unlikeliness(rounding)(squares) < Unlikeliness(group)(squares)) group = rounding;
+  if (NegativeLogLikelihood(rounding)(squares) < NegativeLogLikelihood(group)(squares)) group = rounding;
 }
 
 }  // namespace
@@ -183,7 +185,7 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
           const double x = e[k] - (whitens ? predicted(group.weights, &means[k * terms]) : 0.0);
           rest.push_back(x * x);
         }
-        settle_tails(group, rest, least, channel.resolution, round == rounds ? 6 : 3);
+        fit_scale_and_tails(group, rest, least, channel.resolution, round == rounds ? 6 : 3);
       }
     }
   }
@@ -247,10 +249,10 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
 Misfit misfit(const InnovationLayout& layout, std::span<const double> w, const NoiseModel& noise) {
   Misfit sum;
   sum.blocks.assign(layout.blocks, 0.0);
-  const std::vector<Unlikeliness> unlikeliness(noise.groups.begin(), noise.groups.end());
+  const std::vector<NegativeLogLikelihood> negative_log_likelihood(noise.groups.begin(), noise.groups.end());
   for (std::size_t k = 0; k < layout.size; ++k) {
     if (layout.part[k] == 0) continue;
-    sum.blocks[layout.block[k]] += unlikeliness[layout.group[k]](w[k] * w[k]);
+    sum.blocks[layout.block[k]] += negative_log_likelihood[layout.group[k]](w[k] * w[k]);
   }
   std::vector<std::uint8_t> out(layout.blocks, 0);
   for (std::size_t k = 0; k < layout.size; ++k)

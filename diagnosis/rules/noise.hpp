@@ -28,6 +28,8 @@ inline constexpr double hides_what_is_slow = 0.5;
 inline constexpr double rounding_at_rest = 0.29;
 /// steps of the encoder | set | while the gear moves, rounding is predicted in part
 inline constexpr double rounding_moving = 0.1;
+/// share of the squared scale of the noise | set | where errors of rounding are more, there is hardly any other noise
+inline constexpr double mere_rounding = 0.8;
 /// nats | derived | a process noise that makes the data less likely by less is in its 95 % confidence interval
 inline constexpr double of_process_noise = 1.92;
 /// nats per innovation | set | what errors of rounding, which are no white noise, feign of process noise

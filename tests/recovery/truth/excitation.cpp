@@ -57,7 +57,7 @@ std::vector<Sine> sines(Stage::Kind kind, std::mt19937_64& generator) {
     case Stage::Kind::multisine:
       for (const double f : {0.7, 1.3, 2.9, 5.1, 8.7, 13.0}) add(f, f < 1.0 ? 3.0 : 6.0);
       break;
-    case Stage::Kind::sine: add(1.5, 28.0); break;
+    case Stage::Kind::sine: add(1.5, usual_acceleration); break;
     case Stage::Kind::fast:
       for (const double f : {3.7, 11.0, 20.0, 27.0}) add(f, 14.0);
       break;

@@ -172,7 +172,8 @@ Drive any_drive(Generator& generator) {
   g.worm_inertia *= size;
   // what the gear carries, against what the worm's inertia takes, its weight against its inertia, its mass on an arm
   const double inertia = times(0.1, 1.0) * g.worm_inertia * g.ratio / torque_ratio(g, sheet.friction);
-  const double weight = times(1.0, 8.0) * inertia * 28.0, on_arm = between(generator, 0.5, 0.95) * inertia;
+  const double weight = times(1.0, 8.0) * inertia * usual_acceleration,
+               on_arm = between(generator, 0.5, 0.95) * inertia;
   g.arm = on_arm * g.gravity / weight;
   g.mass = on_arm / (g.arm * g.arm);
   g.gear_inertia = inertia - on_arm;

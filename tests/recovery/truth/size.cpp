@@ -10,10 +10,9 @@ struct Magnitudes {
 };
 
 Magnitudes magnitudes(const Sheet& sheet) {
-  constexpr double acceleration = 28.0;
   const Geometry& g = sheet.geometry;
-  const double gear = g.mass * g.gravity * g.arm + (g.gear_inertia + g.mass * g.arm * g.arm) * acceleration;
-  return {g.worm_inertia * g.ratio * acceleration + torque_ratio(g, sheet.friction) * gear, gear,
+  const double gear = g.mass * g.gravity * g.arm + (g.gear_inertia + g.mass * g.arm * g.arm) * usual_acceleration;
+  return {g.worm_inertia * g.ratio * usual_acceleration + torque_ratio(g, sheet.friction) * gear, gear,
           g.worm_radius / std::cos(g.lead_angle) * g.ratio};
 }
 

@@ -20,8 +20,11 @@ enum class Dimension {
   sliding_speed
 };
 
+/// What a course asks of the gear [rad/s^2].
+inline constexpr double usual_acceleration = 28.0;
+
 /// How much larger numbers of a kind are in a drive than in the usual one: for torques, by what it takes to lift the
-/// load and to accelerate the gear by 28 rad/s^2.
+/// load and to give the gear the usual acceleration.
 double times_usual(Dimension dimension, const Sheet& sheet);
 
 }  // namespace truth
