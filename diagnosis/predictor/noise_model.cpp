@@ -86,16 +86,15 @@ class NegativeLogLikelihood {
   double level_, power_, inverse_;
 };
 
-/// Scale and tails of a group: the usual tails, or those of errors of rounding where these dominate and the errors
-/// become more likely.
+/// Scale and tails of a group: the usual tails, or those of errors of rounding where there is hardly any other noise
+/// and the errors become more likely.
 void fit_scale_and_tails(NoiseGroup& group, const std::vector<double>& squares, double least, double resolution,
                          int rounds) {
-  NoiseGroup rounding = group;
   for (int k = 0; k < rounds && (k == 0 || group.scale > least); ++k)
     group.scale = iterated_scale(squares, group.scale, rules::tail_freedom, least);
   group.freedom = rules::tail_freedom;
   if (resolution * resolution / 12.0 < rules::mere_rounding * group.scale * group.scale) return;
-  rounding.scale = group.scale;
+  NoiseGroup rounding = group;
   for (int k = 0; k < rounds; ++k) {
     rounding.freedom = freedom_within_step(rounding.scale, resolution);
     rounding.scale = iterated_scale(squares, rounding.scale, rounding.freedom, least);

@@ -15,7 +15,7 @@ using WhiteningWeights = std::array<double, rules::whitening_times.size()>;
 /// Noise of samples of one kind: of one recording, standing or moving.
 struct NoiseGroup {
   double scale = 1.0;                    ///< of Student's t [rad]
-  double freedom = rules::tail_freedom;  ///< its degrees of freedom, more where errors of rounding dominate
+  double freedom = rules::tail_freedom;  ///< its degrees of freedom, more where there is hardly any noise but rounding
   WhiteningWeights weights{};
 };
 

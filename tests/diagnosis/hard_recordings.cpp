@@ -34,7 +34,7 @@ struct Answer {
 
 Answer answer(const recovery::Case& drawn) {
   const recovery::Bench bench = recovery::record(drawn);
-  Diagnosis d = diagnose(recovery::data_sheet(drawn.conditions), {bench.recording}, {.threads = 2});
+  Diagnosis d = diagnose(recovery::data_sheet(drawn), {bench.recording}, {.threads = 2});
   return {recovery::judge(drawn, bench.drive, d).score, std::move(d)};
 }
 

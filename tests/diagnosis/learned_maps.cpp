@@ -48,7 +48,7 @@ TEST_CASE("a fan on the gear, which no effect is, comes back as a map of its sha
   const auto hidden = truth::outside();
   const auto fan = std::find_if(hidden.begin(), hidden.end(), [](const auto& s) { return s.effect == "fan"; });
   drawn.hidden = {{&*fan, truth::Size::large, fan->large}};
-  const Scenario sheet = recovery::data_sheet(drawn.conditions);
+  const Scenario sheet = recovery::data_sheet(drawn);
   const Diagnosis d = diagnose(sheet, {recovery::record(drawn).recording}, {.threads = 2});
   CAPTURE(d.sentence);
   REQUIRE(d.verdict == Verdict::unexplained);

@@ -27,7 +27,7 @@ recovery::Case realistic_case(std::uint64_t seed, const std::vector<Hidden>& hid
 }
 
 Diagnosis diagnosed(const recovery::Case& drawn) {
-  return diagnose(recovery::data_sheet(drawn.conditions), {recovery::record(drawn).recording}, {.threads = 2});
+  return diagnose(recovery::data_sheet(drawn), {recovery::record(drawn).recording}, {.threads = 2});
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ TEST_CASE("an effect that is stated and is not there is named", "[slow][cases]")
   for (const FieldValue& stated : some_of(std::vector{FieldValue{"actuator_delay", "delay", 1.5e-3},
                                                       FieldValue{"worm_viscous", "coefficient", 4e-5},
                                                       FieldValue{"gear_coulomb", "torque", 0.06}})) {
-    Scenario sheet = recovery::data_sheet(drawn.conditions);
+    Scenario sheet = recovery::data_sheet(drawn);
     set_field(sheet.effects, stated);
     const Diagnosis d = diagnose(sheet, {recording}, {.threads = 2});
     CAPTURE(d.sentence, stated.effect);
@@ -105,7 +105,7 @@ TEST_CASE("an effect that is stated and is not there is named", "[slow][cases]")
 TEST_CASE("values that move within wide tolerances are told and written, with what they gain", "[slow]") {
   recovery::Case drawn{recovery::Kind::nothing, recovery::conditions("ideal"), 43, {}, 12.0, 2e-3};
   const Recording recording = recovery::record(drawn).recording;
-  Scenario sheet = recovery::data_sheet(drawn.conditions);
+  Scenario sheet = recovery::data_sheet(drawn);
   const double friction = std::get<MeshParameters<double>>(sheet.mesh).mu;
   std::get<MeshParameters<double>>(sheet.mesh).mu = 0.8 * friction;
   sheet.tolerance->friction = 0.3;

@@ -52,7 +52,7 @@ TEST_CASE("a diagnosis hangs on no unit of torque", "[recovery]") {
                            .seed = 7})
                    .front();
   const Bench bench = record(drawn);
-  const wormdrive::Scenario sheet = data_sheet(drawn.conditions, drawn.stated.sheet);
+  const wormdrive::Scenario sheet = data_sheet(drawn);
   wormdrive::Scenario scaled = sheet;
   auto& mesh = std::get<wormdrive::MeshParameters<double>>(scaled.mesh);
   mesh.Jw *= times;

@@ -169,8 +169,8 @@ std::vector<Case> draw(const Plan& plan) {
 /// Of teeth that an encoder on the worm does not see yield [N/m].
 constexpr double rigid_teeth = 1e9;
 
-wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& of) {
-  const truth::Geometry& g = of.geometry;
+wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& stated) {
+  const truth::Geometry& g = stated.geometry;
   wormdrive::Scenario sheet;
   sheet.title = "test bench";
   sheet.mesh = wormdrive::MeshParameters<double>{.i = g.ratio,
@@ -178,7 +178,7 @@ wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet&
                                                  .phi_n = g.pressure_angle,
                                                  .lw = g.worm_radius,
                                                  .lg = g.gear_radius,
-                                                 .mu = of.friction,
+                                                 .mu = stated.friction,
                                                  .Jw = g.worm_inertia,
                                                  .Jg = g.gear_inertia};
   wormdrive::GravityArm arm;
@@ -186,15 +186,15 @@ wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet&
   arm.arm = g.arm;
   sheet.load = arm;
   sheet.run.duration = 24.0;
-  const truth::NominalErrors stated = conditions.errors.share > 0.0 ? stated_errors : truth::NominalErrors{};
+  const truth::NominalErrors errors = conditions.errors.share > 0.0 ? stated_errors : truth::NominalErrors{};
   sheet.tolerance =
-      wormdrive::Tolerances{.friction = stated.share,
-                            .load = stated.share,
-                            .load_angle = stated.angle,
-                            .worm_inertia = stated.share,
-                            .gear_inertia = stated.share,
-                            .torque_gain = stated.share,
-                            .torque_offset = stated.offset * times_usual(truth::Dimension::worm_torque, of)};
+      wormdrive::Tolerances{.friction = errors.share,
+                            .load = errors.share,
+                            .load_angle = errors.angle,
+                            .worm_inertia = errors.share,
+                            .gear_inertia = errors.share,
+                            .torque_gain = errors.share,
+                            .torque_offset = errors.offset * times_usual(truth::Dimension::worm_torque, stated)};
   return sheet;
 }
 
@@ -240,7 +240,7 @@ Bench record(const Case& drawn) {
   truth::Generator generator(drawn.seed);
   Bench bench{disturbed_drive(drawn, generator), {}};
   const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
-  bench.recording = follow(bench.drive, course, data_sheet(drawn.conditions, drawn.stated.sheet), generator());
+  bench.recording = follow(bench.drive, course, data_sheet(drawn), generator());
   return bench;
 }
 
@@ -255,8 +255,7 @@ std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnos
       try {
         const Bench bench = record(cases[k]);
         const auto start = std::chrono::steady_clock::now();
-        const wormdrive::Diagnosis found =
-            diagnose(data_sheet(cases[k].conditions, cases[k].stated.sheet), {bench.recording});
+        const wormdrive::Diagnosis found = diagnose(data_sheet(cases[k]), {bench.recording});
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         outcome = judge(cases[k], bench.drive, found);
         outcome.seconds = took.count();

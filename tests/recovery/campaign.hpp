@@ -76,6 +76,7 @@ std::vector<Case> draw(const Plan& plan);
 /// What the data sheet says of the bench: all that the diagnosis is told. Where the nominal values are exact it says
 /// so; else it states 1 %, also where the errors are larger.
 wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& stated = {});
+inline wormdrive::Scenario data_sheet(const Case& drawn) { return data_sheet(drawn.conditions, drawn.stated.sheet); }
 
 /// Records a case, writes it to a CSV file, and reads it as a user's.
 struct Bench {

@@ -50,7 +50,7 @@ wormdrive::Scenario at_work(const wormdrive::Scenario& drive) {
 
 /// The data sheet with all in which the drive differs from it.
 wormdrive::Scenario as_it_is(const Case& drawn, const truth::Drive& drive) {
-  wormdrive::Scenario scenario = data_sheet(drawn.conditions, drawn.stated.sheet);
+  wormdrive::Scenario scenario = data_sheet(drawn);
   for (const truth::Secret& secret : truth::catalogue()) {
     if (secret.needs_worm_encoder) continue;
     for (const truth::TrueParameter& parameter : secret.parameters)

@@ -23,7 +23,7 @@ TEST_CASE("the drives that data leave possible hold the true one in a task that 
   std::map<std::string, long> held;
   for (const recovery::Case& drawn : recovery::draw(plan)) {
     const recovery::Bench bench = recovery::record(drawn);
-    const Diagnosis found = diagnose(recovery::data_sheet(plan.conditions), {bench.recording}, {.threads = 2});
+    const Diagnosis found = diagnose(recovery::data_sheet(drawn), {bench.recording}, {.threads = 2});
     const std::vector<recovery::Forecast> list = recovery::forecast(drawn, bench.drive, found, 200);
     REQUIRE(list.size() == 4);
     for (const recovery::Forecast& f : list) {

@@ -93,7 +93,7 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   const bool all_named = std::all_of(drawn.hidden.begin(), drawn.hidden.end(), named);
   const bool only_hidden =
       std::all_of(outcome.named.begin(), outcome.named.end(), is_hidden) && outcome.named.size() <= drawn.hidden.size();
-  const auto stated = data_sheet(drawn.conditions, drawn.stated.sheet).tolerance.value_or(wormdrive::Tolerances{});
+  const auto stated = data_sheet(drawn).tolerance.value_or(wormdrive::Tolerances{});
   const auto off = [&](const std::string& cause) { return is_off(cause, drive, stated); };
   const bool only_true = std::all_of(outcome.named.begin(), outcome.named.end(), [&](const std::string& cause) {
     return is_hidden(cause) || off(cause) ||

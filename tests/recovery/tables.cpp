@@ -91,8 +91,9 @@ double rate_at_most(long k, long n) {
 }
 
 std::string tables(const Plan& plan, const std::vector<Outcome>& outcomes) {
-  std::string text = fmt::format("### Hidden: {}; conditions: {}\n\n{} recordings of {:g} s, seed {}{}.\n\n",
-                                 name(plan.kind), plan.conditions.name, outcomes.size(), plan.duration, plan.seed,
+  std::string text = fmt::format("### Hidden: {}; conditions: {}\n\n{} recordings of {}, seed {}{}.\n\n",
+                                 name(plan.kind), plan.conditions.name, outcomes.size(),
+                                 plan.any_bench ? "any bench" : fmt::format("{:g} s", plan.duration), plan.seed,
                                  plan.conditions.worm_counts > 0.0 ? ", with an encoder on the worm" : "");
   text += "| size | n |";
   for (const Score score : scores) text += fmt::format(" {} |", name(score));

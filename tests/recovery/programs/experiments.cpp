@@ -35,7 +35,7 @@ std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
   for (const Case& hidden : draw(plan)) {
     truth::Generator generator(hidden.seed);
     truth::Drive drive = disturbed_drive(hidden, generator);
-    const wormdrive::Scenario sheet = data_sheet(hidden.conditions);
+    const wormdrive::Scenario sheet = data_sheet(hidden);
     const auto slow = follow(drive, poor_course(generator, hidden.duration), sheet, generator());
     const wormdrive::Diagnosis first = diagnose(sheet, {slow});
     if (first.verdict != wormdrive::Verdict::ambiguous) continue;

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
     wormdrive::parallel_for(cases.size(), threads, [&](std::size_t k) {
       const recovery::Bench bench = recovery::record(cases[k]);
       wormdrive::Diagnosis found =
-          wormdrive::diagnose(recovery::data_sheet(plan.conditions), {bench.recording}, {.draws = draws, .threads = 1});
+          wormdrive::diagnose(recovery::data_sheet(cases[k]), {bench.recording}, {.draws = draws, .threads = 1});
       std::vector<recovery::Forecast> list;
       if (draws > 0) {
         list = recovery::forecast(cases[k], bench.drive, found, trials);

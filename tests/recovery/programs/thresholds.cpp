@@ -119,7 +119,7 @@ std::vector<Unseen> unseen(std::uint64_t seed, const Diagnose& diagnose) {
       Case hiding{Kind::single, conditions("ideal"), generator(), {{&secret, truth::Size::small, secret.small}}, 12.0};
       const auto course = truth::slow_course(motion.amplitude, motion.frequency, hiding.duration);
       const truth::Drive drive = disturbed_drive(hiding, generator);
-      const wormdrive::Scenario sheet = data_sheet(hiding.conditions);
+      const wormdrive::Scenario sheet = data_sheet(hiding);
       const wormdrive::Diagnosis found = diagnose(sheet, {follow(drive, course, sheet, generator())});
       const Outcome outcome = judge(hiding, drive, found);
       const wormdrive::Visibility* seen = visibility(found, effect, drive);

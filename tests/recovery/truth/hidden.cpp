@@ -23,7 +23,7 @@ double normal_arm(const Drive& d) {
 const std::vector<Secret> known{
     {"mesh_friction", 0.005, 0.015, 0.045, true, false,
      [](Drive& d, double s, Generator&) { d.friction.level += s; },
-     {{"change", [](const Drive& d) { return d.friction.level - d.sheet.friction; }}}, {}, Dimension::friction},
+     {{"change", [](const Drive& d) { return d.friction.level - d.sheet.friction; }}}, Dimension::friction},
     {"stribeck", 0.01, 0.03, 0.09, true, false,
      [](Drive& d, double s, Generator& g) {
        d.friction.drop = s;
@@ -32,10 +32,10 @@ const std::vector<Secret> known{
        const double law = between(g, 0, 3);
        d.friction.fall = law < 1.0 ? gaussian : law < 2.0 ? lorentzian : hyperbolic;
      },
-     {{"drop", [](const Drive& d) { return d.friction.drop; }}}, {}, Dimension::friction},
+     {{"drop", [](const Drive& d) { return d.friction.drop; }}}, Dimension::friction},
     {"friction_asymmetry", 0.004, 0.012, 0.036, true, false,
      [](Drive& d, double s, Generator&) { d.friction.asymmetry = s; },
-     {{"change", [](const Drive& d) { return d.friction.asymmetry; }}}, {}, Dimension::friction},
+     {{"change", [](const Drive& d) { return d.friction.asymmetry; }}}, Dimension::friction},
     {"position_friction", 0.02, 0.06, 0.18, true, false,
      [](Drive& d, double s, Generator& g) { d.friction.wave = s; d.friction.wave_phase = between(g, 0, turn); },
      {{"amplitude", [](const Drive& d) { return std::abs(d.friction.wave); }}}},
@@ -45,40 +45,40 @@ const std::vector<Secret> known{
     {"friction_drift", 0.03, 0.09, 0.27, true, false,
      [](Drive& d, double s, Generator&) { d.friction.drift = s; }, {{"share", [](const Drive& d) { return d.friction.drift; }}}},
     {"static_friction", 0.01, 0.03, 0.09, false, false,
-     [](Drive& d, double s, Generator&) { d.friction.rise = s; }, {{"rise", [](const Drive& d) { return d.friction.rise; }}}, {}, Dimension::friction},
+     [](Drive& d, double s, Generator&) { d.friction.rise = s; }, {{"rise", [](const Drive& d) { return d.friction.rise; }}}, Dimension::friction},
     {"worm_coulomb", 1e-3, 3e-3, 1e-2, false, false,
      [](Drive& d, double s, Generator&) { d.bearings.worm_coulomb = s; },
-     {{"torque", [](const Drive& d) { return d.bearings.worm_coulomb; }}}, {}, Dimension::worm_torque},
+     {{"torque", [](const Drive& d) { return d.bearings.worm_coulomb; }}}, Dimension::worm_torque},
     {"worm_viscous", 1e-5, 3e-5, 9e-5, false, false,
      [](Drive& d, double s, Generator&) { d.bearings.worm_viscous = s; },
-     {{"coefficient", [](const Drive& d) { return d.bearings.worm_viscous; }}}, {}, Dimension::worm_viscous},
+     {{"coefficient", [](const Drive& d) { return d.bearings.worm_viscous; }}}, Dimension::worm_viscous},
     {"bearing_asymmetry", 1e-5, 3e-5, 9e-5, true, false,
      [](Drive& d, double s, Generator&) { d.bearings.asymmetry_viscous = s; },
-     {{"coefficient", [](const Drive& d) { return d.bearings.asymmetry_viscous; }}}, {}, Dimension::worm_viscous},
+     {{"coefficient", [](const Drive& d) { return d.bearings.asymmetry_viscous; }}}, Dimension::worm_viscous},
     {"gear_coulomb", 0.015, 0.045, 0.15, false, false,
      [](Drive& d, double s, Generator&) { d.bearings.gear_coulomb = s; },
-     {{"torque", [](const Drive& d) { return d.bearings.gear_coulomb; }}}, {}, Dimension::gear_torque},
+     {{"torque", [](const Drive& d) { return d.bearings.gear_coulomb; }}}, Dimension::gear_torque},
     {"gear_viscous", 0.01, 0.03, 0.09, false, false,
      [](Drive& d, double s, Generator&) { d.bearings.gear_viscous = s; },
-     {{"coefficient", [](const Drive& d) { return d.bearings.gear_viscous; }}}, {}, Dimension::gear_viscous},
+     {{"coefficient", [](const Drive& d) { return d.bearings.gear_viscous; }}}, Dimension::gear_viscous},
     {"worm_inertia", 1e-6, 3e-6, 1e-5, true, false,
      [](Drive& d, double s, Generator&) { d.worm_inertia_excess += s; },
-     {{"inertia", [](const Drive& d) { return d.geometry.worm_inertia + d.worm_inertia_excess - d.sheet.geometry.worm_inertia; }}}, {}, Dimension::worm_inertia},
+     {{"inertia", [](const Drive& d) { return d.geometry.worm_inertia + d.worm_inertia_excess - d.sheet.geometry.worm_inertia; }}}, Dimension::worm_inertia},
     {"gear_inertia", 4e-4, 1.2e-3, 4e-3, true, false,
      [](Drive& d, double s, Generator&) { d.gear_inertia_excess += s; },
      {{"inertia", [](const Drive& d) {
          const Geometry &g = d.geometry, &stated = d.sheet.geometry;
          return g.gear_inertia + d.gear_inertia_excess - stated.gear_inertia + (g.mass - stated.mass) * stated.arm * stated.arm;
-       }}}, {}, Dimension::gear_inertia},
+       }}}, Dimension::gear_inertia},
     {"torque_gain", 0.01, 0.03, 0.1, true, false,
      [](Drive& d, double s, Generator&) { d.actuator.gain += s; }, {{"share", [](const Drive& d) { return d.actuator.gain; }}}},
     {"torque_offset", 4e-4, 1.2e-3, 5e-3, true, false,
-     [](Drive& d, double s, Generator&) { d.actuator.offset += s; }, {{"torque", [](const Drive& d) { return d.actuator.offset; }}}, {}, Dimension::worm_torque},
+     [](Drive& d, double s, Generator&) { d.actuator.offset += s; }, {{"torque", [](const Drive& d) { return d.actuator.offset; }}}, Dimension::worm_torque},
     {"torque_saturation", 0.15, 0.12, 0.09, false, false,
-     [](Drive& d, double s, Generator&) { d.actuator.limit = s; }, {{"limit", [](const Drive& d) { return d.actuator.limit; }}}, {}, Dimension::worm_torque},
+     [](Drive& d, double s, Generator&) { d.actuator.limit = s; }, {{"limit", [](const Drive& d) { return d.actuator.limit; }}}, Dimension::worm_torque},
     {"actuator_delay", 5e-4, 1.5e-3, 5e-3, false, false,
      [](Drive& d, double s, Generator&) { d.actuator.delay = s; }, {{"delay", [](const Drive& d) { return d.actuator.delay; }}},
-     {"encoder_delay"}},
+     Dimension::plain, {"encoder_delay"}},
     {"actuator_lag", 5e-4, 1.5e-3, 5e-3, false, false,
      [](Drive& d, double s, Generator&) { d.actuator.lag = s; }, {{"time_constant", [](const Drive& d) { return d.actuator.lag; }}}},
     {"cogging", 6e-4, 1.8e-3, 6e-3, false, false,
@@ -88,36 +88,36 @@ const std::vector<Secret> known{
        d.actuator.cogging_periods = counts[std::uniform_int_distribution<int>(0, 5)(g)];
        d.actuator.cogging_phase = between(g, 0, turn);
      },
-     {{"amplitude", [](const Drive& d) { return d.actuator.cogging; }}, {"periods", [](const Drive& d) { return d.actuator.cogging_periods; }}}, {}, Dimension::worm_torque},
+     {{"amplitude", [](const Drive& d) { return d.actuator.cogging; }}, {"periods", [](const Drive& d) { return d.actuator.cogging_periods; }}}, Dimension::worm_torque},
     {"load_magnitude", 0.02, 0.06, 0.18, true, false,
      [](Drive& d, double s, Generator&) { d.load.excess += s; },
      {{"share", [](const Drive& d) { return (1.0 + d.load.excess) * d.geometry.mass / d.sheet.geometry.mass - 1.0; }}}},
     {"load_angle", 0.01, 0.03, 0.1, true, false,
      [](Drive& d, double s, Generator&) { d.load.angle += s; }, {{"angle", [](const Drive& d) { return d.load.angle; }}},
-     {"encoder_offset"}},
+     Dimension::plain, {"encoder_offset"}},
     {"load_spring", 0.005, 0.015, 0.05, false, false,
      [](Drive& d, double s, Generator& g) { d.load.spring = s; d.load.spring_angle = between(g, -1, 1); },
-     {{"stiffness", [](const Drive& d) { return d.load.spring; }}, {"angle", [](const Drive& d) { return d.load.spring_angle; }}}, {}, Dimension::gear_torque},
+     {{"stiffness", [](const Drive& d) { return d.load.spring; }}, {"angle", [](const Drive& d) { return d.load.spring_angle; }}}, Dimension::gear_torque},
     {"encoder_delay", 5e-4, 1.5e-3, 5e-3, false, false,
      [](Drive& d, double s, Generator&) { d.sensor.delay = s; }, {{"delay", [](const Drive& d) { return d.sensor.delay; }}},
-     {"actuator_delay"}},
+     Dimension::plain, {"actuator_delay"}},
     {"encoder_scale", 0.003, 0.01, 0.03, true, false,
      [](Drive& d, double s, Generator&) { d.sensor.scale = s; }, {{"share", [](const Drive& d) { return d.sensor.scale; }}}},
     {"encoder_offset", 0.01, 0.03, 0.1, true, false,
      [](Drive& d, double s, Generator&) { d.sensor.offset = s; }, {{"angle", [](const Drive& d) { return d.sensor.offset; }}},
-     {"load_angle"}},
+     Dimension::plain, {"load_angle"}},
     {"backlash", 3e-4, 1e-3, 4e-3, false, false,
      [](Drive& d, double s, Generator&) { d.teeth.gap = s; }, {{"gap", [](const Drive& d) { return d.teeth.gap; }}}},
     {"tooth_compliance", 1.5e-4, 4.5e-4, 1.5e-3, false, true,  // [rad/(N m)]
      [](Drive& d, double s, Generator&) { d.teeth.stiffness = 1.0 / (s * std::pow(normal_arm(d), 2)); },
-     {{"stiffness", [](const Drive& d) { return d.teeth.stiffness; }}}, {}, Dimension::gear_compliance},
+     {{"stiffness", [](const Drive& d) { return d.teeth.stiffness; }}}, Dimension::gear_compliance},
     {"transmission_error", 2e-4, 6e-4, 2e-3, true, true,
      [](Drive& d, double s, Generator& g) { d.teeth.error = s; d.teeth.error_phase = between(g, 0, turn); },
      {{"amplitude", [](const Drive& d) { return std::abs(d.teeth.error); }}}}};
 
 const std::vector<Secret> unknown{
     {"vibration", 2e-3, 4e-3, 8e-3, false, false,
-     [](Drive& d, double s, Generator& g) { d.actuator.vibration = s; d.actuator.vibration_frequency = by_ratio(g, 5, 40); }, {}, {}, Dimension::worm_torque},
+     [](Drive& d, double s, Generator& g) { d.actuator.vibration = s; d.actuator.vibration_frequency = by_ratio(g, 5, 40); }, {}, Dimension::worm_torque},
     {"friction_spot", 0.1, 0.2, 0.4, true, false,
      [](Drive& d, double s, Generator& g) {
        d.friction.spot = s;
@@ -126,10 +126,10 @@ const std::vector<Secret> unknown{
      }, {}},
     {"mass_lost", 0.06, 0.12, 0.3, false, false,
      [](Drive& d, double s, Generator& g) { d.load.lost = s; d.load.lost_at = between(g, 8, 16); }, {}},
-    {"fan", 0.003, 0.01, 0.03, false, false, [](Drive& d, double s, Generator&) { d.bearings.fan = s; }, {}, {}, Dimension::gear_viscous},
+    {"fan", 0.003, 0.01, 0.03, false, false, [](Drive& d, double s, Generator&) { d.bearings.fan = s; }, {}, Dimension::gear_viscous},
     {"reversed_torque", 1, 1, 1, false, false, [](Drive& d, double, Generator&) { d.actuator.reversed = true; }, {}},
     {"dwell", 0.03, 0.06, 0.12, false, false,
-     [](Drive& d, double s, Generator& g) { d.friction.dwell_rise = s; d.friction.dwell_time = by_ratio(g, 0.1, 1); }, {}, {}, Dimension::friction}};
+     [](Drive& d, double s, Generator& g) { d.friction.dwell_rise = s; d.friction.dwell_time = by_ratio(g, 0.1, 1); }, {}, Dimension::friction}};
 // clang-format on
 
 }  // namespace

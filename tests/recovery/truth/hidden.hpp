@@ -28,8 +28,8 @@ struct Secret {
   bool needs_worm_encoder;  ///< the gear's own encoder does not show it
   void (*hide)(Drive&, double size, Generator&);
   std::vector<TrueParameter> parameters;
-  std::vector<std::string_view> twins{};   ///< effects with exactly the same data: naming one of them is right
   Dimension dimension = Dimension::plain;  ///< of the sizes
+  std::vector<std::string_view> twins{};   ///< effects with exactly the same data: naming one of them is right
 
   double amount(Size size, const Sheet& sheet = {}) const;
 };
