@@ -16,6 +16,8 @@ struct StudentT {
     const double z = e / s;
     return std::log(s) + 0.5 * (nu + 1.0) * std::log1p(z * z / nu);
   }
+  /// What nll() leaves out because it depends on the degrees of freedom alone [nats].
+  double normalization() const;
   /// Weight of a residual in a least squares step.
   double weight(double e, double s) const {
     const double z = e / s;

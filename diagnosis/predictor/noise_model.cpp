@@ -7,6 +7,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "statistics/student_t.hpp"
+
 namespace wormdrive {
 
 namespace {
@@ -69,9 +71,10 @@ double iterated_scale(const std::vector<double>& squares, double scale, double n
 class NegativeLogLikelihood {
  public:
   explicit NegativeLogLikelihood(const NoiseGroup& g)
-      : level_(std::log(g.scale)), power_(0.5 * (g.freedom + 1.0)), inverse_(1.0 / (g.freedom * g.scale * g.scale)) {
-    if (g.freedom != rules::tail_freedom) level_ += constant(g.freedom) - constant(rules::tail_freedom);
-  }
+      : level_(std::log(g.scale) +
+               (StudentT{g.freedom}.normalization() - StudentT{rules::tail_freedom}.normalization())),
+        power_(0.5 * (g.freedom + 1.0)),
+        inverse_(1.0 / (g.freedom * g.scale * g.scale)) {}
   double operator()(double square) const { return level_ + power_ * std::log1p(square * inverse_); }
   double operator()(const std::vector<double>& squares) const {
     return std::accumulate(squares.begin(), squares.end(), 0.0,
@@ -79,10 +82,6 @@ class NegativeLogLikelihood {
   }
 
  private:
-  static double constant(double nu) {
-    return std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + 1.0)) + 0.5 * std::log(nu);
-  }
-
   double level_, power_, inverse_;
 };
 
