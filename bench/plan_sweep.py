@@ -25,7 +25,7 @@ def asked():
         ("mtbf-days", 300.0, "mean time between failures of a node"),
         ("limit-hours", 24.0, "limit of the time of a job"),
         ("queue-minutes", 30.0, "time in the queue before a job begins"),
-        ("merge-rows", 1.2e5, "rows per second that are merged, with their summary"),
+        ("merge-rows", 6e5, "rows per second that are merged, with their summary"),
         ("jobs", 1000, "number of simulated jobs"),
     ]:
         parser.add_argument(f"--{name}", type=float, default=default, help=f"{what} ({default:g})")

@@ -1,5 +1,5 @@
 #pragma once
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,19 +12,19 @@ namespace wormdrive {
 /// A column that hands its values over from memory from the second time on, unless they take more than 128 MB.
 class HeldColumn {
  public:
-  explicit HeldColumn(Column column) : column_(std::move(column)) {}
+  /// count: how many values it has.
+  HeldColumn(Column column, std::uint64_t count) : column_(std::move(column)), fits_(count <= most) {
+    if (fits_) values_.reserve(count);
+  }
 
   void operator()(const TakeValues& take) {
     if (whole_) return take(values_);
-    bool fits = true;
     values_.clear();
     column_([&](std::span<const double> part) {
       take(part);
-      fits = fits && values_.size() + part.size() <= most;
-      if (fits) values_.insert(values_.end(), part.begin(), part.end());
+      if (fits_) values_.insert(values_.end(), part.begin(), part.end());
     });
-    whole_ = fits;
-    if (!fits) values_ = {};
+    whole_ = fits_;
   }
   /// All values, where they have been handed over and are held.
   std::optional<std::span<const double>> whole() const {
@@ -32,11 +32,11 @@ class HeldColumn {
   }
 
  private:
-  static constexpr std::size_t most = std::size_t{1} << 24U;
+  static constexpr std::uint64_t most = std::uint64_t{1} << 24U;
 
   Column column_;
   std::vector<double> values_;
-  bool whole_ = false;
+  bool fits_, whole_ = false;
 };
 
 }  // namespace wormdrive

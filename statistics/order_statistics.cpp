@@ -1,6 +1,7 @@
 #include "statistics/order_statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 #include <utility>
@@ -33,12 +34,19 @@ std::uint64_t size(const std::vector<Bucket>& buckets) {
                          [](std::uint64_t sum, const Bucket& bucket) { return sum + bucket.size; });
 }
 
+/// The first bits of a key, less so many.
+std::uint64_t prefix_of(std::uint64_t key, int left) { return left == 64 ? 0 : key >> left; }
+
 /// Calls visit(bucket, value, key) for every value that lies in one; left: bits of a key behind the prefix.
 template <class Visit>
 void for_each_value(const Column& column, std::vector<Bucket>& buckets, int left, Visit&& visit) {
+  constexpr std::uint64_t last_digit = (std::uint64_t{1} << digit) - 1;
+  std::array<bool, last_digit + 1> ends_a_prefix{};  // most values lie in no bucket: this tells of nearly all of them
+  for (const Bucket& bucket : buckets) ends_a_prefix[bucket.prefix & last_digit] = true;
   column([&](std::span<const double> values) {
     for (const double value : values) {
-      const std::uint64_t k = key(value), prefix = left == 64 ? 0 : k >> left;
+      const std::uint64_t k = key(value), prefix = prefix_of(k, left);
+      if (!ends_a_prefix[prefix & last_digit]) continue;
       const auto bucket = std::lower_bound(buckets.begin(), buckets.end(), prefix,
                                            [](const Bucket& b, std::uint64_t p) { return b.prefix < p; });
       if (bucket != buckets.end() && bucket->prefix == prefix) visit(*bucket, value, k);
@@ -65,12 +73,26 @@ std::vector<Bucket> narrowed(const Column& column, std::vector<Bucket> buckets, 
   return narrow;
 }
 
+/// All values in one bucket with the bits that their keys have in common; returns how many are left behind these.
+int common_prefix(const Column& column, Bucket& all) {
+  std::uint64_t in_all = ~std::uint64_t{0}, in_any = 0;
+  column([&](std::span<const double> values) {
+    for (const double value : values) {
+      in_all &= key(value);
+      in_any |= key(value);
+    }
+  });
+  const int left = 64 - std::countl_zero(in_all ^ in_any);
+  all.prefix = prefix_of(in_all, left);
+  return left;
+}
+
 }  // namespace
 
 std::map<std::uint64_t, double> order_statistics(const Column& column, std::uint64_t count,
                                                  const std::set<std::uint64_t>& ranks) {
   std::vector<Bucket> buckets{{0, 0, count, {ranks.begin(), ranks.end()}}};
-  int left = 64;
+  int left = common_prefix(column, buckets.front());
   while (left > 0 && size(buckets) > held_at_once) {
     const int width = std::min(left, digit);
     buckets = narrowed(column, std::move(buckets), left, width);

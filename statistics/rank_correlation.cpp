@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace wormdrive {
 
@@ -14,6 +15,7 @@ RankScale::RankScale(const Column& column, std::uint64_t count) {
   });
   std::sort(ends_.begin(), ends_.end());
   ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+  make_guide();
 
   std::vector<std::uint64_t> counts(ends_.size() + 1);
   column([&](std::span<const double> values) {
@@ -29,8 +31,29 @@ RankScale::RankScale(const Column& column, std::uint64_t count) {
   }
 }
 
+void RankScale::make_guide() {
+  const auto finite = [](double end) { return std::isfinite(end); };
+  const auto first = std::find_if(ends_.begin(), ends_.end(), finite);
+  if (first != ends_.end()) {
+    const double range = *std::find_if(ends_.rbegin(), ends_.rend(), finite) - *first;
+    least_ = *first;
+    cells_per_unit_ = static_cast<double>(ends_.size()) / range;
+  }
+  ends_below_.assign(ends_.size() + 2, 0);
+  for (const double end : ends_) ++ends_below_[cell(end) + 1];
+  std::partial_sum(ends_below_.begin(), ends_below_.end(), ends_below_.begin());
+}
+
+/// Rises with the value, so that a value has to be looked for among the ends in its own cell alone.
+std::size_t RankScale::cell(double value) const {
+  const double place = (value - least_) * cells_per_unit_, last = static_cast<double>(ends_.size());
+  return place > 0.0 ? static_cast<std::size_t>(std::min(place, last)) : 0;
+}
+
 std::size_t RankScale::interval(double value) const {
-  return static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), value) - ends_.begin());
+  const std::uint32_t* const below = &ends_below_[cell(value)];
+  const auto at = [this](std::uint32_t k) { return ends_.begin() + static_cast<std::ptrdiff_t>(k); };
+  return static_cast<std::size_t>(std::lower_bound(at(below[0]), at(below[1]), value) - ends_.begin());
 }
 
 double rank_correlation(const PairColumn& pairs, const RankScale& first, const RankScale& second) {

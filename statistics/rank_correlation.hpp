@@ -21,10 +21,15 @@ class RankScale {
 
  private:
   std::size_t interval(double value) const;
+  std::size_t cell(double value) const;
+  void make_guide();
 
   static constexpr std::uint64_t most = 65536;
-  std::vector<double> ends_;        ///< of the intervals whose values share a rank, the last one without
-  std::vector<double> deviations_;  ///< of their ranks from the mean
+  std::vector<double> ends_;               ///< of the intervals whose values share a rank, the last one without
+  double least_ = 0.0;                     ///< of the finite ends
+  double cells_per_unit_ = 0.0;            ///< as many cells of equal width as there are ends
+  std::vector<std::uint32_t> ends_below_;  ///< each cell: a guide to the ends
+  std::vector<double> deviations_;         ///< of their ranks from the mean
   double squares_ = 0.0;
 };
 

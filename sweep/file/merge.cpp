@@ -98,8 +98,7 @@ std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::str
   const OpenSweep merged =
       open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false, replace);
   try {
-    for (const auto& [shard, range] : stretches)
-      for_each_trial(*shard, range, [&](Trial&& trial) { merged.file->append(std::move(trial)); });
+    for (const auto& [shard, range] : stretches) merged.file->copy(*shard, range);
     std::vector<RefereeVerdict> verdicts;
     for (const auto& shard : shards)
       for (const RefereeVerdict& verdict : shard->verdicts())

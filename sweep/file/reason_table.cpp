@@ -11,7 +11,7 @@ ReasonTable::ReasonTable(std::vector<Entry> entries) : entries_(std::move(entrie
   for (std::size_t k = 0; k < entries_.size(); ++k) codes_.emplace(kind_of_reason(entries_[k].example), k + 1);
 }
 
-std::size_t ReasonTable::code(const std::string& reason, std::uint64_t trial) {
+std::size_t ReasonTable::code(const std::string& reason, std::uint64_t trial, std::uint64_t trials) {
   if (reason.empty()) return 0;
   const std::string kind = kind_of_reason(reason);
   auto known = codes_.find(kind);
@@ -21,7 +21,7 @@ std::size_t ReasonTable::code(const std::string& reason, std::uint64_t trial) {
   }
   const std::size_t code = known == codes_.end() ? most : known->second;
   Entry& entry = entries_[code - 1];
-  ++entry.count;
+  entry.count += trials;
   if (trial < entry.first) {
     entry.first = trial;
     if (code < most) entry.example = reason;

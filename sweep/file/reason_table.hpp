@@ -23,9 +23,9 @@ class ReasonTable {
   /// Goes on with kinds that have their numbers already.
   explicit ReasonTable(std::vector<Entry> entries);
 
-  /// Counts the reason of a trial and returns its number, 0 for a trial that is done; kinds beyond the last number
-  /// share it.
-  std::size_t code(const std::string& reason, std::uint64_t trial);
+  /// Counts the reason of a trial, and of others after it, and returns its number, 0 for a trial that is done; kinds
+  /// beyond the last number share it.
+  std::size_t code(const std::string& reason, std::uint64_t trial, std::uint64_t trials = 1);
   /// Every kind, number 1 first.
   const std::vector<Entry>& entries() const { return entries_; }
   /// How many trials are not done.

@@ -48,11 +48,9 @@ void copy(const SweepPieces& pieces, const std::string& path) {
   SweepFile file(path, first.study(), range);
   std::uint64_t next = range.first;
   for (const auto& [have, in] : pieces.in_order) {  // twice while the ranks' files are put together
-    for_each_trial(*in, {std::max(have.first, std::min(next, have.end)), have.end},
-                   [&](const Trial& trial) { file.append(trial); });
+    file.copy(*in, {std::max(have.first, std::min(next, have.end)), have.end});
     next = std::max(next, have.end);
   }
-  file.flush();
 }
 
 }  // namespace

@@ -112,14 +112,33 @@ void SweepFile::flush() {
     }
   };
   for_each_run([this](std::span<const Trial> run) { write(run, Part::all_but_status); });
+  make_safe();
+  for_each_run([this](std::span<const Trial> run) { write(run, Part::status); });
+  file_.flush();
+  waiting_.clear();
+}
+
+void SweepFile::copy(const SweepReader& from, TrialRange range) {
+  const std::vector<ColumnDescription> columns = trial_columns(from.study());
+  const std::size_t reason = columns.size() - 2, status = columns.size() - 1;
+  for (std::size_t k = 0; k < status; ++k)
+    from.for_each_block(range, {columns[k].name}, [&](const SweepReader::Block& block) {
+      const std::vector<double>& values = block.columns.front();
+      table_->write(k, block.first - range_.first, k == reason ? recoded(values, from.reasons(), block.first) : values);
+    });
+  make_safe();
+  from.for_each_block(range, {}, [&](const SweepReader::Block& block) {
+    table_->write(status, block.first - range_.first, block.status);
+  });
+  file_.flush();
+}
+
+void SweepFile::make_safe() {
   write_reasons();
   // A row is there only once it has a status, and it has one only when all else is on the disk: a kill or a power cut
   // between the two costs rows, but leaves none that only seem to be there.
   file_.flush();
   synchronise(part_path());
-  for_each_run([this](std::span<const Trial> run) { write(run, Part::status); });
-  file_.flush();
-  waiting_.clear();
 }
 
 void SweepFile::write(std::span<const Trial> trials, Part part) {
@@ -140,6 +159,20 @@ void SweepFile::write(std::span<const Trial> trials, Part part) {
   for (std::size_t k = 0; k < trials.front().metrics.size(); ++k)
     write_column([k](const Trial& trial) { return trial.metrics[k]; });
   write_column([this](const Trial& t) { return static_cast<double>(reasons_.code(t.reason, t.index)); });
+}
+
+std::vector<double> SweepFile::recoded(std::vector<double> codes, const std::vector<std::string>& reasons,
+                                       std::uint64_t first) {
+  std::vector<std::uint64_t> trials(reasons.size() + 1);  // by code: reading a reason takes longer than counting it
+  for (const double code : codes) ++trials.at(static_cast<std::size_t>(code));
+  std::vector<std::size_t> recoded(reasons.size() + 1);
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    const auto code = static_cast<std::size_t>(codes[k]);
+    if (code == 0) continue;
+    if (recoded[code] == 0) recoded[code] = reasons_.code(reasons[code - 1], first + k, trials[code]);
+    codes[k] = static_cast<double>(recoded[code]);
+  }
+  return codes;
 }
 
 void SweepFile::write_reasons() {
@@ -205,8 +238,7 @@ void SweepFile::finish_in_order() {
     const SweepReader all(part_path());
     create(path, all.study(), range_, read_text_attribute(file_.file(), "command_line"), Replace::anything);
     SweepFile copy(path, all.study(), range_, {}, Replace::anything);
-    for (const TrialRange& range : all.present())
-      for_each_trial(all, range, [&](const Trial& trial) { copy.append(trial); });
+    for (const TrialRange& range : all.present()) copy.copy(all, range);
     copy.write(all.verdicts());
     copy.finish();
   } catch (...) {

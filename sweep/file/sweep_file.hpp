@@ -20,6 +20,8 @@
 
 namespace wormdrive {
 
+class SweepReader;
+
 /// How long a row that is done waits at most until it is written.
 inline constexpr std::chrono::milliseconds longest_wait(500);
 
@@ -41,6 +43,8 @@ class SweepFile {
 
   /// Takes a trial of the range, in any order.
   void append(Trial trial);
+  /// Takes trials that are all present in another file of the same study, column by column.
+  void copy(const SweepReader& from, TrialRange range);
   /// Writes what has waited for half a second: called often enough, it leaves nothing older than a second that would be
   /// lost if the program dies.
   void keep_safe();
@@ -64,7 +68,11 @@ class SweepFile {
   /// Writes some trials one after the other, all but how they ended, or that alone.
   enum class Part { all_but_status, status };
   void write(std::span<const Trial> trials, Part part);
+  /// Numbers of reasons, one trial after the other, as they are in this file.
+  std::vector<double> recoded(std::vector<double> codes, const std::vector<std::string>& reasons, std::uint64_t first);
   void write_reasons();
+  /// What has been written is on the disk: from then on it may have a status.
+  void make_safe();
   void finish_in_order();
 
   Axis axis_;
@@ -109,8 +117,13 @@ class SweepReader {
     std::vector<double> status;
     std::vector<std::vector<double>> columns;
   };
-  /// Calls visit for blocks of the whole range, so large that memory does not grow with it.
-  void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const;
+  /// Calls visit for blocks of some trials, so large that memory does not grow with their number.
+  void for_each_block(TrialRange range, const std::vector<std::string>& columns,
+                      const std::function<void(const Block&)>& visit) const;
+  /// The same of the whole range.
+  void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const {
+    for_each_block(range(), columns, visit);
+  }
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }

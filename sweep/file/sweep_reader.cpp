@@ -43,13 +43,12 @@ std::string SweepReader::why_not_of(const SweepReader& other) const {
   return why_not_beside(origin_, other.origin_, "that one by");
 }
 
-void SweepReader::for_each_block(const std::vector<std::string>& columns,
+void SweepReader::for_each_block(TrialRange range, const std::vector<std::string>& columns,
                                  const std::function<void(const Block&)>& visit) const {
   constexpr std::uint64_t at_once = 1 << 16;
-  const TrialRange range = stored_->range;
   for (std::uint64_t first = range.first; first < range.end; first += at_once) {
     const auto read = [&](const std::string& name) {
-      return stored_->trials.column(name).values(first - range.first, std::min(at_once, range.end - first));
+      return stored_->trials.column(name).values(first - stored_->range.first, std::min(at_once, range.end - first));
     };
     Block block{first, read("status"), {}};
     for (const std::string& name : columns) block.columns.push_back(read(name));

@@ -40,7 +40,7 @@ class Summariser {
     summary.done_only = settings_.done_only;
     summary.ranked_by = settings_.ranked_by;
     for (const Metric& metric : study_.metrics) {
-      summary.metrics.push_back(distribution(metric));
+      summary.metrics.push_back(distribution(metric, summary.draws));
       count_misses(metric, summary);
     }
     influences(summary);
@@ -99,41 +99,49 @@ class Summariser {
     };
   }
 
-  MetricSummary distribution(const Metric& metric) const {
+  /// draws: how many trials count.
+  MetricSummary distribution(const Metric& metric, std::uint64_t draws) const {
     MetricSummary summary;
     summary.metric = metric;
     summary.least = std::numeric_limits<double>::infinity();
     summary.greatest = -summary.least;
-    HeldColumn held(last_of({metric.name}));
+    HeldColumn held(last_of({metric.name}), draws);
     const Column column = std::ref(held);
-    double squares = 0.0;  // of distances from the mean so far, after Welford
+    double squares = 0.0;  // of distances from the mean so far; parts are joined as [Chan1983] does
     column([&](std::span<const double> values) {
+      std::uint64_t count = 0;
+      double sum = 0.0, squares_here = 0.0;
       for (const double value : values) {
-        if (!std::isfinite(value)) {
-          ++summary.without;
-          continue;
-        }
-        const double distance = value - summary.mean;
-        summary.mean += distance / static_cast<double>(++summary.count);
-        squares += distance * (value - summary.mean);
+        if (!std::isfinite(value)) continue;
+        ++count;
+        sum += value;
         summary.least = std::min(summary.least, value);
         summary.greatest = std::max(summary.greatest, value);
       }
+      summary.without += values.size() - count;
+      if (count == 0) return;
+      const double mean = sum / static_cast<double>(count);
+      for (const double value : values)
+        if (std::isfinite(value)) squares_here += (value - mean) * (value - mean);
+      const double before = static_cast<double>(summary.count), distance = mean - summary.mean;
+      summary.count += count;
+      const double share = static_cast<double>(count) / static_cast<double>(summary.count);
+      summary.mean += distance * share;
+      squares += squares_here + distance * distance * before * share;
     });
     if (summary.count == 0) return summary;
     summary.deviation = summary.count > 1 ? std::sqrt(squares / static_cast<double>(summary.count - 1)) : 0.0;
 
-    const std::uint64_t all = summary.count + summary.without;
     std::set<std::uint64_t> wanted;
     for (const double p : summary_quantiles)
-      sample_quantile(quantile_ranks(all, p), [&](std::uint64_t rank) {
+      sample_quantile(quantile_ranks(draws, p), [&](std::uint64_t rank) {
         wanted.insert(rank);
         return 0.0;
       });
-    const auto values = order_statistics(column, all, wanted);
+    const auto values = order_statistics(column, draws, wanted);
     for (const double p : summary_quantiles)
       summary.quantiles.push_back(
-          told(sample_quantile(quantile_ranks(all, p), [&](std::uint64_t rank) { return values.at(rank); })));
+          told(sample_quantile(quantile_ranks(draws, p), [&](std::uint64_t rank) { return values.at(rank); })));
     return summary;
   }
 
@@ -192,14 +200,12 @@ class Summariser {
     const MorrisScreening* const screening = summary.find(summary.screenings, ranked_by);
     const ShapleyEffects* const shapley = summary.find(summary.shapley, ranked_by);
     const std::vector<SobolIndex>& sobol = summary.sobol.of;
-    const MetricSummary& any = summary.metrics.front();
-    const std::uint64_t count = any.count + any.without;
-    HeldColumn ranked(last_of({ranked_by}));
-    const RankScale metric(std::ref(ranked), count);
+    HeldColumn ranked(last_of({ranked_by}), summary.draws);
+    const RankScale metric(std::ref(ranked), summary.draws);
     for (std::size_t k = 0; k < study_.parameters.size(); ++k) {
       const std::string& name = study_.parameters[k].name;
-      HeldColumn values(last_of({ranked_by, name}));
-      const RankScale parameter(std::ref(values), count);
+      HeldColumn values(last_of({ranked_by, name}), summary.draws);
+      const RankScale parameter(std::ref(values), summary.draws);
       const double correlation = rank_correlation(
           [&](const TakePairs& take) {
             if (ranked.whole() && values.whole()) return take(*ranked.whole(), *values.whole());
@@ -207,7 +213,7 @@ class Summariser {
           },
           metric, parameter);
       const bool varies = metric.squares() > 0.0 && parameter.squares() > 0.0;
-      const SampleEstimate estimate = told(rank_correlation_estimate(correlation, count));
+      const SampleEstimate estimate = told(rank_correlation_estimate(correlation, summary.draws));
       Influence influence{study_.parameters[k].path, varies ? estimate : estimate.without_interval(), {}, {}, {}};
       if (!sobol.empty()) influence.sobol = sobol[k];
       if (screening && !screening->of.empty()) influence.effects = screening->of[k];

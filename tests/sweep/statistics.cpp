@@ -230,6 +230,15 @@ TEST_CASE("order statistics of a column are those of the sorted values", "[sweep
     REQUIRE(found.size() == ranks.size());
     for (const auto& [rank, value] : found) CHECK(value == values[rank]);
   }
+  for (const double range : {1e-12, 1e-3, 1e3, 1e300}) {  // values whose first bits agree, and others
+    std::vector<double> values;
+    for (std::uint64_t k = 0; k < 200'000; ++k)
+      values.push_back(-7.0 + range * to_unit_interval(random_bits(8, SweepStream::draws, k, 0)[0]));
+    const std::set<std::uint64_t> ranks{0, 1, 9'999, 100'000, 190'000, 199'998, 199'999};
+    const auto found = order_statistics(column(values), values.size(), ranks);
+    std::sort(values.begin(), values.end());
+    for (const auto& [rank, value] : found) CHECK(value == values[rank]);
+  }
   CHECK(order_statistics(column({3.0}), 1, {0}).at(0) == 3.0);
   CHECK(order_statistics(column({}), 0, {}).empty());
 }
@@ -241,6 +250,24 @@ TEST_CASE("rank correlation depends on order alone, and equal values share ranks
   CHECK(spearman(rising, {5.0, 5.0, 5.0, 5.0}) == 0.0);
   // ranks 1 2.5 2.5 4 against 1 2 3 4: 4.5 / sqrt(4.5 * 5)
   CHECK(close(spearman(rising, {1.0, 2.0, 2.0, 7.0}), 4.5 / std::sqrt(22.5), 1e-15));
+
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<double> x, y, spread, narrow, ends;  // the last three rise with y
+  for (std::uint64_t k = 0; k < 3000; ++k) {
+    const auto bits = random_bits(9, SweepStream::draws, k, 0);
+    x.push_back(to_unit_interval(bits[0]));
+    y.push_back(std::round(1e6 * (0.3 * x.back() + to_unit_interval(bits[1]))) * 1e-6);
+    spread.push_back(std::exp(500.0 * y.back()));
+    narrow.push_back(1.0 + 1e-9 * y.back());
+    ends.push_back(y.back() < 0.1 ? -infinite : y.back() > 1.2 ? infinite : y.back());
+  }
+  const double found = spearman(x, y);
+  CHECK(found > 0.2);
+  CHECK(spearman(x, spread) == found);
+  CHECK(spearman(spread, x) == found);
+  CHECK(spearman(x, narrow) == found);
+  CHECK(close(spearman(ends, ends), 1.0, 1e-14));
+  CHECK(close(spearman(x, ends), found, 0.01));
 }
 
 TEST_CASE("intervals of rank correlations contain the true one in 95 % of samples", "[sweep]") {
