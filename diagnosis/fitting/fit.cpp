@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "diagnosis/fitting/stepwise.hpp"
@@ -90,10 +91,20 @@ Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h) {
   for (std::size_t k = 0; k < layout.size; ++k)
     if (layout.part[k] == 1 && h.noise_model.groups[layout.group[k]].freedom > rules::tail_freedom)
       enough += rules::feigned_by_rounding;
-  for (Hypothesis less = h; less.noise.white > rules::least_process_noise; h = less) {
-    less.noise.white *= 0.5;
-    less.noise.coloured *= 0.5;
-    if (!evaluate(evaluation, less) || less.misfit.fitted > enough) break;
+  const auto suffices = [&](Hypothesis& trial, double white, double coloured) {
+    trial.noise.white = white;
+    trial.noise.coloured = coloured;
+    return evaluate(evaluation, trial) && trial.misfit.fitted <= enough;
+  };
+  for (double size; (size = 0.5 * std::hypot(h.noise.white, h.noise.coloured)) >= rules::least_process_noise;) {
+    Hypothesis less = h;
+    bool found = suffices(less, 0.5 * h.noise.white, 0.5 * h.noise.coloured);
+    // readings that are rounded tell hardly which kind it is, but one that lasts is much smaller for what it does
+    if (h.noise.white > rules::least_process_noise)
+      for (; !found && size >= rules::least_process_noise; size *= 0.5)
+        found = suffices(less, rules::least_process_noise, size);
+    if (!found) break;
+    h = std::move(less);
   }
   return h;
 }

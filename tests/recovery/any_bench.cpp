@@ -42,6 +42,17 @@ TEST_CASE("where nothing is hidden nothing is named, on benches of any size, rat
   CHECK(alarms <= 1);
 }
 
+TEST_CASE("what rounding to counts looks like is no torque noise", "[recovery]") {
+  Plan plan{.kind = Kind::nothing, .conditions = conditions("realistic"), .cases = 3, .seed = 301};
+  plan.any_bench = true;
+  const Case drawn = draw(plan).back();  // 7862 counts per turn, 2.3 of them in a sample
+  const Bench bench = record(drawn);
+  const auto d = wormdrive::diagnose(data_sheet(drawn), {bench.recording}, {.threads = 2});
+  INFO(d.sentence);
+  CHECK(d.verdict == wormdrive::Verdict::adequate);
+  CHECK(d.noise_torque < 10.0 * bench.drive.noise.white);
+}
+
 TEST_CASE("a diagnosis hangs on no unit of torque", "[recovery]") {
   constexpr double times = 64.0;  // a power of two: no digit changes
   Case drawn = short_ones({.kind = Kind::single,
