@@ -8,18 +8,13 @@
 #include <fmt/format.h>
 
 #include "description/diagnostics.hpp"
+#include "sweep/file/pieces.hpp"
 #include "sweep/file/resume.hpp"
 
 namespace wormdrive {
 namespace {
 
 using Shards = std::vector<std::unique_ptr<SweepReader>>;
-
-/// Trials that one shard has.
-struct Stretch {
-  const SweepReader* shard;
-  TrialRange range;
-};
 
 std::string trials(TrialRange range) {
   return range.size() == 1 ? fmt::format("trial {}", range.first)
@@ -62,45 +57,42 @@ bool holds_same_sweep(const std::string& output, const SweepReader& shard) {
 }
 
 /// What the shards have, in the order of the trials, every one before an end once; every fault is told.
-std::vector<Stretch> in_order(const Shards& shards, std::uint64_t end) {
-  std::vector<Stretch> stretches;
-  for (const auto& shard : shards)
-    for (const TrialRange& range : shard->present())
-      if (range.first < end) stretches.push_back({shard.get(), {range.first, std::min(range.end, end)}});
-  std::sort(stretches.begin(), stretches.end(),
-            [](const Stretch& a, const Stretch& b) { return a.range.first < b.range.first; });
+std::vector<SweepPiece> each_once(const SweepPieces& shards, std::uint64_t end) {
+  std::vector<SweepPiece> pieces;
+  for (const auto& [range, shard] : shards.in_order)
+    if (range.first < end) pieces.push_back({{range.first, std::min(range.end, end)}, shard});
   Diagnostics faults;
   std::uint64_t next = 0;
-  for (const auto& [shard, range] : stretches) {
+  for (const auto& [range, shard] : pieces) {
     if (range.first < next)
       faults.add({shard->path()},
                  fmt::format("another shard also contains {}", trials({range.first, std::min(next, range.end)})));
-    if (range.first > next) tell_missing(shards, *shard, "before", {next, range.first}, faults);
+    if (range.first > next) tell_missing(shards.files, *shard, "before", {next, range.first}, faults);
     next = std::max(next, range.end);
   }
-  const SweepReader& last = stretches.empty() ? *shards.front() : *stretches.back().shard;
-  if (next < end) tell_missing(shards, last, "after", {next, end}, faults);
+  const SweepReader& last = pieces.empty() ? *shards.files.front() : *pieces.back().file;
+  if (next < end) tell_missing(shards.files, last, "after", {next, end}, faults);
   faults.raise();
-  return stretches;
+  return pieces;
 }
 
 }  // namespace
 
 std::uint64_t merge_shards(const std::vector<std::string>& paths, const std::string& output, OutputLock lock,
                            const std::string& command_line, Replace replace, std::optional<std::uint64_t> early_end) {
-  Shards shards;
-  for (const std::string& path : paths) shards.push_back(std::make_unique<SweepReader>(path));
-  reject_unrelated_shards(shards);
-  const Study& study = shards.front()->study();
+  const SweepPieces shards(paths);
+  const SweepReader& first = *shards.files.front();
+  reject_unrelated_shards(shards.files);
+  const Study& study = first.study();
   const std::uint64_t end = early_end.value_or(study.trials());
-  const std::vector<Stretch> stretches = in_order(shards, end);
-  if (holds_same_sweep(output, *shards.front())) replace = Replace::anything;
+  const std::vector<SweepPiece> pieces = each_once(shards, end);
+  if (holds_same_sweep(output, first)) replace = Replace::anything;
   const OpenSweep merged =
       open_sweep(output, std::move(lock), study, {0, study.trials()}, command_line, false, replace);
   try {
-    for (const auto& [shard, range] : stretches) merged.file->copy(*shard, range);
+    merged.file->copy(pieces);
     std::vector<RefereeVerdict> verdicts;
-    for (const auto& shard : shards)
+    for (const auto& shard : shards.files)
       for (const RefereeVerdict& verdict : shard->verdicts())
         if (verdict.trial < end) verdicts.push_back(verdict);
     merged.file->write(verdicts);

@@ -7,12 +7,6 @@
 
 namespace wormdrive {
 
-/// Trials one after the other that a file has.
-struct SweepPiece {
-  TrialRange range;
-  const SweepReader* file;
-};
-
 /// What several files have of a sweep.
 struct SweepPieces {
   /// Throws InputFault if one cannot be read. while_written: another program may be writing them.

@@ -47,10 +47,12 @@ void copy(const SweepPieces& pieces, const std::string& path) {
   SweepFile::create(path, first.study(), range, first.command_line());
   SweepFile file(path, first.study(), range);
   std::uint64_t next = range.first;
+  std::vector<SweepPiece> once;
   for (const auto& [have, in] : pieces.in_order) {  // twice while the ranks' files are put together
-    file.copy(*in, {std::max(have.first, std::min(next, have.end)), have.end});
+    if (have.end > next) once.push_back({{std::max(have.first, next), have.end}, in});
     next = std::max(next, have.end);
   }
+  file.copy(once);
 }
 
 }  // namespace

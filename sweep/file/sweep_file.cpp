@@ -118,18 +118,20 @@ void SweepFile::flush() {
   waiting_.clear();
 }
 
-void SweepFile::copy(const SweepReader& from, TrialRange range) {
-  const std::vector<ColumnDescription> columns = trial_columns(from.study());
+void SweepFile::copy(std::span<const SweepPiece> pieces) {
+  if (pieces.empty()) return;
+  const std::vector<ColumnDescription> columns = trial_columns(pieces.front().file->study());
   const std::size_t reason = columns.size() - 2, status = columns.size() - 1;
-  for (std::size_t k = 0; k < status; ++k)
-    from.for_each_block(range, {columns[k].name}, [&](const SweepReader::Block& block) {
-      const std::vector<double>& values = block.columns.front();
-      table_->write(k, block.first - range_.first, k == reason ? recoded(values, from.reasons(), block.first) : values);
-    });
+  const auto copy_column = [&](std::size_t column) {
+    for (const auto& [range, from] : pieces)
+      from->for_each_block(range, columns[column].name, [&](std::uint64_t first, const std::vector<double>& values) {
+        table_->write(column, first - range_.first,
+                      column == reason ? recoded(values, from->reasons(), first) : values);
+      });
+  };
+  for (std::size_t k = 0; k < status; ++k) copy_column(k);
   make_safe();
-  from.for_each_block(range, {}, [&](const SweepReader::Block& block) {
-    table_->write(status, block.first - range_.first, block.status);
-  });
+  copy_column(status);
   file_.flush();
 }
 
@@ -238,7 +240,9 @@ void SweepFile::finish_in_order() {
     const SweepReader all(part_path());
     create(path, all.study(), range_, read_text_attribute(file_.file(), "command_line"), Replace::anything);
     SweepFile copy(path, all.study(), range_, {}, Replace::anything);
-    for (const TrialRange& range : all.present()) copy.copy(all, range);
+    std::vector<SweepPiece> pieces;
+    for (const TrialRange& range : all.present()) pieces.push_back({range, &all});
+    copy.copy(pieces);
     copy.write(all.verdicts());
     copy.finish();
   } catch (...) {

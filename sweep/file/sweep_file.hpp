@@ -22,6 +22,12 @@ namespace wormdrive {
 
 class SweepReader;
 
+/// Trials one after the other that a file has.
+struct SweepPiece {
+  TrialRange range;
+  const SweepReader* file;
+};
+
 /// How long a row that is done waits at most until it is written.
 inline constexpr std::chrono::milliseconds longest_wait(500);
 
@@ -43,8 +49,8 @@ class SweepFile {
 
   /// Takes a trial of the range, in any order.
   void append(Trial trial);
-  /// Takes trials that are all present in another file of the same study, column by column.
-  void copy(const SweepReader& from, TrialRange range);
+  /// Takes trials from other files of the same study, in the order of the trials, column by column.
+  void copy(std::span<const SweepPiece> pieces);
   /// Writes what has waited for half a second: called often enough, it leaves nothing older than a second that would be
   /// lost if the program dies.
   void keep_safe();
@@ -124,6 +130,9 @@ class SweepReader {
   void for_each_block(const std::vector<std::string>& columns, const std::function<void(const Block&)>& visit) const {
     for_each_block(range(), columns, visit);
   }
+  /// The same of one column alone: calls visit with the first trial and the values.
+  void for_each_block(TrialRange range, const std::string& column,
+                      const std::function<void(std::uint64_t, const std::vector<double>&)>& visit) const;
   /// Trials that are all present.
   std::vector<Trial> read(TrialRange range) const;
   const std::vector<std::string>& reasons() const { return reasons_; }

@@ -45,15 +45,20 @@ std::string SweepReader::why_not_of(const SweepReader& other) const {
 
 void SweepReader::for_each_block(TrialRange range, const std::vector<std::string>& columns,
                                  const std::function<void(const Block&)>& visit) const {
-  constexpr std::uint64_t at_once = 1 << 16;
-  for (std::uint64_t first = range.first; first < range.end; first += at_once) {
-    const auto read = [&](const std::string& name) {
-      return stored_->trials.column(name).values(first - stored_->range.first, std::min(at_once, range.end - first));
-    };
-    Block block{first, read("status"), {}};
-    for (const std::string& name : columns) block.columns.push_back(read(name));
+  for_each_block(range, "status", [&](std::uint64_t first, const std::vector<double>& status) {
+    Block block{first, status, {}};
+    for (const std::string& name : columns)
+      block.columns.push_back(stored_->trials.column(name).values(first - stored_->range.first, status.size()));
     visit(block);
-  }
+  });
+}
+
+void SweepReader::for_each_block(TrialRange range, const std::string& column,
+                                 const std::function<void(std::uint64_t, const std::vector<double>&)>& visit) const {
+  constexpr std::uint64_t at_once = 1 << 16;
+  for (std::uint64_t first = range.first; first < range.end; first += at_once)
+    visit(first,
+          stored_->trials.column(column).values(first - stored_->range.first, std::min(at_once, range.end - first)));
 }
 
 std::vector<Trial> SweepReader::read(TrialRange range) const {

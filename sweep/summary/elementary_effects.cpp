@@ -4,31 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/moments.hpp"
 #include "statistics/student_t.hpp"
 #include "sweep/summary/blocks.hpp"
 
 namespace wormdrive {
-namespace {
-
-/// Mean and squares of distances from it, of numbers added one after the other [Welford1962].
-struct RunningMoments {
-  double count = 0.0, mean = 0.0, squares = 0.0;
-
-  void add(double value) {
-    const double distance = value - mean;
-    mean += distance / ++count;
-    squares += distance * (value - mean);
-  }
-  double deviation() const { return std::sqrt(squares / (count - 1.0)); }
-};
-
-}  // namespace
 
 MorrisScreening elementary_effects(const Column& values, const DesignSettings& settings, std::size_t parameters,
                                    std::uint64_t seed) {
   MorrisScreening screening;
   Design design(settings, parameters, seed);
-  std::vector<RunningMoments> effects(parameters), sizes(parameters);
+  std::vector<Moments> effects(parameters), sizes(parameters);
   for_each_block(values, parameters + 1, [&](std::uint64_t number, const std::vector<double>& trajectory) {
     if (!is_whole(trajectory)) {
       ++screening.left_out;

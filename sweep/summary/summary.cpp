@@ -11,6 +11,7 @@
 #include "description/diagnostics.hpp"
 #include "description/keys.hpp"
 #include "statistics/held_column.hpp"
+#include "statistics/moments.hpp"
 #include "statistics/order_statistics.hpp"
 #include "statistics/rank_correlation.hpp"
 
@@ -107,30 +108,23 @@ class Summariser {
     summary.greatest = -summary.least;
     HeldColumn held(last_of({metric.name}), draws);
     const Column column = std::ref(held);
-    double squares = 0.0;  // of distances from the mean so far; parts are joined as [Chan1983] does
+    Moments moments;
+    std::vector<double> finite;
     column([&](std::span<const double> values) {
-      std::uint64_t count = 0;
-      double sum = 0.0, squares_here = 0.0;
+      finite.clear();
       for (const double value : values) {
         if (!std::isfinite(value)) continue;
-        ++count;
-        sum += value;
+        finite.push_back(value);
         summary.least = std::min(summary.least, value);
         summary.greatest = std::max(summary.greatest, value);
       }
-      summary.without += values.size() - count;
-      if (count == 0) return;
-      const double mean = sum / static_cast<double>(count);
-      for (const double value : values)
-        if (std::isfinite(value)) squares_here += (value - mean) * (value - mean);
-      const double before = static_cast<double>(summary.count), distance = mean - summary.mean;
-      summary.count += count;
-      const double share = static_cast<double>(count) / static_cast<double>(summary.count);
-      summary.mean += distance * share;
-      squares += squares_here + distance * distance * before * share;
+      summary.count += finite.size();
+      summary.without += values.size() - finite.size();
+      moments.add(finite);
     });
     if (summary.count == 0) return summary;
-    summary.deviation = summary.count > 1 ? std::sqrt(squares / static_cast<double>(summary.count - 1)) : 0.0;
+    summary.mean = moments.mean;
+    summary.deviation = summary.count > 1 ? moments.deviation() : 0.0;
 
     std::set<std::uint64_t> wanted;
     for (const double p : summary_quantiles)
