@@ -20,6 +20,7 @@
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/inference/resampled_draws.hpp"
+#include "diagnosis/inference/search.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/report/units_on_axis.hpp"
 #include "diagnosis/representative_pieces.hpp"
@@ -74,32 +75,6 @@ InnovationLayout with_nothing_held_out(std::vector<PreparedRecording> all) {
   return InnovationLayout(std::move(all));
 }
 
-/// Searches for causes. A noise model that takes much of what is slow for its own hides slow effects as well, friction
-/// among them; then a search without one is made, and kept if it predicts clearly better. Where more noise than torque
-/// is at work, whatever was found, pairs of causes would not follow the motion either.
-Selection search(const Evaluation& evaluation, const std::vector<Candidate>& all, const Hypothesis& base, double torque,
-                 const DiagnosisSettings& settings) {
-  if (settings.progress) settings.progress("fitting what is stated");
-  Start start = fitted_start(evaluation, all, base);
-  std::optional<Start> plain;
-  const auto start_plainly = [&]() -> Start& {
-    if (!plain) plain = fitted_start(evaluation, all, without_noise_model(base));
-    return *plain;
-  };
-  CauseSearch found(evaluation, all, settings.most_causes, settings.progress);
-  const Start* other = hides_what_is_slow(start.base.noise_model) ? &start_plainly() : nullptr;
-  found.select(std::move(start), other);
-  CauseSearch second(evaluation, all, settings.most_causes, settings.progress);
-  CauseSearch* better = &found;
-  if (hides_what_is_slow(found.model().noise_model)) {
-    second.select(std::move(start_plainly()), nullptr);
-    const auto error = [&](auto& s) { return error_ahead(evaluation, s.model(), rules::reported_horizon); };
-    if (error(second) < rules::clearly_better * error(found)) better = &second;
-  }
-  if (gap_of(better->model()) || noise_sizes(evaluation, better->model()).torque <= torque) better->try_pairs();
-  return better->confirmed();
-}
-
 /// What the scenario states, with the noise that suits it.
 Hypothesis as_stated(const Evaluation& evaluation, Hypothesis base) {
   for (std::size_t k = 0; k < base.free.size(); ++k) base.values[k] = base.free[k].centre;
@@ -129,13 +104,33 @@ Hypothesis fitted_anew(const Evaluation& evaluation, Hypothesis h) {
   return h;
 }
 
+/// What is left without a cause counts if the error ahead falls once its torque is added.
+void keep_what_counts(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                      Axis axis) {
+  const std::vector<double> shares = shares_of_error(evaluation, h, sizes, d.remainders);
+  std::vector<Remainder> kept;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const Remainder& r = d.remainders[k];
+    if (shares[k] >= rules::of_no_account)
+      kept.push_back(r);
+    else
+      d.remarks.push_back(
+          fmt::format("a {} over {} is left, but with it the error {} s ahead falls by less than "
+                      "{:.0f} %, or no more than by chance",
+                      in_words_of(axis, "torque"), r.axis, rules::reported_horizon, 100.0 * rules::of_no_account));
+  }
+  d.remainders = std::move(kept);
+}
+
 /// What a model predicts and leaves, against the scenario as it is stated.
 void describe(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& before, const Hypothesis& after) {
   d.prediction = prediction_errors(evaluation, before, after, d.seed);
   d.examples = prediction_examples(evaluation, before, after);
   d.residual = residual_torque(evaluation, before, after);
   d.noise_angle = noise_sizes(evaluation, after).angle;
-  d.noise_torque = noise_sizes(evaluation, with_least_noise(evaluation, after)).torque;
+  const PredictionError* e = reported_error(d);
+  const bool is_overstated = e && e->after_high < e->floor;
+  d.noise_torque = noise_sizes(evaluation, with_least_noise(evaluation, after, is_overstated)).torque;
 }
 
 /// The same with its numbers as they are: nothing that is added moves them.
@@ -192,7 +187,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   const Evaluation evaluation(scenario, InnovationLayout(std::move(searched)), settings.threads);
 
   const Hypothesis base = stated_hypothesis(scenario.effects, stated);
-  Selection found = search(evaluation, all, base, sizes.torque, settings);
+  Selection found = searched_causes(evaluation, all, base, sizes.torque, settings);
   try_alone(evaluation, all, found);
 
   Diagnosis d;
@@ -232,6 +227,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
+  if (found.causes.empty()) keep_what_counts(d, evaluation, found.model, sizes, scenario.axis);
   if (const auto excess = error_above_noise(d)) d.remainders.push_back(*excess);
   d.extended = scenario;
   calibrate(spread);

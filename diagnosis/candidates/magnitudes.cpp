@@ -34,7 +34,6 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     m.gear_speed = std::max(m.gear_speed, r.rms_speed);
     m.duration = std::max(m.duration, r.duration());
     m.period = std::max(m.period, r.data.period);
-    if (r.every > 1) m.coarse_step = std::max(m.coarse_step, r.data.gear_resolution);
     m.has_worm_encoder = m.has_worm_encoder || r.data.has_worm_encoder();
   }
   m.rare_torques = rare_torques(recordings);

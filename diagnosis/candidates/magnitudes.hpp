@@ -25,7 +25,6 @@ struct Magnitudes {
   bool has_teeth = true;
   double gear_arm{};              ///< lever arm of the teeth's normal force on the gear [m]; 0 without teeth
   bool has_worm_encoder = false;  ///< in one of the recordings at least
-  double coarse_step{};           ///< of an encoder too coarse for all its readings to be used [rad]; 0: there is none
   bool load_turns = false;        ///< the load's torque depends on the gear angle
 };
 

@@ -22,6 +22,10 @@ Evaluation::Evaluation(Scenario scenario, InnovationLayout layout, int threads)
     shortest_period_ = shortest_period_ == 0.0 ? r.data.period : std::min(shortest_period_, r.data.period);
 }
 
+std::span<const double> Evaluation::of_recording(std::span<const double> extra, std::size_t recording) const {
+  return extra.empty() ? extra : extra.subspan(layout_.begins[recording], layout_.recordings[recording].samples());
+}
+
 template <class Use>
 void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                                 std::span<const double> extra, Use&& use) const {
@@ -59,11 +63,10 @@ std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& 
       const PreparedRecording& recording = layout_.recordings[r];
       FilteredStates* kept = states ? &(*states)[r] : nullptr;
       if (kept) *kept = FilteredStates(recording.samples());
-      with_predictor(drive, r, noise, extra.empty() ? extra : extra.subspan(layout_.begins[r], recording.samples()),
-                     [&](auto& predictor) {
-                       const std::span<double> all(e);
-                       predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
-                     });
+      with_predictor(drive, r, noise, of_recording(extra, r), [&](auto& predictor) {
+        const std::span<double> all(e);
+        predictor(layout_.of(r, all), layout_.of_worm(r, all), kept);
+      });
     }
   } catch (const SolverFault&) {
     return std::nullopt;
@@ -76,7 +79,8 @@ std::optional<std::vector<double>> Evaluation::innovations(const RecordedDrive& 
 std::vector<std::vector<double>> Evaluation::run_on(const RecordedDrive& drive, const ProcessNoise& noise,
                                                     std::size_t recording, const FilteredStates& states,
                                                     std::span<const std::size_t> begins, std::size_t steps,
-                                                    std::span<const double> innovations) const {
+                                                    std::span<const double> innovations,
+                                                    std::span<const double> extra) const {
   std::vector<std::vector<double>> rows;
   std::span<const double> of_gear, of_worm;
   if (!innovations.empty()) {
@@ -84,7 +88,7 @@ std::vector<std::vector<double>> Evaluation::run_on(const RecordedDrive& drive, 
     of_worm = layout_.of_worm(recording, innovations);
   }
   const PreparedRecording& data = layout_.recordings[recording];
-  with_predictor(drive, recording, noise, {}, [&](auto& predictor) {
+  with_predictor(drive, recording, noise, of_recording(extra, recording), [&](auto& predictor) {
     for (const std::size_t begin : begins) {
       // not a number from where the model can no longer move
       std::vector<double> angles(std::min(steps, data.end_of_stretch(begin) - 1 - begin), std::nan(""));

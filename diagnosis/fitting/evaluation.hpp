@@ -32,12 +32,14 @@ class Evaluation {
                                                  std::vector<FilteredStates>* states = nullptr) const;
 
   /// The gear angles that the sensor would show `steps` samples on from samples of one recording, row by row [rad], if
-  /// these were the innovations of all; predictions without any.
+  /// these were the innovations of all; predictions without any. extra: as above.
   std::vector<std::vector<double>> run_on(const RecordedDrive& drive, const ProcessNoise& noise, std::size_t recording,
                                           const FilteredStates& states, std::span<const std::size_t> begins,
-                                          std::size_t steps, std::span<const double> innovations = {}) const;
+                                          std::size_t steps, std::span<const double> innovations = {},
+                                          std::span<const double> extra = {}) const;
 
  private:
+  std::span<const double> of_recording(std::span<const double> extra, std::size_t recording) const;
   template <class Use>
   void with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;

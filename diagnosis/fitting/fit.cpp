@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"
@@ -85,40 +86,66 @@ void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
     }
 }
 
-Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h) {
-  const InnovationLayout& layout = evaluation.layout();
-  double enough = h.misfit.fitted + rules::of_process_noise;
-  for (std::size_t k = 0; k < layout.size; ++k)
-    if (layout.part[k] == 1 && h.noise_model.groups[layout.group[k]].freedom > rules::tail_freedom)
-      enough += rules::feigned_by_rounding;
-  const auto suffices = [&](Hypothesis& trial, double white, double coloured) {
-    trial.noise.white = white;
-    trial.noise.coloured = coloured;
-    return evaluate(evaluation, trial) && trial.misfit.fitted <= enough;
+namespace {
+
+/// Whether hardly any noise but rounding is seen while the drive moves, in any recording.
+bool mostly_rounding(const NoiseModel& noise) {
+  for (std::size_t g = 1; g < noise.groups.size(); g += 2)
+    if (noise.groups[g].freedom > rules::tail_freedom) return true;
+  return false;
+}
+
+}  // namespace
+
+Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h, bool is_overstated) {
+  const auto lower_while = [&](auto&& suffices) {
+    const auto try_with = [&](Hypothesis& less, double white, double coloured) {
+      less.noise.white = white;
+      less.noise.coloured = coloured;
+      return evaluate(evaluation, less) && suffices(less);
+    };
+    for (double size; (size = 0.5 * std::hypot(h.noise.white, h.noise.coloured)) >= rules::least_process_noise;) {
+      Hypothesis less = h;
+      bool found = try_with(less, 0.5 * h.noise.white, 0.5 * h.noise.coloured);
+      // data tell hardly which kind it is, but one that lasts is much smaller for what it does
+      if (h.noise.white > rules::least_process_noise)
+        for (; !found && size >= rules::least_process_noise; size *= 0.5)
+          found = try_with(less, rules::least_process_noise, size);
+      if (!found) return;
+      h = std::move(less);
+    }
   };
-  for (double size; (size = 0.5 * std::hypot(h.noise.white, h.noise.coloured)) >= rules::least_process_noise;) {
-    Hypothesis less = h;
-    bool found = suffices(less, 0.5 * h.noise.white, 0.5 * h.noise.coloured);
-    // readings that are rounded tell hardly which kind it is, but one that lasts is much smaller for what it does
-    if (h.noise.white > rules::least_process_noise)
-      for (; !found && size >= rules::least_process_noise; size *= 0.5)
-        found = suffices(less, rules::least_process_noise, size);
-    if (!found) break;
-    h = std::move(less);
-  }
+  const double enough = h.misfit.fitted + rules::of_process_noise;
+  lower_while([&](const Hypothesis& less) { return less.misfit.fitted <= enough; });
+  if (!is_overstated && !mostly_rounding(h.noise_model)) return h;
+  // errors of rounding are not white, and as likely by a torque as by themselves; predictions tell
+  const double error = error_ahead(evaluation, h, rules::reported_horizon);
+  lower_while([&](const Hypothesis& less) { return error_ahead(evaluation, less, rules::reported_horizon) <= error; });
   return h;
 }
 
+bool explains_better(const Hypothesis& h, const Hypothesis& other) {
+  const auto cost = [](const Hypothesis& x) {
+    return x.objective + (hides_what_is_slow(x.noise_model) ? rules::of_process_noise : 0.0);
+  };
+  return cost(h) < cost(other);
+}
+
 void restart_noise(const Evaluation& evaluation, Hypothesis& h) {
+  const auto try_with = [&](double white, double coloured) {
+    Hypothesis trial = h;
+    trial.noise.white = white;
+    trial.noise.coloured = coloured;
+    if (evaluate(evaluation, trial) && explains_better(trial, h)) h = std::move(trial);
+  };
   using Starts = std::array<ProcessNoise, 3>;
   const Starts starts = h.whitens ? Starts{{{0.01, 0.006}, {0.03, 0.003}, {0.003, 0.01}}}
                                   : Starts{{{0.02, 0.0}, {0.005, 0.0}, {0.1, 0.0}}};
-  for (const ProcessNoise& start : starts) {
-    Hypothesis trial = h;
-    trial.noise.white = start.white;
-    trial.noise.coloured = start.coloured;
-    if (evaluate(evaluation, trial) && trial.objective < h.objective) h = std::move(trial);
-  }
+  for (const ProcessNoise& start : starts) try_with(start.white, start.coloured);
+  if (!hides_what_is_slow(h.noise_model)) return;
+  const ProcessNoise hiding = h.noise;
+  for (double coloured = 2.0 * hiding.coloured; coloured <= rules::most_process_noise; coloured *= 2.0)
+    try_with(hiding.white, coloured);
 }
 
 }  // namespace wormdrive

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <utility>
 
 #include "description/build.hpp"
 #include "description/keys.hpp"
 #include "diagnosis/rules/noise.hpp"
+#include "statistics/moments.hpp"
+#include "statistics/student_t.hpp"
 
 namespace wormdrive {
 
@@ -41,45 +45,69 @@ std::vector<std::size_t> beginnings(const PreparedRecording& recording, std::siz
 /// A hypothesis that has gone through the recordings, ready to predict from all beginnings.
 class Forecast {
  public:
-  Forecast(const Evaluation& evaluation, const Hypothesis& h)
-      : evaluation_(evaluation), noise_(h.noise), drive_(extended(h)) {
-    goes_on_ = evaluation.innovations(drive_, noise_, {}, &states_).has_value();
+  Forecast(const Evaluation& evaluation, const Hypothesis& h, std::span<const double> extra = {})
+      : evaluation_(evaluation), noise_(h.noise), drive_(extended(h)), extra_(extra) {
+    goes_on_ = evaluation.innovations(drive_, noise_, extra, &states_).has_value();
   }
 
   /// Against what was measured.
   std::vector<Stretch> of_data(double horizon) const {
-    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
-      const std::vector<double>& angle = evaluation_.layout().recordings[r].data.gear_angle;
-      std::vector<std::vector<double>> measured;
-      for (const std::size_t begin : begins) {
-        const auto from = angle.begin() + static_cast<std::ptrdiff_t>(begin + 1);
-        measured.emplace_back(from, from + static_cast<std::ptrdiff_t>(steps));
-      }
-      return measured;
-    });
+    return against(horizon,
+                   [&](std::size_t r, const Begins& begins, std::size_t steps) { return measured(r, begins, steps); });
   }
   /// Against its own motion with innovations.
   std::vector<Stretch> of_noise(double horizon, std::span<const double> innovations) const {
-    return stretches(horizon, [&](std::size_t r, const std::vector<std::size_t>& begins, std::size_t steps) {
-      return evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps, innovations);
+    return against(horizon, [&](std::size_t r, const Begins& begins, std::size_t steps) {
+      return evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps, innovations, extra_);
+    });
+  }
+  /// The same start without a model of the drive, which goes on at the same speed, against what was measured.
+  std::vector<Stretch> at_constant_speed(double horizon) const {
+    return stretches(horizon, [&](std::size_t r, const Begins& begins, std::size_t steps) {
+      const double period = evaluation_.layout().recordings[r].data.period;
+      Angles angles(begins.size());
+      for (std::size_t q = 0; q < begins.size(); ++q)
+        for (std::size_t k = 1; k <= steps; ++k)
+          angles[q].push_back(states_[r].angle[begins[q]] +
+                              static_cast<double>(k) * period * states_[r].speed[begins[q]]);
+      return std::pair(std::move(angles), measured(r, begins, steps));
     });
   }
 
  private:
+  using Begins = std::vector<std::size_t>;
+  using Angles = std::vector<std::vector<double>>;
+
+  Angles measured(std::size_t r, const Begins& begins, std::size_t steps) const {
+    const std::vector<double>& angle = evaluation_.layout().recordings[r].data.gear_angle;
+    Angles all;
+    for (const std::size_t begin : begins) {
+      const auto from = angle.begin() + static_cast<std::ptrdiff_t>(begin + 1);
+      all.emplace_back(from, from + static_cast<std::ptrdiff_t>(steps));
+    }
+    return all;
+  }
   /// truth(recording, begins, steps): what comes after each beginning.
   template <class Truth>
-  std::vector<Stretch> stretches(double horizon, Truth&& truth) const {
+  std::vector<Stretch> against(double horizon, Truth&& truth) const {
+    return stretches(horizon, [&](std::size_t r, const Begins& begins, std::size_t steps) {
+      return std::pair(evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps, {}, extra_),
+                       truth(r, begins, steps));
+    });
+  }
+  /// both(recording, begins, steps): what is predicted from each beginning on, and what comes.
+  template <class Both>
+  std::vector<Stretch> stretches(double horizon, Both&& both) const {
     std::vector<Stretch> all;
     if (!goes_on_) return all;
     const InnovationLayout& layout = evaluation_.layout();
     for (std::size_t r = 0; r < layout.recordings.size(); ++r) {
       const PreparedRecording& recording = layout.recordings[r];
       const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(horizon / recording.data.period)));
-      const std::vector<std::size_t> begins = beginnings(recording, steps);
-      auto errors = evaluation_.run_on(drive_, noise_, r, states_[r], begins, steps);
-      const auto told = truth(r, begins, steps);
+      const Begins begins = beginnings(recording, steps);
+      auto [errors, truth] = both(r, begins, steps);
       for (std::size_t q = 0; q < begins.size(); ++q) {
-        for (std::size_t k = 0; k < errors[q].size(); ++k) errors[q][k] -= told[q][k];
+        for (std::size_t k = 0; k < errors[q].size(); ++k) errors[q][k] -= truth[q][k];
         all.push_back(
             {r, begins[q], layout.block[layout.begins[r] + begins[q]], mean_square(errors[q]), std::move(errors[q])});
       }
@@ -90,6 +118,7 @@ class Forecast {
   const Evaluation& evaluation_;
   ProcessNoise noise_;
   RecordedDrive drive_;
+  std::span<const double> extra_;
   std::vector<FilteredStates> states_;
   bool goes_on_ = false;
 };
@@ -177,6 +206,22 @@ double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double hor
   return rms(Forecast(evaluation, h).of_data(horizon));
 }
 
+double share_of_error(const Evaluation& evaluation, const Hypothesis& h, double horizon,
+                      std::span<const double> extra) {
+  const std::vector<Stretch> without = Forecast(evaluation, h).of_data(horizon),
+                             with = Forecast(evaluation, h, extra).of_data(horizon);
+  std::vector<double> gains;  // of blocks
+  for (std::size_t k = 0; k < without.size(); ++k) {
+    if (k == 0 || without[k].block != without[k - 1].block) gains.push_back(0.0);
+    gains.back() += without[k].mean_square - with[k].mean_square;
+  }
+  if (gains.size() < 2) return std::numeric_limits<double>::infinity();
+  Moments moments;
+  moments.add(gains);
+  const double chance = t_quantile(gains.size() - 1) * moments.deviation() / std::sqrt(moments.count);
+  return moments.mean > chance ? 1.0 - rms(with) / rms(without) : 0.0;
+}
+
 std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, const Hypothesis& before,
                                                const Hypothesis& after, std::uint64_t seed) {
   std::vector<PredictionError> all;
@@ -198,6 +243,7 @@ std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, con
     for (const std::vector<double>& noise : noises)
       for (Stretch& s : forecast_after.of_noise(horizon, noise)) drawn.push_back(std::move(s));
     e.floor = rms(drawn);
+    e.constant_speed = rms(forecast_after.at_constant_speed(horizon));
     all.push_back(e);
   }
   return all;

@@ -38,7 +38,7 @@ Start fitted_start(const Evaluation& evaluation, const std::vector<Candidate>& a
     Hypothesis second = without_noise_model(base);
     fit(evaluation, second, 5);
     finish_with_noise_model(evaluation, second, base.noise);
-    if (second.objective < base.objective) base = std::move(second);
+    if (explains_better(second, base)) base = std::move(second);
   }
   Screening screening = screen(evaluation, base, all);
   return {std::move(base), std::move(screening)};

@@ -54,9 +54,16 @@ class CauseSearch {
   void select(Start start, const Start* other);
   /// Tries pairs of candidates that mask each other.
   void try_pairs();
+  /// Leaves what is stated, without a cause.
+  void drop_causes() {
+    s_.model = s_.base;
+    s_.causes.clear();
+  }
   /// The causes with what does as well as each of them; nothing can be done after that.
   Selection confirmed();
+  const Hypothesis& base() const { return s_.base; }
   const Hypothesis& model() const { return s_.model; }
+  bool has_causes() const { return !s_.causes.empty(); }
 
  private:
   std::vector<Tried> try_candidates(const Start& start, const Start* other);

@@ -56,8 +56,13 @@ json as_json(const RankedCandidate& c) {
 }
 
 json as_json(const PredictionError& e) {
-  return {{"horizon_s", number(e.horizon)},   {"before", number(e.before)},         {"after", number(e.after)},
-          {"after_low", number(e.after_low)}, {"after_high", number(e.after_high)}, {"noise_floor", number(e.floor)},
+  return {{"horizon_s", number(e.horizon)},
+          {"before", number(e.before)},
+          {"after", number(e.after)},
+          {"after_low", number(e.after_low)},
+          {"after_high", number(e.after_high)},
+          {"noise_floor", number(e.floor)},
+          {"constant_speed", number(e.constant_speed)},
           {"unit", si_symbol(e.unit)}};
 }
 

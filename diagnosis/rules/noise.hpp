@@ -32,8 +32,6 @@ inline constexpr double rounding_moving = 0.1;
 inline constexpr double mere_rounding = 0.8;
 /// nats | derived | a process noise that makes the data less likely by less is in its 95 % confidence interval
 inline constexpr double of_process_noise = 1.92;
-/// nats per innovation | set | what errors of rounding, which are no white noise, feign of process noise
-inline constexpr double feigned_by_rounding = 0.01;
 /// scales of the noise | set | a process noise beyond these is none, or all there is
 inline constexpr double least_process_noise = 1e-5, most_process_noise = 3.0;
 /// rad | derived | so far off a prediction follows no motion, in steps that grow ever shorter

@@ -47,6 +47,9 @@ inline constexpr std::array<double, 6> smoothness_of_map{1e-3, 1e-2, 0.1, 1.0, 1
 
 /// share of the rms torque | set | noise of more is no noise: such a model does not know the motion
 inline constexpr double most_noise = 1.0 / 3.0;
+/// share of the error ahead at constant speed | set | a model that errs less knows the motion; with nothing hidden they
+/// err by up to 0.1 of it, where the torque is not the drive's by more than 0.5
+inline constexpr double most_of_motion = 0.15;
 /// share of the error ahead | set | a smaller change or rest does not count; a stand-in for another effect leaves more
 inline constexpr double of_no_account = 0.05;
 /// times the error after | set | causes that lower it by more do most of the work

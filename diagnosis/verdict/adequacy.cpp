@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "diagnosis/data/moved_load.hpp"
 #include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/rules/noise.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
@@ -123,15 +126,19 @@ class Scores {
     test.what.gain = 0.5 * (all.score - less.score);
     test.what.evidence = axis.one_place ? test.what.gain - std::log(static_cast<double>(m))
                                         : (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
-    test.held_out = held_out_gain(V);
-    std::vector<double> sum(evaluation_.layout().samples, 0.0);
-    double squares = 0.0, count = 0.0;
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-      for (std::size_t q = 0; q < torques.size(); ++q)
-        sum[k] += all.x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
-      squares += sum[k] * sum[k];
-      count += moving[k];
-    }
+    const auto sum = [&](const Eigen::VectorXd& x) {
+      std::vector<double> torque(evaluation_.layout().samples, 0.0);
+      for (std::size_t k = 0; k < torque.size(); ++k)
+        for (std::size_t q = 0; q < torques.size(); ++q)
+          torque[k] += x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
+      return torque;
+    };
+    const Eigen::VectorXd kept = solve(V, V.cols(), true).x;
+    test.held_out = held_out_gain(V, kept);
+    test.torque = sum(kept);
+    const double count = std::accumulate(moving.begin(), moving.end(), 0.0);
+    double squares = 0.0;
+    for (const double torque : sum(all.x)) squares += torque * torque;
     test.what.torque = std::sqrt(squares / std::max(1.0, count));
     return test;
   }
@@ -189,9 +196,9 @@ class Scores {
     torques = {std::move(torques[best])};
   }
 
-  /// Gain of every third block by a torque that was fitted to the others.
-  double held_out_gain(const Eigen::MatrixXd& V) const {
-    const Eigen::VectorXd with = residual_ + V * solve(V, V.cols(), true).x;
+  /// Gain of every third block by a torque that was fitted to the others, kept.
+  double held_out_gain(const Eigen::MatrixXd& V, const Eigen::VectorXd& kept) const {
+    const Eigen::VectorXd with = residual_ + V * kept;
     const Eigen::VectorXd without = residual_ + V.leftCols(free_) * solve(V, free_, true).x;
     double gain = 0.0;
     for (Eigen::Index r = 0; r < V.rows(); ++r)
@@ -243,6 +250,17 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
       all.back().found = all.back().what.evidence > rules::left_line && all.back().ahead > rules::left_ahead;
     }
   return all;
+}
+
+std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                                    const std::vector<Remainder>& remainders) {
+  std::vector<double> shares(remainders.size(), std::numeric_limits<double>::infinity());
+  if (remainders.empty()) return shares;
+  for (const ScoreTest& test : score_tests(evaluation, h, sizes))
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      if (!test.torque.empty() && test.what.axis == remainders[k].axis)
+        shares[k] = share_of_error(evaluation, h, rules::reported_horizon, test.torque);
+  return shares;
 }
 
 std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {

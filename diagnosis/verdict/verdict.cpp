@@ -37,15 +37,9 @@ std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
   return " once stated numbers move within their tolerances: " + joined(moved, "and") + ".";
 }
 
-std::string remainder_sentence(const Diagnosis& d, const Magnitudes& sizes) {
-  const double torque = sizes.torque;
+std::string remainder_sentence(const Diagnosis& d, double torque) {
   const bool linear = d.extended.axis == Axis::linear;
   const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
-  if (noise_dominated(d, torque) && sizes.coarse_step > 0.0)
-    return fmt::format(
-        " The encoder is too coarse for this motion: within its step of {:.2g} {} noise of {:.2g} {} rms does not "
-        "show, compared with {:.2g} {} of the motor. Finer steps, or larger and faster motions, would show more.",
-        sizes.coarse_step, linear ? unit::metre.symbol : unit::radian.symbol, d.noise_torque, unit, torque, unit);
   if (noise_dominated(d, torque))
     return fmt::format(" Noise of {:.2g} {} rms remains, compared with {:.2g} {} of the motor.", d.noise_torque, unit,
                        torque, unit);
@@ -106,7 +100,10 @@ bool impacts(const Diagnosis& d) {
 }
 
 bool noise_dominated(const Diagnosis& d, double torque) {
-  return !impacts(d) && d.noise_torque > rules::most_noise * torque;
+  const bool follows = std::any_of(d.prediction.begin(), d.prediction.end(), [](const PredictionError& e) {
+    return e.after < rules::most_of_motion * e.constant_speed;
+  });
+  return !impacts(d) && !follows && d.noise_torque > rules::most_noise * torque;
 }
 
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
@@ -170,8 +167,8 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   if (d.causes.empty()) {
     const bool adequate = d.remainders.empty() && !noise_dominated(d, sizes.torque);
     d.verdict = adequate ? Verdict::adequate : Verdict::unexplained;
-    d.sentence =
-        adequate ? "The simulation contains every effect that these data show" : lacking + remainder_sentence(d, sizes);
+    d.sentence = adequate ? "The simulation contains every effect that these data show"
+                          : lacking + remainder_sentence(d, sizes.torque);
     if (adequate) d.sentence += calibration_matters(d) ? calibration_clause(d, selection.base) + gain_sentence(d) : ".";
     return;
   }
@@ -206,7 +203,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
   }
   if (d.causes.empty()) {
     d.verdict = Verdict::unexplained;
-    d.sentence = lacking + remainder_sentence(d, sizes);
+    d.sentence = lacking + remainder_sentence(d, sizes.torque);
     return;
   }
 
@@ -223,7 +220,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
         "the error {} s ahead is not smaller: the named causes rest on the likelihood of the single samples, "
         "{:.3g} nats{}",
         e->horizon, explained, impacts(d) ? "; teeth that bounce cannot be followed far" : ""));
-  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes);
+  if (!d.remainders.empty()) d.sentence += remainder_sentence(d, sizes.torque);
 }
 
 }  // namespace wormdrive

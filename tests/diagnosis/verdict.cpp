@@ -43,4 +43,19 @@ TEST_CASE("a name that makes the error ahead no smaller says on what it stands")
                                "single samples, 312 nats; teeth that bounce cannot be followed far"});
 }
 
+TEST_CASE("a model that predicts a motion knows it, however much noise torque it needs") {
+  const auto verdict = [](double noise_torque, double error_over_short, double error_over_long) {
+    Diagnosis d;
+    d.noise_torque = noise_torque;
+    d.prediction = {{.horizon = 0.1, .after = error_over_short, .floor = 1.0, .constant_speed = 0.02},
+                    {.horizon = 1.0, .after = error_over_long, .floor = 1.0, .constant_speed = 0.5}};
+    judge(d, {}, {}, Magnitudes{.torque = 0.05});
+    return d.verdict;
+  };
+  CHECK(verdict(0.06, 0.010, 0.10) == Verdict::unexplained);
+  CHECK(verdict(0.06, 0.010, 0.07) == Verdict::adequate);  // 0.14 of a constant speed's
+  CHECK(verdict(0.06, 0.002, 0.50) == Verdict::adequate);  // 0.10: what the error grows to is another matter
+  CHECK(verdict(0.01, 0.010, 0.10) == Verdict::adequate);  // a slow motion is predicted as well by its speed
+}
+
 }  // namespace wormdrive::test::diagnosis_verdict
