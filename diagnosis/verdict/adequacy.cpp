@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -89,8 +90,12 @@ class HatFunctions {
 
 class Scores {
  public:
-  Scores(const Evaluation& evaluation, const Hypothesis& h, double torque)
-      : evaluation_(evaluation), h_(h), torque_(torque), free_(static_cast<Eigen::Index>(h.free.size())) {
+  Scores(const Evaluation& evaluation, const Hypothesis& h, double torque, bool keeps_torques)
+      : evaluation_(evaluation),
+        h_(h),
+        torque_(torque),
+        keeps_torques_(keeps_torques),
+        free_(static_cast<Eigen::Index>(h.free.size())) {
     const InnovationLayout& layout = evaluation.layout();
     weight_ = fit_weights(layout, h.residuals, h.noise_model);
     for (double& w : weight_) w = std::sqrt(w);
@@ -106,36 +111,39 @@ class Scores {
     const HatFunctions hat(*axis.over, axis.nodes);
     const auto tents = static_cast<std::size_t>(axis.nodes);
     const std::size_t m = tents * axis.factors.size();
-    std::vector<std::vector<double>> torques(m);
+    const std::size_t samples = evaluation_.layout().samples;
+    const auto torque_at = [&](std::size_t q, std::size_t k) {
+      return torque_ * hat(q % tents, k) * axis.factors[q / tents](k) * moving[k];
+    };
     Eigen::MatrixXd V(J_.rows(), free_ + static_cast<Eigen::Index>(m));
     V.leftCols(free_) = J_;
     parallel_for(m, evaluation_.threads(), [&](std::size_t q) {
-      std::vector<double>& torque = torques[q];
-      torque.resize(evaluation_.layout().samples);
-      for (std::size_t k = 0; k < torque.size(); ++k)
-        torque[k] = torque_ * hat(q % tents, k) * axis.factors[q / tents](k) * moving[k];
+      std::vector<double> torque(samples);
+      for (std::size_t k = 0; k < samples; ++k) torque[k] = torque_at(q, k);
       const auto e = evaluation_.innovations(extended(h_), h_.noise, torque);
       V.col(free_ + static_cast<Eigen::Index>(q)) =
           e ? weighted(difference(evaluation_, h_, *e), rules::clip_of_test) : Eigen::VectorXd::Zero(J_.rows());
     });
-    if (axis.one_place) keep_strongest(V, torques);
+    std::vector<std::size_t> used(m);
+    std::iota(used.begin(), used.end(), 0);
+    if (axis.one_place) used = {keep_strongest(V)};
     ScoreTest test;
     test.what.axis = axis.name;
-    const auto degrees = static_cast<double>(torques.size());
+    const auto degrees = static_cast<double>(used.size());
     const Solved all = solve(V, V.cols(), false), less = solve(V, free_, false);
     test.what.gain = 0.5 * (all.score - less.score);
     test.what.evidence = axis.one_place ? test.what.gain - std::log(static_cast<double>(m))
                                         : (2.0 * test.what.gain - degrees) / std::sqrt(2.0 * degrees);
     const auto sum = [&](const Eigen::VectorXd& x) {
-      std::vector<double> torque(evaluation_.layout().samples, 0.0);
-      for (std::size_t k = 0; k < torque.size(); ++k)
-        for (std::size_t q = 0; q < torques.size(); ++q)
-          torque[k] += x[free_ + static_cast<Eigen::Index>(q)] * torques[q][k];
+      std::vector<double> torque(samples, 0.0);
+      for (std::size_t q = 0; q < used.size(); ++q)
+        for (std::size_t k = 0; k < samples; ++k)
+          torque[k] += x[free_ + static_cast<Eigen::Index>(q)] * torque_at(used[q], k);
       return torque;
     };
     const Eigen::VectorXd kept = solve(V, V.cols(), true).x;
     test.held_out = held_out_gain(V, kept);
-    test.torque = sum(kept);
+    if (keeps_torques_) test.torque = sum(kept);
     const double count = std::accumulate(moving.begin(), moving.end(), 0.0);
     double squares = 0.0;
     for (const double torque : sum(all.x)) squares += torque * torque;
@@ -166,12 +174,16 @@ class Scores {
       A = part.transpose() * part;
       b = -part.transpose() * residual_;
     } else {
-      std::vector<Eigen::Index> rows;
-      for (Eigen::Index r = 0; r < V.rows(); ++r)
-        if (!is_held_out(evaluation_.layout().block[static_cast<std::size_t>(r)])) rows.push_back(r);
-      const Eigen::MatrixXd some = part(rows, Eigen::all);
-      A = some.transpose() * some;
-      b = -some.transpose() * residual_(rows);
+      A = Eigen::MatrixXd::Zero(columns, columns);
+      b = Eigen::VectorXd::Zero(columns);
+      const std::vector<std::uint32_t>& blocks = evaluation_.layout().block;
+      for (std::size_t begin = 0, end = 0; begin < blocks.size(); begin = end) {
+        while (end < blocks.size() && blocks[end] == blocks[begin]) ++end;
+        if (is_held_out(blocks[begin])) continue;
+        const auto first = static_cast<Eigen::Index>(begin), rows = static_cast<Eigen::Index>(end - begin);
+        A += part.middleRows(first, rows).transpose() * part.middleRows(first, rows);
+        b -= part.middleRows(first, rows).transpose() * residual_.segment(first, rows);
+      }
     }
     add_tolerances(h_, A, b);
     for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += rules::precision_of_hat;
@@ -179,12 +191,12 @@ class Scores {
     return {x, columns > 0 ? x.dot(b) : 0.0};
   }
 
-  /// Of all torques the one that explains most.
-  void keep_strongest(Eigen::MatrixXd& V, std::vector<std::vector<double>>& torques) const {
+  /// Leaves of all torques the one that explains most, and says which it is.
+  std::size_t keep_strongest(Eigen::MatrixXd& V) const {
     Eigen::MatrixXd one = V.leftCols(free_ + 1);
     std::size_t best = 0;
     double most = -1.0;
-    for (std::size_t q = 0; q < torques.size(); ++q) {
+    for (std::size_t q = 0; q < static_cast<std::size_t>(V.cols() - free_); ++q) {
       one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(q));
       const double score = solve(one, one.cols(), false).score;
       if (score <= most) continue;
@@ -193,7 +205,7 @@ class Scores {
     }
     one.col(free_) = V.col(free_ + static_cast<Eigen::Index>(best));
     V = std::move(one);
-    torques = {std::move(torques[best])};
+    return best;
   }
 
   /// Gain of every third block by a torque that was fitted to the others, kept.
@@ -210,6 +222,7 @@ class Scores {
   const Evaluation& evaluation_;
   const Hypothesis& h_;
   double torque_;
+  bool keeps_torques_;
   Eigen::Index free_;
   std::vector<double> weight_;
   Eigen::MatrixXd J_;
@@ -218,7 +231,8 @@ class Scores {
 
 }  // namespace
 
-std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
+std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                                   bool keep_torques) {
   const Abscissae a = abscissae(evaluation, h, sizes);
   const auto factor = [](const std::vector<double>& values) { return [&values](std::size_t k) { return values[k]; }; };
   const auto one = [](std::size_t) { return 1.0; };
@@ -233,7 +247,7 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
     axes.push_back({"time", &a.time, rules::hats_over_time, {one, factor(a.direction)}});
     axes.push_back({"one angle", &a.angle, rules::spots, {factor(a.direction)}, true});
   }
-  const Scores scores(evaluation, h, rules::test_torque * sizes.torque);
+  const Scores scores(evaluation, h, rules::test_torque * sizes.torque, keep_torques);
   std::vector<ScoreTest> all;
   const double least_torque =
       sizes.torque * (sizes.has_worm_encoder ? rules::left_torque_of_two_encoders : rules::left_torque);
@@ -256,7 +270,7 @@ std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothes
                                     const std::vector<Remainder>& remainders) {
   std::vector<double> shares(remainders.size(), std::numeric_limits<double>::infinity());
   if (remainders.empty()) return shares;
-  for (const ScoreTest& test : score_tests(evaluation, h, sizes))
+  for (const ScoreTest& test : score_tests(evaluation, h, sizes, true))
     for (std::size_t k = 0; k < shares.size(); ++k)
       if (!test.torque.empty() && test.what.axis == remainders[k].axis)
         shares[k] = share_of_error(evaluation, h, rules::reported_horizon, test.torque);

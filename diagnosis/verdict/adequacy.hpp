@@ -18,9 +18,10 @@ struct ScoreTest {
   double held_out{};  ///< gain of data that the torque was not fitted to [nats]
   double ahead{};     ///< square of the error ahead that a line makes, over that which all else makes
   bool found = false;
-  std::vector<double> torque{};  ///< at every sample, fitted to what is not held out [N m]; empty of a line
+  std::vector<double> torque{};  ///< at every sample, fitted to what is not held out [N m], if kept; of a line none
 };
-std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes);
+std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+                                   bool keep_torques = false);
 
 /// Share of the error ahead that goes once the torque of each remainder is added, 0 where that may be chance; of lines,
 /// and where nothing can be predicted, infinity. evaluation: with data that are held out.
