@@ -91,6 +91,23 @@ TEST_CASE("a torque that does not lower the error ahead is a remark and no alarm
                    "than by chance") == 1);
 }
 
+TEST_CASE("a fall of friction with more evidence than the level is in its class", "[recovery]") {
+  Plan plan{.kind = Kind::single, .conditions = conditions("realistic"), .cases = 29, .seed = 701};
+  plan.any_bench = true;
+  const Case drawn = draw(plan).back();
+  REQUIRE(drawn.hidden.front().secret->effect == "stribeck");
+  const auto said = wormdrive::diagnose(data_sheet(drawn), {record(drawn).recording}, {.threads = 2});
+  INFO(said.sentence);
+  const auto evidence = [&](std::string_view effect) {
+    const auto one = std::find_if(said.ranking.begin(), said.ranking.end(),
+                                  [&](const auto& candidate) { return candidate.effect.effect == effect; });
+    return one->delta_bic;
+  };
+  REQUIRE(evidence("stribeck") > evidence("mesh_friction"));  // but it does not predict what was held out
+  CHECK(said.verdict == wormdrive::Verdict::ambiguous);
+  CHECK(said.classes == std::vector<std::vector<std::string>>{{"mesh_friction", "stribeck"}});
+}
+
 TEST_CASE("a diagnosis hangs on no unit of torque", "[recovery]") {
   constexpr double times = 64.0;  // a power of two: no digit changes
   Case drawn = short_ones({.kind = Kind::single,
