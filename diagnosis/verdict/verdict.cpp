@@ -40,7 +40,7 @@ std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
 std::string remainder_sentence(const Diagnosis& d, double torque) {
   const bool linear = d.extended.axis == Axis::linear;
   const std::string_view unit = linear ? unit::newton.symbol : unit::newton_metre.symbol;
-  if (noise_dominated(d, torque))
+  if (d.remainders.empty() || noise_dominated(d, torque))
     return fmt::format(" Noise of {:.2g} {} rms remains, compared with {:.2g} {} of the motor.", d.noise_torque, unit,
                        torque, unit);
   const Remainder& r = d.remainders.front();
@@ -99,11 +99,15 @@ bool impacts(const Diagnosis& d) {
   return std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) { return has_impacts(c.effect); });
 }
 
+bool needs_much_noise(const Diagnosis& d, double torque) {
+  return !impacts(d) && d.noise_torque > rules::most_noise * torque;
+}
+
 bool noise_dominated(const Diagnosis& d, double torque) {
   const bool follows = std::any_of(d.prediction.begin(), d.prediction.end(), [](const PredictionError& e) {
     return e.after < rules::most_of_motion * e.constant_speed;
   });
-  return !impacts(d) && !follows && d.noise_torque > rules::most_noise * torque;
+  return !follows && needs_much_noise(d, torque);
 }
 
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
@@ -186,7 +190,7 @@ void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate
       e && ((e->before >= rules::most_of_the_error * e->after && e->after <= rules::little_but_noise * e->floor) ||
             e->after <= rules::of_no_account * e->before);
   const bool most_done = predicts || explained >= most_of_the_evidence * left;
-  if (noise_dominated(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
+  if (needs_much_noise(d, sizes.torque) || (!d.remainders.empty() && !most_done)) {
     const auto withdrawn = [&](std::string_view effect) { return !sizes.has_worm_encoder || !is_kinematic(effect); };
     std::vector<std::string> tried;
     for (const EstimatedEffect& cause : d.causes)

@@ -31,9 +31,12 @@ std::string gain_sentence(const Diagnosis& diagnosis);
 /// What a map of what is left does, to be added to the sentence.
 std::string map_sentence(const LearnedMap& map, Axis axis);
 
-/// Whether so much of the motor's torque, rms, is noise that it is none, and no horizon is predicted clearly better
-/// than without any torque: such a model does not know the motion. Teeth that bounce from flank to flank are different,
-/// for a shock turns on what nobody can measure.
+/// Whether so much of the motor's torque, rms, is noise that no cause can be named. Teeth that bounce from flank to
+/// flank are different, for a shock turns on what nobody can measure.
+bool needs_much_noise(const Diagnosis& diagnosis, double torque);
+
+/// Whether that much is noise, and no horizon is predicted clearly better than without any torque: such a model does
+/// not know the motion.
 bool noise_dominated(const Diagnosis& diagnosis, double torque);
 
 /// The class that an effect belongs to, null if it is told from all others.

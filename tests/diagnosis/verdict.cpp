@@ -58,4 +58,21 @@ TEST_CASE("a model that predicts a motion knows it, however much noise torque it
   CHECK(verdict(0.01, 0.010, 0.10) == Verdict::adequate);  // a slow motion is predicted as well by its speed
 }
 
+TEST_CASE("a model that needs much noise torque names no cause, even where it predicts the motion") {
+  std::vector<Candidate> all(1);
+  all[0].effect = "bearing_asymmetry";
+  all[0].coordinates.resize(1);
+  Selection selection;
+  selection.causes = {{0, {}}};
+  Diagnosis d;
+  d.causes = {{"bearing_asymmetry", {}}};
+  d.noise_torque = 0.7;
+  d.prediction = {{.horizon = 0.25, .before = 4e-3, .after = 6e-3, .floor = 5e-3, .constant_speed = 0.2}};
+  judge(d, selection, all, Magnitudes{.torque = 0.5});
+  CHECK(d.causes.empty());
+  CHECK(d.sentence ==
+        "The simulation lacks something that no effect of the catalogue explains. Noise of 0.7 N m rms "
+        "remains, compared with 0.5 N m of the motor.");
+}
+
 }  // namespace wormdrive::test::diagnosis_verdict
