@@ -210,7 +210,8 @@ double share_of_error(const Evaluation& evaluation, const Hypothesis& h, double 
                       std::span<const double> extra) {
   const std::vector<Stretch> without = Forecast(evaluation, h).of_data(horizon),
                              with = Forecast(evaluation, h, extra).of_data(horizon);
-  std::vector<double> gains;  // of blocks
+  if (with.size() != without.size()) return 0.0;  // with it the model loses the motion
+  std::vector<double> gains;                      // of blocks
   for (std::size_t k = 0; k < without.size(); ++k) {
     if (k == 0 || without[k].block != without[k - 1].block) gains.push_back(0.0);
     gains.back() += without[k].mean_square - with[k].mean_square;
