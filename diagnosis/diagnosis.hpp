@@ -55,7 +55,7 @@ struct PredictionError {
   double before{}, after{};
   double after_low{}, after_high{};  ///< 95 % interval by a bootstrap of blocks
   double floor{};                    ///< what the noise of the data alone comes to
-  double constant_speed{};           ///< of going on at the speed of the start; 0 of torques
+  double constant_speed{};           ///< of going on at the speed of the start; NaN of torques
   Unit unit = unit::radian;          ///< N m where the data are torques, which have no horizon: it is NaN
 };
 

@@ -85,7 +85,7 @@ PredictionError prediction_error(const PredictedTorques& torques, Axis axis, std
     return std::sqrt(std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size()));
   };
   PredictionError error;
-  error.horizon = error.floor = std::numeric_limits<double>::quiet_NaN();
+  error.horizon = error.floor = error.constant_speed = std::numeric_limits<double>::quiet_NaN();
   error.unit = spellings("torque", unit::newton_metre, axis).front().unit;
   error.before = rms(squares(torques.before));
   const std::vector<double> after = squares(torques.after);

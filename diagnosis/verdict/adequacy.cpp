@@ -143,7 +143,7 @@ class Scores {
     };
     const Eigen::VectorXd kept = solve(V, V.cols(), true).x;
     test.held_out = held_out_gain(V, kept);
-    if (keeps_torques_) test.torque = sum(kept);
+    if (keeps_torques_ && !axis.one_place) test.torque = sum(kept);  // of a place few blocks tell
     const double count = std::accumulate(moving.begin(), moving.end(), 0.0);
     double squares = 0.0;
     for (const double torque : sum(all.x)) squares += torque * torque;

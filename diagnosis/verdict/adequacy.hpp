@@ -18,13 +18,14 @@ struct ScoreTest {
   double held_out{};  ///< gain of data that the torque was not fitted to [nats]
   double ahead{};     ///< square of the error ahead that a line makes, over that which all else makes
   bool found = false;
-  std::vector<double> torque{};  ///< at every sample, fitted to what is not held out [N m], if kept; of a line none
+  std::vector<double>
+      torque{};  ///< at every sample, fitted to what is not held out [N m], if kept; of a line or a place none
 };
 std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                    bool keep_torques = false);
 
-/// Share of the error ahead that goes once the torque of each remainder is added, 0 where that may be chance; of lines,
-/// and where nothing can be predicted, infinity. evaluation: with data that are held out.
+/// Share of the error ahead that goes once the torque of each remainder is added, 0 where that may be chance; of lines
+/// and places, and where nothing can be predicted, infinity. evaluation: with data that are held out.
 std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                     const std::vector<Remainder>& remainders);
 
