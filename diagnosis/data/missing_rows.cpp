@@ -77,9 +77,9 @@ std::string told(const RecordedTable& table, const Count& missing, double step) 
   const Times& t = table.time.values;
   if (missing.all() > t.size())
     reject(table.where(missing.first),
-           fmt::format("{} rows of {:.3g} s are missing, more than the {} that are there; the first after {} = {}",
+           fmt::format("{} rows of {:.3g} s are missing, more than the {} that are there; the first after {} = {:.9g}",
                        missing.all(), step, t.size(), table.time.name, t[missing.first - 1]));
-  std::string text = fmt::format("{} of {} rows are missing, the first after {} s", missing.all(),
+  std::string text = fmt::format("{} of {} rows are missing, the first after {:.9g} s", missing.all(),
                                  missing.all() + t.size(), t[missing.first - 1]);
   if (table.has_lines) text += fmt::format(" (line {})", table.where(missing.first).line);
   if (missing.bridged > 0) text += fmt::format("; {} of them are bridged", missing.bridged);

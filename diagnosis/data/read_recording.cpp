@@ -14,6 +14,7 @@
 namespace wormdrive {
 Recording read_recording(const std::string& path, const Scenario& scenario) {
   RecordedTable table = read_recorded_table(path, scenario);
+  const std::optional<std::string> rounded = even_out_rounded_stamps(table);
   MissingRows rows = bridge_missing_rows(table);
   SampleTimes time = sample_times(table, rows);
   refuse_implausible_units(table, time.period, scenario);
@@ -23,6 +24,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   recording.period = time.period;
   recording.times = std::move(time.times);
   recording.remarks = std::move(time.remarks);
+  if (rounded) recording.remarks.insert(recording.remarks.begin(), *rounded);
   recording.valid = std::move(rows.there);
   const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);
   const SampleLimits limits{time.period, largest_acceleration(scenario, usual_peak(table.torque.values)),

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "diagnosis/data/recording.hpp"
 #include "diagnosis/rules/recordings.hpp"
+#include "statistics/robust.hpp"
 
 namespace wormdrive {
 namespace {
@@ -32,15 +36,19 @@ Line line_around(const std::vector<double>& t, std::size_t k, std::size_t half_w
   return {t[middle] + mean + step * (static_cast<double>(k) - static_cast<double>(middle)), step};
 }
 
-/// The line through all times, as it begins.
-Line whole_line(const std::vector<double>& t) {
-  const double middle = 0.5 * static_cast<double>(t.size() - 1);
-  double mean = 0.0, slope = 0.0, squares = 0.0;
-  for (const double time : t) mean += time / static_cast<double>(t.size());
+/// The line through times at places of a grid by least squares, as it begins; weights: of the squares.
+Line line_through(const std::vector<double>& t, const std::vector<double>& places, const std::vector<double>& weights) {
+  double sum = 0.0, middle = 0.0, mean = 0.0, slope = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < t.size(); ++k) {
-    const double place = static_cast<double>(k) - middle;
-    slope += place * (t[k] - mean);
-    squares += place * place;
+    sum += weights[k];
+    middle += weights[k] * places[k];
+    mean += weights[k] * t[k];
+  }
+  middle /= sum;
+  mean /= sum;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    slope += weights[k] * (places[k] - middle) * (t[k] - mean);
+    squares += weights[k] * (places[k] - middle) * (places[k] - middle);
   }
   return {mean - middle * slope / squares, slope / squares};
 }
@@ -75,6 +83,62 @@ bool read_at_even_times(const RecordedTable& table, const std::vector<std::uint8
   return halfway < at_stamps;
 }
 
+/// The step that most stretches of rows have on average [s]: missing rows are in few of them, and roundings average
+/// out.
+double mean_step(const std::vector<double>& t) {
+  constexpr std::size_t rows = 20;
+  std::vector<double> steps;
+  for (std::size_t k = rows; k < t.size(); ++k) steps.push_back((t[k] - t[k - rows]) / static_cast<double>(rows));
+  return median(std::move(steps));
+}
+
+/// How far a stamp may be from the time that it was rounded from [s].
+class Rounding {
+ public:
+  explicit Rounding(const std::vector<double>& stamps)
+      : single_(std::all_of(stamps.begin(), stamps.end(), [](double t) { return t == static_cast<float>(t); })) {
+    // digits that are significant are fewer behind the point the longer a recording lasts
+    for (const double t : stamps) {
+      int& digits = decimals_[decade(t)];
+      while (digits < most_digits && !is_whole(t * std::pow(10.0, digits))) ++digits;
+    }
+  }
+  double operator()(double t) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto f = static_cast<float>(t);
+    const double by_digits = std::pow(10.0, -decimals_.at(decade(t)));
+    return 0.5 * std::max(by_digits, single_ ? static_cast<double>(std::nextafter(f, infinity) - f) : 0.0);
+  }
+
+ private:
+  static constexpr int most_digits = 9;
+  static int decade(double t) { return static_cast<int>(std::floor(std::log10(std::max(t, 1e-9)))); }
+  static bool is_whole(double x) { return std::abs(x - std::round(x)) < 1e-6; }
+
+  bool single_;
+  std::map<int, int> decimals_;
+};
+
+/// Where each stamp stands in an even grid, if every stamp is at most its rounding off that grid's time: counted by the
+/// rows, or by the time between them where rows are missing. Gives the times of the grid.
+std::optional<std::vector<double>> grid_behind(const std::vector<double>& stamps, const std::vector<double>& places,
+                                               const Rounding& rounding) {
+  std::vector<double> weights, grid;
+  for (const double t : stamps) weights.push_back(1.0 / (rounding(t) * rounding(t)));
+  const Line line = line_through(stamps, places, weights);
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    grid.push_back(line.at + places[k] * line.step);
+    constexpr double of_the_line = 1.6;  // ties that go up here and down there move it by half a rounding
+    if (std::abs(grid[k] - stamps[k]) > of_the_line * rounding(stamps[k])) return std::nullopt;
+    // two neighbours are rounded by less than a whole one from each other: one that stands twice is another fault
+    constexpr double less_than_two = 1.998;
+    if (k > 0 && std::abs(grid[k] - grid[k - 1] - stamps[k] + stamps[k - 1]) > less_than_two * rounding(stamps[k]))
+      return std::nullopt;
+  }
+  grid.front() = std::max(0.0, grid.front());
+  return grid;
+}
+
 /// The shortest and the longest of some steps.
 std::pair<double, double> range(const std::vector<double>& steps) {
   const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
@@ -83,10 +147,36 @@ std::pair<double, double> range(const std::vector<double>& steps) {
 
 }  // namespace
 
+std::optional<std::string> even_out_rounded_stamps(RecordedTable& table) {
+  std::vector<double>& stamps = table.time.values;
+  if (stamps.size() < rules::least_samples || !std::is_sorted(stamps.begin(), stamps.end())) return std::nullopt;
+  const double step = mean_step(stamps);
+  const Rounding rounding(stamps);
+  const double coarsest = 2.0 * rounding(stamps.back());
+  if (stamps.front() < 0.0 || coarsest <= rules::even_enough * step) return std::nullopt;
+  std::vector<double> by_rows, by_time;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    by_rows.push_back(static_cast<double>(k));
+    by_time.push_back(k == 0 ? 0.0 : by_time.back() + std::max(1.0, std::round((stamps[k] - stamps[k - 1]) / step)));
+  }
+  for (const std::vector<double>* places : {&by_rows, &by_time})
+    if (auto grid = grid_behind(stamps, *places, rounding)) {
+      double off = 0.0;
+      for (std::size_t k = 0; k < stamps.size(); ++k) off = std::max(off, std::abs((*grid)[k] - stamps[k]));
+      if (off <= rules::even_enough * step) return std::nullopt;
+      stamps = std::move(*grid);
+      return fmt::format("the sample times are rounded to {:.2g} s, of steps of {:.6g} s; taken for even", coarsest,
+                         (stamps.back() - stamps.front()) / places->back());
+    }
+  return std::nullopt;
+}
+
 SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
   const std::vector<double>& stamps = table.time.values;
   const std::vector<double> t = with_pauses_closed(table, rows.step);
-  const auto [start, period] = whole_line(t);
+  std::vector<double> rows_in_turn(t.size());
+  std::iota(rows_in_turn.begin(), rows_in_turn.end(), 0.0);
+  const auto [start, period] = line_through(t, rows_in_turn, std::vector<double>(t.size(), 1.0));
   const double duration = static_cast<double>(t.size()) * period;
   if (duration < rules::least_duration - 1e-9)
     reject(table.where(), fmt::format("{} samples of {:.6g} s are {:.6g} s; a diagnosis needs at least {} s", t.size(),

@@ -57,7 +57,11 @@ bool is_stated(const truth::Secret& secret) {
 double signed_amount(const truth::Secret& secret, truth::Size size, const truth::Sheet& sheet,
                      truth::Generator& generator) {
   const bool turn = secret.either_sign && std::bernoulli_distribution(0.5)(generator);
-  return turn ? -secret.amount(size, sheet) : secret.amount(size, sheet);
+  const double amount = secret.amount(size, sheet);
+  const truth::Geometry& g = sheet.geometry;
+  if (secret.dimension == truth::Dimension::gear_inertia && 2.0 * amount > g.gear_inertia + g.mass * g.arm * g.arm)
+    return amount;  // no gear is lighter than nothing
+  return turn ? -amount : amount;
 }
 
 /// A drive with an encoder, a rate and a duration.
