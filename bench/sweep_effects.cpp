@@ -109,6 +109,21 @@ std::vector<Addition> additions(const Scenario& with_pid) {
        [](Scenario& s, double x) {
          put(s, TorqueMap<double>{MapAxis::worm_speed, x, {{-40, -10, 0, 10, 40}, {1e-3, 8e-4, 0, -8e-4, -1e-3}}});
        }},
+      {"friction_map",
+       [](Scenario& s, double x) {
+         put(s, FrictionMap<double>{FrictionAxis::gear_angle,
+                                    FrictionValue::share,
+                                    x,
+                                    {{-0.4, -0.1, 0, 0.1, 0.4}, {0.1, -0.1, 0.1, -0.1, 0.1}}});
+       }},
+      {"load_map",
+       [](Scenario& s, double x) {
+         put(s, LoadMap<double>{LoadAxis::time, x, {{0, 1, 2, 3}, {0, 0.1, -0.1, 0.1}}});
+       }},
+      {"vibration",
+       [](Scenario& s, double x) {
+         put(s, Vibration<double>{5e-4 * x, 20.0, 0.0});
+       }},
       {"thread_friction",
        [](Scenario& s, double x) {
          put(s, ThreadFriction<double>{0.2 * x, 0.0});

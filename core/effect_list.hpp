@@ -15,6 +15,7 @@
 #include "core/effects/encoder_scale.hpp"
 #include "core/effects/friction_asymmetry.hpp"
 #include "core/effects/friction_drift.hpp"
+#include "core/effects/friction_map.hpp"
 #include "core/effects/friction_under_load.hpp"
 #include "core/effects/gear_coulomb.hpp"
 #include "core/effects/gear_inertia.hpp"
@@ -27,6 +28,7 @@
 #include "core/effects/load_crank.hpp"
 #include "core/effects/load_four_bar.hpp"
 #include "core/effects/load_magnitude.hpp"
+#include "core/effects/load_map.hpp"
 #include "core/effects/load_spring.hpp"
 #include "core/effects/mesh_friction.hpp"
 #include "core/effects/mesh_lugre.hpp"
@@ -40,6 +42,7 @@
 #include "core/effects/torque_offset.hpp"
 #include "core/effects/torque_saturation.hpp"
 #include "core/effects/transmission_error.hpp"
+#include "core/effects/vibration.hpp"
 #include "core/effects/worm_coulomb.hpp"
 #include "core/effects/worm_inertia.hpp"
 #include "core/effects/worm_lugre.hpp"
@@ -62,14 +65,15 @@ struct Optional {
 /// An effect is switched by its presence, not by a zero parameter: a fit starts at zero and needs the gradient there.
 template <class T>
 using EffectList =
-    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,     // actuator
-             WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia, TorqueMap,  // worm shaft
-             Agma, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction, ThreadFriction,            // mesh
-             FrictionDrift, StaticFriction, GearboxHeat, MeshLuGre,                                        // mesh
-             TransmissionError, ToothCompliance, Backlash,                                                 // mesh
-             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia, HardStops,                          // gear shaft
-             LoadMagnitude, LoadAngle, LoadSpring, LoadCrank, LoadFourBar, LoadCoupling,                   // load
-             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                         // sensor
+    Optional<TorqueSaturation, ActuatorDelay, ActuatorLag, DcMotor, TorqueGain, TorqueOffset, Cogging,  // actuator
+             WormCoulomb, WormViscous, WormLuGre, BearingAsymmetry, HoldingBrake, WormInertia,          // worm shaft
+             Vibration, TorqueMap,                                                                      // worm shaft
+             Agma, FrictionMap, MeshFriction, Stribeck, FrictionAsymmetry, PositionFriction,            // mesh
+             ThreadFriction, FrictionDrift, StaticFriction, GearboxHeat, MeshLuGre,                     // mesh
+             TransmissionError, ToothCompliance, Backlash,                                              // mesh
+             GearCoulomb, GearViscous, FrictionUnderLoad, GearInertia, HardStops,                       // gear shaft
+             LoadMagnitude, LoadMap, LoadAngle, LoadSpring, LoadCrank, LoadFourBar, LoadCoupling,       // load
+             EncoderDelay, EncoderScale, EncoderOffset>::Tuple<T>;                                      // sensor
 
 /// How many states all effects may have together.
 inline constexpr std::size_t effect_state_count = StateLayout<EffectList<double>>::size;

@@ -159,6 +159,12 @@ struct Effects {
         list, 0.0,
         [](const auto& e, double, double t) -> decltype(e.fastest_at_rest(t)) { return e.fastest_at_rest(t); }, rest);
   }
+  /// Highest angular frequency of what effects do over the time [rad/s], moving or not.
+  double fastest_in_time() const {
+    return through(list, 0.0, [](const auto& e, double most) -> decltype(e.fastest_in_time()) {
+      return std::max(most, e.fastest_in_time());
+    });
+  }
   /// Highest number of periods per radian of the gear in what effects do over its angle, for a ratio i.
   double ripple(double i) const {
     return through(

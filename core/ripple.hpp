@@ -23,15 +23,17 @@ double ripple_rate(const System& system, const typename System::State& x) {
     return 0.0;
 }
 
-/// Highest angular frequency of the present inputs from a moment on, and at rest of what changes with the time there
-/// [rad/s].
+/// Highest angular frequency of the present inputs from a moment on, of what effects do over the time, and at rest of
+/// what changes with the time there [rad/s].
 template <class System>
 double fastest_change(const System& system, const typename System::Instant& now) {
-  const double of_inputs = system.fastest_input(now.t);
+  double most = system.fastest_input(now.t);
+  if constexpr (requires { system.effects().fastest_in_time(); })
+    most = std::max(most, system.effects().fastest_in_time());
   if constexpr (requires { system.effects(), now.since, now.mode.motion; })
     if (now.mode.motion == Motion::stuck)
-      return std::max(of_inputs, system.effects().fastest_at_rest(now.t - value_of(now.since)));
-  return of_inputs;
+      most = std::max(most, system.effects().fastest_at_rest(now.t - value_of(now.since)));
+  return most;
 }
 
 }  // namespace wormdrive

@@ -32,9 +32,9 @@
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/experiment.hpp"
 #include "diagnosis/verdict/extended_scenario.hpp"
+#include "diagnosis/verdict/learned_terms.hpp"
 #include "diagnosis/verdict/other_ratio.hpp"
 #include "diagnosis/verdict/residual_torque.hpp"
-#include "diagnosis/verdict/torque_map.hpp"
 #include "diagnosis/verdict/unclaimed_terms.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
@@ -104,22 +104,23 @@ Hypothesis fitted_anew(const Evaluation& evaluation, Hypothesis h) {
   return h;
 }
 
-/// What is left without a cause counts if the error ahead falls once its torque is added.
-void keep_what_counts(Diagnosis& d, const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
+/// What is left without a cause, and any line, counts if the error ahead falls once its torque is added.
+void keep_what_counts(Diagnosis& d, const Evaluation& evaluation, const Selection& found, const Magnitudes& sizes,
                       Axis axis) {
-  const std::vector<double> shares = shares_of_error(evaluation, h, sizes, d.remainders);
-  std::vector<Remainder> kept;
+  std::vector<Remainder> kept, judged;
+  for (const Remainder& r : d.remainders) (found.causes.empty() || r.frequency > 0.0 ? judged : kept).push_back(r);
+  const std::vector<double> shares = shares_of_error(evaluation, found.model, sizes, judged);
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const Remainder& r = d.remainders[k];
+    const Remainder& r = judged[k];
     if (shares[k] >= rules::of_no_account)
       kept.push_back(r);
     else
-      d.remarks.push_back(
-          fmt::format("a {} over {} is left, but with it the error {} s ahead falls by less than "
-                      "{:.0f} %, or no more than by chance",
-                      in_words_of(axis, "torque"), r.axis, rules::reported_horizon, 100.0 * rules::of_no_account));
+      d.remarks.push_back(fmt::format(
+          "{} is left, but with it the error {} s ahead falls by less than {:.0f} %, or no more than by chance",
+          r.frequency > 0.0 ? r.axis : fmt::format("a {} over {}", in_words_of(axis, "torque"), r.axis),
+          rules::reported_horizon, 100.0 * rules::of_no_account));
   }
-  d.remainders = std::move(kept);
+  d.remainders = strongest_first(std::move(kept));
 }
 
 /// What a model predicts and leaves, against the scenario as it is stated.
@@ -227,7 +228,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
 
   tell("looking for what is left");
   d.remainders = remainders(by_all, last, sizes);
-  if (found.causes.empty()) keep_what_counts(d, evaluation, found.model, sizes, scenario.axis);
+  keep_what_counts(d, evaluation, found, sizes, scenario.axis);
   if (const auto excess = error_above_noise(d)) d.remainders.push_back(*excess);
   d.extended = scenario;
   calibrate(spread);
@@ -241,27 +242,27 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
     describe(d, evaluation, before, found.model);
   }
   const bool may_learn = !d.remainders.empty() && !noise_dominated(d, sizes.torque);
-  const auto learned = [&](const Hypothesis& beside) {
-    if (may_learn) tell("learning a map of what is left");
-    return may_learn ? learned_map(evaluation, beside, sizes) : std::nullopt;
+  const auto learn = [&](const Hypothesis& beside) {
+    if (may_learn) tell("learning what is left");
+    return may_learn ? learned_terms(evaluation, beside, sizes) : std::nullopt;
   };
-  std::optional<LearnedMap> map = learned(claimed ? settled(found.model) : found.base);
-  const bool kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, map), stays = claimed || kept;
+  std::optional<LearnedTerms> learned = learn(claimed ? settled(found.model) : found.base);
+  const bool kept = withdrawn && unclaimed_terms_predict(d, evaluation, found, all, learned), stays = claimed || kept;
   if (withdrawn) d.uncertainty = {};
   if (kept) {
     d.sentence += unclaimed_terms_sentence(d, found, all);
-    map = learned(settled(found.model));
+    learned = learn(settled(found.model));
   } else if (withdrawn) {
     d.calibration.clear();
     last = found.base;
   }
-  if (map || (withdrawn && !kept)) describe(d, evaluation, before, map ? map->model : found.base);
-  if (map) {
-    last = refined_map(by_all, *map, stays ? settled(last) : last, sizes);
+  if (learned || (withdrawn && !kept)) describe(d, evaluation, before, learned ? learned->model : found.base);
+  if (learned) {
+    last = refined_terms(by_all, *learned, stays ? settled(last) : last, sizes);
     if (!stays) calibrate(covariance(by_all, last, 2));
-    d.sentence += map_sentence(*map, scenario.axis);
+    d.sentence += learned_sentence(*learned, scenario.axis);
   }
-  if (stays || map || (found.causes.empty() && calibration_matters(d))) {
+  if (stays || learned || (found.causes.empty() && calibration_matters(d))) {
     Effects<double> found_effects = extended(last).effects;
     for (const Found& f : found.causes)  // names that were withdrawn beside others
       if (claimed && !all[f.candidate].of_recording &&

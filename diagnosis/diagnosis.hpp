@@ -75,10 +75,11 @@ struct Visibility {
 
 /// Structure left in the residual torque over one axis.
 struct Remainder {
-  std::string axis;   ///< "speed", "angle and direction", "load", "time", "worm phase", ...
-  double evidence{};  ///< standard deviations above what noise gives
-  double torque{};    ///< rms of it [N m]
-  double gain{};      ///< log likelihood that it would add [nats]
+  std::string axis;    ///< "speed", "angle and direction", "load", "time", "worm phase", ...
+  double evidence{};   ///< standard deviations above what noise gives
+  double torque{};     ///< rms of it [N m]
+  double gain{};       ///< log likelihood that it would add [nats]
+  double frequency{};  ///< of a line that any flank has [Hz]; 0 of all else
 };
 
 /// One sample of the residual torque, before and after; columns of the maps.

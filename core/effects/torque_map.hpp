@@ -12,7 +12,7 @@
 namespace wormdrive {
 
 /// Of what a torque map is a function.
-enum class MapAxis { worm_speed, gear_angle };
+enum class MapAxis { worm_speed, gear_angle, time };
 /// Which shaft a torque map turns.
 enum class MapShaft { worm, gear };
 
@@ -22,10 +22,11 @@ struct TorqueMap {
   static constexpr std::string_view id = "torque_map";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause = "a torque that data show and no other effect explains";
-  static constexpr std::string_view law = "scale table(theta_w') or scale table(theta_g), on the worm or on the gear";
+  static constexpr std::string_view law =
+      "scale table(theta_w'), scale table(theta_g) or scale table(t), on the worm or on the gear";
   MapAxis over = MapAxis::worm_speed;
   T scale{1.0};
-  CubicTable table;  ///< torques [N m] over speeds [rad/s] or angles [rad]
+  CubicTable table;  ///< torques [N m] over speeds [rad/s], angles [rad] or times [s]
   MapShaft shaft = MapShaft::worm;
 
   static constexpr auto fields() {
@@ -33,16 +34,21 @@ struct TorqueMap {
                             Presence::optional}};
   }
   static constexpr auto choices() {
-    return std::tuple{Choice{&TorqueMap::over, "over", std::array<std::string_view, 2>{"worm_speed", "gear_angle"},
-                             "of what the torque is a function"},
-                      Choice{&TorqueMap::shaft, "shaft", std::array<std::string_view, 2>{"worm", "gear"},
-                             "on which the torque acts"}};
+    return std::tuple{
+        Choice{&TorqueMap::over, "over", std::array<std::string_view, 3>{"worm_speed", "gear_angle", "time"},
+               "of what the torque is a function"},
+        Choice{&TorqueMap::shaft, "shaft", std::array<std::string_view, 2>{"worm", "gear"},
+               "on which the torque acts"}};
   }
   TableColumns columns() const {
     constexpr ColumnName torques{"torques", unit::newton_metre}, torque{"torque", unit::newton_metre};
-    if (over == MapAxis::worm_speed)
-      return {{"speeds", unit::radian_per_second}, torques, {"worm_speed", unit::radian_per_second}, torque};
-    return {{"angles", unit::degrees}, torques, {"gear_angle", unit::radian}, torque};
+    switch (over) {
+      case MapAxis::worm_speed:
+        return {{"speeds", unit::radian_per_second}, torques, {"worm_speed", unit::radian_per_second}, torque};
+      case MapAxis::gear_angle: return {{"angles", unit::degrees}, torques, {"gear_angle", unit::radian}, torque};
+      case MapAxis::time: return {{"times", unit::second}, torques, {"time", unit::second}, torque};
+    }
+    return {};
   }
   /// Takes the table of the same effect with another scalar.
   template <class U>
@@ -53,6 +59,7 @@ struct TorqueMap {
   }
 
   double ripple(double) const { return over == MapAxis::gear_angle ? 1.0 / table.least_interval() : 0.0; }
+  double fastest_in_time() const { return over == MapAxis::time ? 1.0 / table.least_interval() : 0.0; }
   /// Torque on the worm shaft [N m] ...
   template <class S>
   S worm_torque(const Moment<S>& at, Motion) const {
@@ -67,7 +74,12 @@ struct TorqueMap {
  private:
   template <class S>
   S torque(const Moment<S>& at) const {
-    return scale * (over == MapAxis::worm_speed ? table(at.omega_w) : table(at.theta_g));
+    switch (over) {
+      case MapAxis::worm_speed: return scale * table(at.omega_w);
+      case MapAxis::gear_angle: return scale * table(at.theta_g);
+      case MapAxis::time: return scale * table(at.t);
+    }
+    return S(0.0);
   }
 };
 

@@ -21,6 +21,9 @@ const std::vector<StatedPart>& parts() {
   static const std::vector<StatedPart> all{
       {"agma", "a law to choose instead of another one, not a deviation"},
       {"torque_map", "a table that fits anything claims no cause"},
+      {"friction_map", "a table that fits anything claims no cause"},
+      {"load_map", "a table that fits anything claims no cause"},
+      {"vibration", "a line that fits any claims no cause"},
       {"hard_stops", "stops are to be stated, not a deviation"},
       {"dc_motor",
        "a motor to choose instead of an ideal one; worm_viscous stands for its back-EMF",

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,15 @@ class WeightedColumns {
   std::vector<std::size_t> rows_;
   std::vector<double> root_;
 };
+
+/// Calls visit(block, first, rows) for every stretch of rows of one block.
+template <class Visit>
+void for_each_stretch(std::span<const std::uint32_t> block_of, Visit&& visit) {
+  for (std::size_t begin = 0, end = 0; begin < block_of.size(); begin = end) {
+    while (end < block_of.size() && block_of[end] == block_of[begin]) ++end;
+    visit(block_of[begin], static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
+  }
+}
 
 /// Solves A x = b for a positive A that may be singular to rounding; in the columns' own sizes.
 Eigen::VectorXd solve_normal(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double damping = 1e-9);

@@ -158,10 +158,6 @@ void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionEr
   e.after_high = drawn[draws - 1 - draws / 40];
 }
 
-}  // namespace
-
-namespace {
-
 /// Noise of one recording, and of how many samples it is known.
 struct RecordedNoise {
   NoiseSizes sizes{};
@@ -206,21 +202,40 @@ double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double hor
   return rms(Forecast(evaluation, h).of_data(horizon));
 }
 
-double share_of_error(const Evaluation& evaluation, const Hypothesis& h, double horizon,
-                      std::span<const double> extra) {
-  const std::vector<Stretch> without = Forecast(evaluation, h).of_data(horizon),
-                             with = Forecast(evaluation, h, extra).of_data(horizon);
+namespace {
+
+/// gain(without, with): what a block shows, of the sums of its squares.
+template <class Gain>
+double share_that_goes(const std::vector<Stretch>& without, const std::vector<Stretch>& with, Gain&& gain) {
   if (with.size() != without.size()) return 0.0;  // with it the model loses the motion
   std::vector<double> gains;                      // of blocks
-  for (std::size_t k = 0; k < without.size(); ++k) {
-    if (k == 0 || without[k].block != without[k - 1].block) gains.push_back(0.0);
-    gains.back() += without[k].mean_square - with[k].mean_square;
+  for (std::size_t k = 0; k < without.size();) {
+    double sum_without = 0.0, sum_with = 0.0;
+    const std::size_t block = without[k].block;
+    for (; k < without.size() && without[k].block == block; ++k) {
+      sum_without += without[k].mean_square;
+      sum_with += with[k].mean_square;
+    }
+    gains.push_back(gain(sum_without, sum_with));
   }
   if (gains.size() < 2) return std::numeric_limits<double>::infinity();
   Moments moments;
   moments.add(gains);
   const double chance = t_quantile(gains.size() - 1) * moments.deviation() / std::sqrt(moments.count);
   return moments.mean > chance ? 1.0 - rms(with) / rms(without) : 0.0;
+}
+
+}  // namespace
+
+double share_of_error(const Evaluation& evaluation, const Hypothesis& h, double horizon,
+                      std::span<const double> extra) {
+  return share_that_goes(Forecast(evaluation, h).of_data(horizon), Forecast(evaluation, h, extra).of_data(horizon),
+                         [](double without, double with) { return without - with; });
+}
+
+double share_of_error(const Evaluation& evaluation, const Hypothesis& h, const Hypothesis& other, double horizon) {
+  return share_that_goes(Forecast(evaluation, h).of_data(horizon), Forecast(evaluation, other).of_data(horizon),
+                         [](double without, double with) { return std::log(without / with); });
 }
 
 std::vector<PredictionError> prediction_errors(const Evaluation& evaluation, const Hypothesis& before,

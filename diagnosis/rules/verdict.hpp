@@ -34,12 +34,14 @@ inline constexpr std::size_t lines_around = 25;
 /// s | set | innovations are summed over this before their spectrum, residual torques averaged over that
 inline constexpr double spectrum_bin = 0.005, torque_bin = 0.025;
 
-// A map of what is left.
+// What is learned of what is left.
 
 /// share of the rms torque | set | a torque whose effect is seen and small
 inline constexpr double test_torque = 0.005;
 /// points | set | of a map; the data choose among them
-inline constexpr std::array<std::size_t, 3> points_of_map{5, 9, 17};
+inline constexpr std::array<std::size_t, 4> points_of_map{5, 9, 17, 33};
+/// points | set | of maps among which those are chosen that are fitted, and how many are
+inline constexpr std::size_t points_of_trial_map = 9, maps_fitted = 3;
 /// times what the data know | set | that the roughness of a map costs; the data choose among them
 inline constexpr std::array<double, 6> smoothness_of_map{1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0};
 

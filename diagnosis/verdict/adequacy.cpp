@@ -15,6 +15,8 @@
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/rules/noise.hpp"
 #include "diagnosis/rules/verdict.hpp"
+#include "diagnosis/verdict/hat_functions.hpp"
+#include "diagnosis/verdict/learned_vibration.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
 #include "statistics/parallel.hpp"
 
@@ -64,28 +66,6 @@ struct Axis1D {
   int nodes;
   std::vector<std::function<double(std::size_t)>> factors;
   bool one_place = false;  ///< the torque acts at one place of the axis, the one where it explains most
-};
-
-/// Hat functions over the quantiles of an axis.
-class HatFunctions {
- public:
-  HatFunctions(const std::vector<double>& x, int nodes) : x_(x) {
-    std::vector<double> sorted = x;
-    std::sort(sorted.begin(), sorted.end());
-    const auto n = static_cast<double>(x.size());
-    for (int b = 0; b < nodes; ++b)
-      centre_.push_back(sorted[std::min(x.size() - 1, static_cast<std::size_t>(n * (b + 0.5) / nodes))]);
-  }
-  double operator()(std::size_t hat, std::size_t sample) const {
-    const double x = x_[sample], c = centre_[hat];
-    if (x < c && hat > 0) return std::max(0.0, 1.0 - (c - x) / std::max(1e-12, c - centre_[hat - 1]));
-    if (x > c && hat + 1 < centre_.size()) return std::max(0.0, 1.0 - (x - c) / std::max(1e-12, centre_[hat + 1] - c));
-    return 1.0;
-  }
-
- private:
-  const std::vector<double>& x_;
-  std::vector<double> centre_;
 };
 
 class Scores {
@@ -176,14 +156,11 @@ class Scores {
     } else {
       A = Eigen::MatrixXd::Zero(columns, columns);
       b = Eigen::VectorXd::Zero(columns);
-      const std::vector<std::uint32_t>& blocks = evaluation_.layout().block;
-      for (std::size_t begin = 0, end = 0; begin < blocks.size(); begin = end) {
-        while (end < blocks.size() && blocks[end] == blocks[begin]) ++end;
-        if (is_held_out(blocks[begin])) continue;
-        const auto first = static_cast<Eigen::Index>(begin), rows = static_cast<Eigen::Index>(end - begin);
+      for_each_stretch(evaluation_.layout().block, [&](std::size_t block, Eigen::Index first, Eigen::Index rows) {
+        if (is_held_out(block)) return;
         A += part.middleRows(first, rows).transpose() * part.middleRows(first, rows);
         b -= part.middleRows(first, rows).transpose() * residual_.segment(first, rows);
-      }
+      });
     }
     add_tolerances(h_, A, b);
     for (Eigen::Index k = free_; k < columns; ++k) A(k, k) += rules::precision_of_hat;
@@ -258,32 +235,47 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
                  test.held_out > (axis.one_place ? rules::left_gain_of_a_place : rules::left_gain) &&
                  test.what.torque > least_torque;
   }
-  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r)
-    for (const std::vector<double>* demodulated : {static_cast<const std::vector<double>*>(nullptr), &a.side}) {
-      all.push_back(spectral_line(evaluation, h, r, demodulated, demodulated ? "a line by flank" : "a line"));
-      all.back().found = all.back().what.evidence > rules::left_line && all.back().ahead > rules::left_ahead;
-    }
+  for (ScoreTest& line : spectral_lines(evaluation, h)) {
+    all.push_back(std::move(line));  // judged by what it does as a vibration
+    all.back().found = all.back().what.evidence > rules::left_line;
+  }
+  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
+    all.push_back(spectral_line(evaluation, h, r, &a.side, "a line by flank"));
+    all.back().found = all.back().what.evidence > rules::left_line && all.back().ahead > rules::left_ahead;
+  }
   return all;
 }
 
 std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                     const std::vector<Remainder>& remainders) {
   std::vector<double> shares(remainders.size(), std::numeric_limits<double>::infinity());
-  if (remainders.empty()) return shares;
-  for (const ScoreTest& test : score_tests(evaluation, h, sizes, true))
+  const auto is_line = [](const Remainder& r) { return r.frequency > 0.0; };
+  if (!std::all_of(remainders.begin(), remainders.end(), is_line))
+    for (const ScoreTest& test : score_tests(evaluation, h, sizes, true))
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        if (!test.torque.empty() && test.what.axis == remainders[k].axis)
+          shares[k] = share_of_error(evaluation, h, rules::reported_horizon, test.torque);
+  if (std::any_of(remainders.begin(), remainders.end(), is_line)) {
+    Hypothesis shaken = h;
+    const bool is_there = learned_vibration(evaluation, shaken, sizes).has_value();
+    const double share = is_there ? share_of_error(evaluation, h, shaken, rules::reported_horizon) : 0.0;
     for (std::size_t k = 0; k < shares.size(); ++k)
-      if (!test.torque.empty() && test.what.axis == remainders[k].axis)
-        shares[k] = share_of_error(evaluation, h, rules::reported_horizon, test.torque);
+      if (is_line(remainders[k])) shares[k] = share;
+  }
   return shares;
+}
+
+std::vector<Remainder> strongest_first(std::vector<Remainder> all) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Remainder& x, const Remainder& y) { return x.evidence > y.evidence; });
+  return all;
 }
 
 std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
   std::vector<Remainder> found;
   for (const ScoreTest& test : score_tests(evaluation, h, sizes))
     if (test.found) found.push_back(test.what);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Remainder& x, const Remainder& y) { return x.evidence > y.evidence; });
-  return found;
+  return strongest_first(std::move(found));
 }
 
 }  // namespace wormdrive

@@ -12,6 +12,9 @@ namespace wormdrive {
 /// the spectrum. What is found, strongest first; empty if the hypothesis is adequate. by: nothing is held out.
 std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes);
 
+/// The same in the order of their evidence.
+std::vector<Remainder> strongest_first(std::vector<Remainder> all);
+
 /// All that was tested, whether anything was found or not.
 struct ScoreTest {
   Remainder what;
@@ -24,8 +27,9 @@ struct ScoreTest {
 std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                    bool keep_torques = false);
 
-/// Share of the error ahead that goes once the torque of each remainder is added, 0 where that may be chance; of lines
-/// and places, and where nothing can be predicted, infinity. evaluation: with data that are held out.
+/// Share of the error ahead that goes once the torque of each remainder is added, that of a line as a vibration; 0
+/// where that may be chance; of a place and of a line by flank, and where nothing can be predicted, infinity.
+/// evaluation: with data that are held out.
 std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                     const std::vector<Remainder>& remainders);
 

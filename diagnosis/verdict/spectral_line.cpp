@@ -65,10 +65,32 @@ ScoreTest spectral_line(const Evaluation& evaluation, const Hypothesis& h, std::
   const double adds_up =
       std::min(2.0 / (turn * turn * interval * rules::reported_horizon), rules::reported_horizon / interval);
   test.ahead = line * adds_up;
+  test.what.frequency = factor ? 0.0 : frequency;
   test.what.axis = fmt::format("{} at {:.5} Hz", name, fmt::format("{:f}", frequency));
   test.what.evidence =
       variates * std::log1p(strongest / variates) - std::log(static_cast<double>(std::max<std::size_t>(1, lines)));
   return test;
+}
+
+Hypothesis followed_slowly(const Evaluation& evaluation, Hypothesis h) {
+  h.whitens = false;
+  h.noise.coloured = 0.0;
+  h.noise.period = evaluation.shortest_period();
+  h.noise.white = std::pow(2.0 * std::numbers::pi * rules::lowest_line * h.noise.period, 2);  // its bandwidth, squared
+  return h;
+}
+
+std::vector<ScoreTest> spectral_lines(const Evaluation& evaluation, const Hypothesis& h) {
+  std::vector<ScoreTest> lines;
+  Hypothesis slow = followed_slowly(evaluation, h);
+  const bool follows = evaluate(evaluation, slow);
+  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
+    lines.push_back(spectral_line(evaluation, h, r, nullptr, "a line"));
+    if (!follows) continue;
+    ScoreTest other = spectral_line(evaluation, slow, r, nullptr, "a line");
+    if (other.what.evidence > lines.back().what.evidence) lines.back() = std::move(other);
+  }
+  return lines;
 }
 
 }  // namespace wormdrive

@@ -38,12 +38,12 @@ std::optional<Selection> better_alone(const Evaluation& evaluation, const Select
 }
 
 bool unclaimed_terms_predict(const Diagnosis& d, const Evaluation& evaluation, const Selection& selection,
-                             const std::vector<Candidate>& all, const std::optional<LearnedMap>& map) {
+                             const std::vector<Candidate>& all, const std::optional<LearnedTerms>& learned) {
   if (std::any_of(selection.causes.begin(), selection.causes.end(),
                   [&](const Found& found) { return all[found.candidate].of_recording; }))
     return false;  // an extended scenario holds no fault of a recording
   const PredictionError* e = reported_error(d);
-  const double without = map ? map->with : error_ahead(evaluation, selection.base, rules::reported_horizon);
+  const double without = learned ? learned->with : error_ahead(evaluation, selection.base, rules::reported_horizon);
   return e && e->after < (1.0 - rules::of_no_account) * std::min(e->before, without);
 }
 

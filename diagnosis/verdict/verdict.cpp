@@ -47,7 +47,7 @@ std::string remainder_sentence(const Diagnosis& d, double torque) {
   if (r.torque > 0.0)
     return fmt::format(" A {} of {:.2g} {} rms over {} remains unexplained.", linear ? "force" : "torque", r.torque,
                        unit, r.axis);
-  return fmt::format(" {} remains unexplained.", r.axis);
+  return fmt::format(" {}{} remains unexplained.", static_cast<char>(r.axis.front() - 'a' + 'A'), r.axis.substr(1));
 }
 
 /// What the drive lacks, and what is wrong with the recording and how to mend it.
@@ -138,15 +138,25 @@ std::string phrase(const EstimatedEffect& effect, Axis axis) {
   return text;
 }
 
-std::string map_sentence(const LearnedMap& map, Axis axis) {
-  const auto& effect = *std::get<std::optional<TorqueMap<double>>>(map.model.drive.effects.list);
+std::string learned_sentence(const LearnedTerms& learned, Axis axis) {
+  std::vector<std::string> terms, effects;
+  for (const LearnedMap& map : learned.maps) {
+    terms.push_back(fmt::format("a {} over the {}", in_words_of(axis, std::string(map.form.what)),
+                                in_words_of(axis, std::string(name(map.form.over)))));
+    effects.emplace_back(map.form.effect);
+  }
+  if (learned.vibration) {
+    terms.push_back(fmt::format("a vibration of {:.5g} Hz", learned.vibration->frequency));
+    effects.emplace_back(Vibration<double>::id);
+  }
+  const bool one = terms.size() == 1;
   constexpr double milli = 1e3;
   return fmt::format(
-      " A {} on the {} over the {}, learned from these data, claims no cause; it is in the extended scenario as "
-      "torque_map. With it the {} s prediction error on data not used for the fit is {:.3g} m{} instead of {:.3g}.",
-      in_words_of(axis, "torque"), effect.shaft == MapShaft::worm ? "worm" : "gear",
-      in_words_of(axis, effect.over == MapAxis::worm_speed ? "worm speed" : "gear angle"), rules::reported_horizon,
-      milli * map.with, units_on(axis, "rad"), milli * map.without);
+      " {} learned from these data: {}. {} no cause and {} in the extended scenario as {}. With {} the {} s prediction "
+      "error on data not used for the fit is {:.3g} m{} instead of {:.3g}.",
+      one ? "One term was" : "Terms were", joined(terms, "and"), one ? "It claims" : "They claim", one ? "is" : "are",
+      joined(effects, "and"), one ? "it" : "them", rules::reported_horizon, milli * learned.with, units_on(axis, "rad"),
+      milli * learned.without);
 }
 
 void judge(Diagnosis& d, const Selection& selection, const std::vector<Candidate>& all, const Magnitudes& sizes) {

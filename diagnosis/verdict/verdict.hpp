@@ -4,7 +4,7 @@
 #include "diagnosis/candidates/magnitudes.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/inference/selection.hpp"
-#include "diagnosis/verdict/torque_map.hpp"
+#include "diagnosis/verdict/learned_terms.hpp"
 
 namespace wormdrive {
 
@@ -29,7 +29,7 @@ bool impacts(const Diagnosis& diagnosis);
 std::string gain_sentence(const Diagnosis& diagnosis);
 
 /// What a map of what is left does, to be added to the sentence.
-std::string map_sentence(const LearnedMap& map, Axis axis);
+std::string learned_sentence(const LearnedTerms& learned, Axis axis);
 
 /// Whether so much of the motor's torque, rms, is noise that no cause can be named. Teeth that bounce from flank to
 /// flank are different, for a shock turns on what nobody can measure.

@@ -13,6 +13,7 @@ constexpr double k = 1e6;  // [N/m]
 
 /// Every effect that changes the motion, one at a time.
 std::vector<Effects<double>> each_effect() {
+  const CubicTable hill({-1.0, 0.0, 0.4, 1.0}, {0.0, 0.1, 0.3, 0.2});
   return {effects(TorqueGain<double>{0.2}),
           effects(TorqueOffset<double>{0.03}),
           effects(Cogging<double>{0.02, 3.0, 0.4}),
@@ -28,6 +29,9 @@ std::vector<Effects<double>> each_effect() {
           effects(FrictionAsymmetry<double>{0.04}),
           effects(PositionFriction<double>{0.3, 0.2}),
           effects(FrictionDrift<double>{0.5, 2.0}),
+          effects(FrictionMap<double>{FrictionAxis::gear_angle, FrictionValue::share, 1.0, hill}),
+          effects(LoadMap<double>{LoadAxis::time, 1.0, hill}),
+          effects(Vibration<double>{0.02, 3.0, 0.4}),
           effects(GearboxHeat<double>{0.01, 1e-4, 0.02, {}, {}, 30.0}),
           effects(GearCoulomb<double>{0.01}),
           effects(GearViscous<double>{0.01}),

@@ -234,6 +234,7 @@ TEST_CASE("the steady command is what makes the motor give the steady torque") {
 
 TEST_CASE("with every effect on, motor and load still pay for friction and kinetic energy and nothing else") {
   MeshParameters<double> p = closing(table1());
+  const CubicTable falls({0.0, 0.1, 0.3, 1.0}, {0.1, 0.05, -0.05, -0.1});
   const auto d = entered(
       p, fig9_load(), fig9_motor(),
       effects(DcMotor<double>{1.2, 0.025}, TorqueGain<double>{0.1}, TorqueOffset<double>{1e-3},
@@ -241,6 +242,7 @@ TEST_CASE("with every effect on, motor and load still pay for friction and kinet
               WormLuGre<double>{1e-3, 2e-3, 30.0}, BearingAsymmetry<double>{1e-3, 1e-5}, HoldingBrake<double>{1e-3},
               WormInertia<double>{1e-6}, MeshFriction<double>{0.01}, Stribeck<double>{0.1, 0.2, 2.0},
               FrictionAsymmetry<double>{0.02}, PositionFriction<double>{0.2, 0.4}, ThreadFriction<double>{0.1, 0.9},
+              FrictionMap<double>{FrictionAxis::sliding_speed, FrictionValue::share, 1.0, falls},
               FrictionDrift<double>{0.1, 2.0}, GearboxHeat<double>{0.01, 1e-5, 0.02, {}, {}, 30.0},
               GearCoulomb<double>{3e-3}, GearViscous<double>{1e-3}, FrictionUnderLoad<double>{0.2},
               GearInertia<double>{1e-4}, LoadMagnitude<double>{0.2}, LoadAngle<double>{0.1},

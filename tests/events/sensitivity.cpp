@@ -29,6 +29,9 @@ Effects<double> one_of_each() {
                  ThreadFriction<double>{0.05, 0.9}, FrictionDrift<double>{0.05, 2.0}, StaticFriction<double>{0.1, 0.2},
                  GearboxHeat<double>{0.01, 1e-5, 0.02, {}, {}, 5.0},
                  TorqueMap<double>{MapAxis::worm_speed, 1.2, map_over({-120, -40, 0, 30, 120}), MapShaft::gear},
+                 Vibration<double>{1e-3, 3.0, 0.4},
+                 FrictionMap<double>{FrictionAxis::time, FrictionValue::share, 0.8, map_over({-1, 0, 1, 2, 4})},
+                 LoadMap<double>{LoadAxis::gear_angle, 1.5, map_over({-3, -1, 0, 1, 3})},
                  TransmissionError<double>{0.005, 0.3}, GearCoulomb<double>{0.008}, GearViscous<double>{1e-4},
                  FrictionUnderLoad<double>{0.1}, GearInertia<double>{1e-4}, LoadMagnitude<double>{0.05},
                  LoadAngle<double>{0.05}, LoadSpring<double>{0.01, 0.2}, LoadCoupling<double>{1e-4},
@@ -62,11 +65,12 @@ TEST_CASE("they agree where the parameters are zero, as they are where a fit sta
       WormInertia<double>{}, MeshFriction<double>{}, Stribeck<double>{0.0, 0.1, 2.0}, FrictionAsymmetry<double>{},
       PositionFriction<double>{0.0, 0.4}, ThreadFriction<double>{0.0, 0.9}, FrictionDrift<double>{0.0, 2.0},
       GearViscous<double>{}, GearInertia<double>{}, LoadMagnitude<double>{}, LoadAngle<double>{},
-      LoadSpring<double>{0.0, 0.2}, TorqueMap<double>{MapAxis::gear_angle, 0.0, map_over({-2, -1, 0, 1, 2})}));
+      LoadSpring<double>{0.0, 0.2}, TorqueMap<double>{MapAxis::gear_angle, 0.0, map_over({-2, -1, 0, 1, 2})},
+      Vibration<double>{0.0, 3.0, 0.4}));
   std::vector<Parameter> zero;
   for (const Parameter& p : continuous_parameters(drive))
     if (p.value == 0.0 && p.table != "initial") zero.push_back(p);
-  REQUIRE(zero.size() == 18);
+  REQUIRE(zero.size() == 19);
   const auto found = agreement(drive, zero, Timetable(0, duration, 0.0131));
   std::cout << "at zero: series against CVODES " << found.cvodes << ", against differences " << found.differences
             << "\n";

@@ -132,6 +132,11 @@ CubicTable random_table(Dice& dice, double range, double widest, double largest)
   return {points, values};
 }
 
+FrictionMap<double> random_friction_map(Dice& dice) {
+  constexpr FrictionAxis axes[] = {FrictionAxis::sliding_speed, FrictionAxis::gear_angle, FrictionAxis::time};
+  return {axes[dice.below(3)], FrictionValue::share, 1.0, random_table(dice, 4.0, 0.8, 0.2)};
+}
+
 /// A third of the effects that the nominal drive does not have, each of a size that shows.
 Effects<double> random_effects(Dice& dice) {
   Effects<double> on = effects(WormCoulomb<double>{2e-3}, WormViscous<double>{2e-5});
@@ -146,6 +151,11 @@ Effects<double> random_effects(Dice& dice) {
   if (dice.one_in(6))
     std::get<std::optional<TorqueMap<double>>>(on.list) = {MapAxis::gear_angle, 1.0, random_table(dice, 4.0, 0.8, 4e-3),
                                                            MapShaft::gear};
+  maybe(dice, on, Vibration<double>{dice.between(0, 3e-3), dice.between(0.5, 30), dice.between(0, 6)});
+  maybe(dice, on, random_friction_map(dice));
+  maybe(
+      dice, on,
+      LoadMap<double>{dice.one_in(2) ? LoadAxis::time : LoadAxis::gear_angle, 1.0, random_table(dice, 4.0, 0.8, 0.3)});
   maybe(dice, on, MeshFriction<double>{dice.between(-0.02, 0.05)});
   maybe(dice, on,
         Stribeck<double>{dice.between(0, 0.1), dice.between(0.01, 0.5), 1.0 + dice.below(3), 1.0 * dice.below(2)});
