@@ -29,7 +29,7 @@ inline constexpr double rounding_at_rest = 0.29;
 /// steps of the encoder | set | while the gear moves, rounding is predicted in part
 inline constexpr double rounding_moving = 0.1;
 /// share of the squared scale of the noise | set | where errors of rounding are more, there is hardly any other noise
-inline constexpr double mere_rounding = 0.07;
+inline constexpr double mere_rounding = 0.8;
 /// nats | derived | a process noise that makes the data less likely by less is in its 95 % confidence interval
 inline constexpr double of_process_noise = 1.92;
 /// scales of the noise | set | a process noise beyond these is none, or all there is

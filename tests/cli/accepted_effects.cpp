@@ -54,7 +54,7 @@ TEST_CASE("check, run and fmu accept the same random effects on a linear axis", 
   std::mt19937 random(7);
   const Folder folder;
   int accepted = 0, refused = 0;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 100; ++k) {
     const bool linear = k % 3 != 0;
     const std::string text = (linear ? sledge : wheel) + random_effects(linear ? Axis::linear : Axis::rotary, random);
     folder.write("s.toml", text);
