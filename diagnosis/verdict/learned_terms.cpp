@@ -46,9 +46,12 @@ std::optional<LearnedTerms> with_one_more(const Evaluation& evaluation, const Le
                                           const Magnitudes& sizes) {
   std::optional<LearnedTerms> best;
   double least = (1.0 - rules::of_no_account) * terms.with;
-  const auto keep_if_better = [&](LearnedTerms trial) {
+  const auto keep_if_better = [&](LearnedTerms trial, bool is_evident) {
     trial.with = error_ahead(evaluation, trial.model, rules::reported_horizon);
     if (trial.with >= least || !can_move(evaluation, trial.model)) return;
+    if (!is_evident &&
+        share_of_error(evaluation, terms.model, trial.model, rules::reported_horizon) < rules::of_no_account)
+      return;  // no more than by chance
     least = trial.with;
     best = std::move(trial);
   };
@@ -57,13 +60,15 @@ std::optional<LearnedTerms> with_one_more(const Evaluation& evaluation, const Le
     if (!map) continue;
     LearnedTerms trial = terms;
     fit_map(evaluation, trial.model, *map);
+    // what is left out of the fit speaks for it, though few blocks see a place where it is large
+    const bool is_evident = -map->left_out > rules::left_gain;
     trial.maps.push_back(std::move(*map));
-    keep_if_better(std::move(trial));
+    keep_if_better(std::move(trial), is_evident);
   }
   if (!terms.vibration) {
     LearnedTerms trial = terms;
     trial.vibration = learned_vibration(evaluation, trial.model, sizes);
-    if (trial.vibration) keep_if_better(std::move(trial));
+    if (trial.vibration) keep_if_better(std::move(trial), false);
   }
   return best;
 }

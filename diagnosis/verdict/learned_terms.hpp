@@ -19,7 +19,8 @@ struct LearnedTerms {
 };
 
 /// Learns term by term, each time the one with the smallest error ahead beside those before it, as long as that lowers
-/// the error by more than is of no account and leaves a drive that can move. Nothing where no term does.
+/// the error by more than is of no account and leaves a drive that can move. Blocks have to show it beyond chance, or
+/// the parts of the data that a map was not fitted to. Nothing where no term does.
 std::optional<LearnedTerms> learned_terms(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes);
 
 /// The same terms beside another hypothesis, with their numbers fitted to its data; as they are where these would leave
