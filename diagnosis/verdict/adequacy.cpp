@@ -257,10 +257,9 @@ std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothes
           shares[k] = share_of_error(evaluation, h, rules::reported_horizon, test.torque);
   if (std::any_of(remainders.begin(), remainders.end(), is_line)) {
     Hypothesis shaken = h;
-    const bool is_there = learned_vibration(evaluation, shaken, sizes).has_value();
-    const double share = is_there ? share_of_error(evaluation, h, shaken, rules::reported_horizon) : 0.0;
-    for (std::size_t k = 0; k < shares.size(); ++k)
-      if (is_line(remainders[k])) shares[k] = share;
+    if (!learned_vibration(evaluation, shaken, sizes))
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        if (is_line(remainders[k])) shares[k] = 0.0;
   }
   return shares;
 }

@@ -27,9 +27,9 @@ struct ScoreTest {
 std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                    bool keep_torques = false);
 
-/// Share of the error ahead that goes once the torque of each remainder is added, that of a line as a vibration; 0
-/// where that may be chance; of a place and of a line by flank, and where nothing can be predicted, infinity.
-/// evaluation: with data that are held out.
+/// Share of the error ahead that goes once the torque of each remainder is added, 0 where that may be chance, or where
+/// a line is no vibration that can be learned; of other lines and of places, and where nothing can be predicted,
+/// infinity. evaluation: with data that are held out.
 std::vector<double> shares_of_error(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes,
                                     const std::vector<Remainder>& remainders);
 

@@ -68,7 +68,7 @@ std::optional<LearnedTerms> with_one_more(const Evaluation& evaluation, const Le
   if (!terms.vibration) {
     LearnedTerms trial = terms;
     trial.vibration = learned_vibration(evaluation, trial.model, sizes);
-    if (trial.vibration) keep_if_better(std::move(trial), false);
+    if (trial.vibration) keep_if_better(std::move(trial), true);
   }
   return best;
 }

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/spectral_line.hpp"
 
@@ -37,6 +39,17 @@ std::optional<Hypothesis> with_vibration(const Evaluation& evaluation, Hypothesi
   adjust_noise(evaluation, h, 3);
   fit(evaluation, h, 4);
   return h;
+}
+
+/// Whether the error ahead falls by more than is of no account and than by chance: against the model as it was, and
+/// with the noise that is found beside the vibration, for another noise alone may predict better.
+bool lowers_error(const Evaluation& evaluation, const Hypothesis& h, const Hypothesis& shaken) {
+  Hypothesis alike = h;
+  alike.noise = shaken.noise;
+  const auto falls_from = [&](const Hypothesis& one) {
+    return share_of_error(evaluation, one, shaken, rules::reported_horizon) >= rules::of_no_account;
+  };
+  return falls_from(h) && (!evaluate(evaluation, alike) || falls_from(alike));
 }
 
 }  // namespace
@@ -75,7 +88,7 @@ std::optional<LearnedVibration> learned_vibration(const Evaluation& evaluation, 
     std::optional<Hypothesis> here = with_vibration(evaluation, h, line.what.frequency + lines / sizes.duration, sizes);
     if (here && here->objective < (best ? *best : h).objective) best = std::move(here);
   }
-  if (!best) return std::nullopt;
+  if (!best || !lowers_error(evaluation, h, *best)) return std::nullopt;
   h = std::move(*best);
   const std::size_t n = h.values.size();
   return LearnedVibration{h.values[n - 3], h.values[n - 2], h.values[n - 1]};

@@ -11,8 +11,9 @@ struct LearnedVibration {
   double in_phase{}, in_quadrature{}, frequency{};
 };
 
-/// The strongest line that a hypothesis leaves, as a vibration with its numbers fitted; nothing where there is none, or
-/// the drive has one. h: gets it, with its numbers free.
+/// The strongest line that a hypothesis leaves, as a vibration with its numbers fitted; nothing where there is none,
+/// the drive has one, or the error ahead falls by less than 5 % or no more than by chance. h: gets it, with its numbers
+/// free.
 std::optional<LearnedVibration> learned_vibration(const Evaluation& evaluation, Hypothesis& h, const Magnitudes& sizes);
 
 /// Adds one to a hypothesis, with its numbers free. To be evaluated.
