@@ -53,6 +53,13 @@ Line line_through(const std::vector<double>& t, const std::vector<double>& place
   return {mean - middle * slope / squares, slope / squares};
 }
 
+/// 0, 1, 2, ...
+std::vector<double> rows_in_turn(std::size_t rows) {
+  std::vector<double> places(rows);
+  std::iota(places.begin(), places.end(), 0.0);
+  return places;
+}
+
 /// The times without the pauses: across each of them, one step in place of all that are missing.
 std::vector<double> with_pauses_closed(const RecordedTable& table, double step) {
   std::vector<double> t = table.time.values;
@@ -92,47 +99,41 @@ double mean_step(const std::vector<double>& t) {
   return median(std::move(steps));
 }
 
-/// How far a stamp may be from the time that it was rounded from [s].
-class Rounding {
- public:
-  explicit Rounding(const std::vector<double>& stamps)
-      : single_(std::all_of(stamps.begin(), stamps.end(), [](double t) { return t == static_cast<float>(t); })) {
-    // digits that are significant are fewer behind the point the longer a recording lasts
-    for (const double t : stamps) {
-      int& digits = decimals_[decade(t)];
-      while (digits < most_digits && !is_whole(t * std::pow(10.0, digits))) ++digits;
-    }
+/// How far each stamp may be from the time that it was rounded from [s].
+std::vector<double> roundings(const std::vector<double>& stamps) {
+  constexpr int most_digits = 9;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto decade = [](double t) { return static_cast<int>(std::floor(std::log10(std::max(t, 1e-9)))); };
+  const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
+  const bool single = std::all_of(stamps.begin(), stamps.end(), [](double t) { return t == static_cast<float>(t); });
+  std::map<int, int> decimals;  // where digits are significant, the fewer the longer a recording lasts
+  for (const double t : stamps) {
+    int& digits = decimals[decade(t)];
+    while (digits < most_digits && !is_whole(t * std::pow(10.0, digits))) ++digits;
   }
-  double operator()(double t) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::vector<double> all;
+  for (const double t : stamps) {
     const auto f = static_cast<float>(t);
-    const double by_digits = std::pow(10.0, -decimals_.at(decade(t)));
-    return 0.5 * std::max(by_digits, single_ ? static_cast<double>(std::nextafter(f, infinity) - f) : 0.0);
+    const double by_precision = single ? static_cast<double>(std::nextafter(f, infinity) - f) : 0.0;
+    all.push_back(0.5 * std::max(std::pow(10.0, -decimals[decade(t)]), by_precision));
   }
-
- private:
-  static constexpr int most_digits = 9;
-  static int decade(double t) { return static_cast<int>(std::floor(std::log10(std::max(t, 1e-9)))); }
-  static bool is_whole(double x) { return std::abs(x - std::round(x)) < 1e-6; }
-
-  bool single_;
-  std::map<int, int> decimals_;
-};
+  return all;
+}
 
 /// Where each stamp stands in an even grid, if every stamp is at most its rounding off that grid's time: counted by the
 /// rows, or by the time between them where rows are missing. Gives the times of the grid.
 std::optional<std::vector<double>> grid_behind(const std::vector<double>& stamps, const std::vector<double>& places,
-                                               const Rounding& rounding) {
+                                               const std::vector<double>& rounding) {
   std::vector<double> weights, grid;
-  for (const double t : stamps) weights.push_back(1.0 / (rounding(t) * rounding(t)));
+  for (const double most : rounding) weights.push_back(1.0 / (most * most));
   const Line line = line_through(stamps, places, weights);
   for (std::size_t k = 0; k < stamps.size(); ++k) {
     grid.push_back(line.at + places[k] * line.step);
     constexpr double of_the_line = 1.6;  // ties that go up here and down there move it by half a rounding
-    if (std::abs(grid[k] - stamps[k]) > of_the_line * rounding(stamps[k])) return std::nullopt;
+    if (std::abs(grid[k] - stamps[k]) > of_the_line * rounding[k]) return std::nullopt;
     // two neighbours are rounded by less than a whole one from each other: one that stands twice is another fault
     constexpr double less_than_two = 1.998;
-    if (k > 0 && std::abs(grid[k] - grid[k - 1] - stamps[k] + stamps[k - 1]) > less_than_two * rounding(stamps[k]))
+    if (k > 0 && std::abs(grid[k] - grid[k - 1] - stamps[k] + stamps[k - 1]) > less_than_two * rounding[k])
       return std::nullopt;
   }
   grid.front() = std::max(0.0, grid.front());
@@ -151,14 +152,12 @@ std::optional<std::string> even_out_rounded_stamps(RecordedTable& table) {
   std::vector<double>& stamps = table.time.values;
   if (stamps.size() < rules::least_samples || !std::is_sorted(stamps.begin(), stamps.end())) return std::nullopt;
   const double step = mean_step(stamps);
-  const Rounding rounding(stamps);
-  const double coarsest = 2.0 * rounding(stamps.back());
+  const std::vector<double> rounding = roundings(stamps);
+  const double coarsest = 2.0 * rounding.back();
   if (stamps.front() < 0.0 || coarsest <= rules::even_enough * step) return std::nullopt;
-  std::vector<double> by_rows, by_time;
-  for (std::size_t k = 0; k < stamps.size(); ++k) {
-    by_rows.push_back(static_cast<double>(k));
-    by_time.push_back(k == 0 ? 0.0 : by_time.back() + std::max(1.0, std::round((stamps[k] - stamps[k - 1]) / step)));
-  }
+  std::vector<double> by_rows = rows_in_turn(stamps.size()), by_time{0.0};
+  for (std::size_t k = 1; k < stamps.size(); ++k)
+    by_time.push_back(by_time.back() + std::max(1.0, std::round((stamps[k] - stamps[k - 1]) / step)));
   for (const std::vector<double>* places : {&by_rows, &by_time})
     if (auto grid = grid_behind(stamps, *places, rounding)) {
       double off = 0.0;
@@ -174,9 +173,7 @@ std::optional<std::string> even_out_rounded_stamps(RecordedTable& table) {
 SampleTimes sample_times(const RecordedTable& table, const MissingRows& rows) {
   const std::vector<double>& stamps = table.time.values;
   const std::vector<double> t = with_pauses_closed(table, rows.step);
-  std::vector<double> rows_in_turn(t.size());
-  std::iota(rows_in_turn.begin(), rows_in_turn.end(), 0.0);
-  const auto [start, period] = line_through(t, rows_in_turn, std::vector<double>(t.size(), 1.0));
+  const auto [start, period] = line_through(t, rows_in_turn(t.size()), std::vector<double>(t.size(), 1.0));
   const double duration = static_cast<double>(t.size()) * period;
   if (duration < rules::least_duration - 1e-9)
     reject(table.where(), fmt::format("{} samples of {:.6g} s are {:.6g} s; a diagnosis needs at least {} s", t.size(),

@@ -49,8 +49,6 @@ struct MapEquations {
   }
 };
 
-void put_on(RecordedDrive& drive, const LearnedMap& map) { map.form.put(drive, CubicTable(map.points, map.values)); }
-
 /// Of a hypothesis whose map is on.
 MapEquations map_equations(const Evaluation& evaluation, const Hypothesis& h, const LearnedMap& map) {
   const std::vector<double>& points = map.points;
@@ -115,6 +113,8 @@ void move_map(const Evaluation& evaluation, Hypothesis& h, LearnedMap& map, cons
 }
 
 }  // namespace
+
+void put_on(RecordedDrive& drive, const LearnedMap& map) { map.form.put(drive, CubicTable(map.points, map.values)); }
 
 std::optional<LearnedMap> chosen_by_parts(const Evaluation& evaluation, const Hypothesis& h, const MapForm& form,
                                           const std::vector<double>& sorted, std::span<const std::size_t> counts) {

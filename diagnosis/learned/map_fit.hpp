@@ -16,6 +16,9 @@ struct LearnedMap {
   double left_out{};  ///< how much worse it predicts what was left out than no map does [nats]; negative
 };
 
+/// Switches the effect of a map on, with its table.
+void put_on(RecordedDrive& drive, const LearnedMap& map);
+
 /// A map of nothing yet, with that number of points and the smoothness that predict best what is left out; nothing
 /// where no map does. sorted: the values of its axis. counts: numbers of points to try, fewest first.
 std::optional<LearnedMap> chosen_by_parts(const Evaluation& evaluation, const Hypothesis& h, const MapForm& form,

@@ -1,6 +1,7 @@
 #include "diagnosis/verdict/learned_terms.hpp"
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -29,11 +30,14 @@ struct PromisingForm {
 
 std::vector<PromisingForm> promising_forms(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
   std::vector<PromisingForm> all;
+  std::map<MapArgument, std::vector<double>> values;
   for (const MapForm& form : map_forms(h.drive, sizes, stated_mesh(evaluation.scenario()).i)) {
-    std::vector<double> sorted = values_of(form.over, evaluation, h);
+    const auto [found, is_new] = values.try_emplace(form.over);
+    std::vector<double>& sorted = found->second;
+    if (is_new) sorted = values_of(form.over, evaluation, h);
     if (sorted.empty()) continue;
     const auto map = chosen_by_parts(evaluation, h, form, sorted, std::span(&rules::points_of_trial_map, 1));
-    if (map) all.push_back({form, std::move(sorted), map->left_out});
+    if (map) all.push_back({form, sorted, map->left_out});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const PromisingForm& x, const PromisingForm& y) { return x.left_out < y.left_out; });
@@ -85,16 +89,16 @@ std::optional<LearnedTerms> learned_terms(const Evaluation& evaluation, const Hy
 
 Hypothesis refined_terms(const Evaluation& evaluation, const LearnedTerms& terms, const Hypothesis& h,
                          const Magnitudes& sizes) {
-  const auto put_on = [&](Hypothesis to) {
+  const auto with_terms = [&](Hypothesis to) {
     if (terms.vibration) add_vibration(to, *terms.vibration, sizes);
-    for (const LearnedMap& map : terms.maps) map.form.put(to.drive, CubicTable(map.points, map.values));
+    for (const LearnedMap& map : terms.maps) put_on(to.drive, map);
     evaluate(evaluation, to);
     return to;
   };
-  Hypothesis refined = put_on(h);
+  Hypothesis refined = with_terms(h);
   for (LearnedMap map : terms.maps) fit_map(evaluation, refined, map);
   fit(evaluation, refined, 2);
-  return can_move(evaluation, refined) ? refined : put_on(h);
+  return can_move(evaluation, refined) ? refined : with_terms(h);
 }
 
 }  // namespace wormdrive
