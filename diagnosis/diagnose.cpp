@@ -15,6 +15,7 @@
 #include "diagnosis/candidates/tolerances.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/noise_sizes.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/inference/alone.hpp"
 #include "diagnosis/inference/intervals.hpp"
@@ -274,11 +275,10 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
   if (auto remark = other_ratio(d, scenario, sizes.has_worm_encoder)) d.remarks.push_back(std::move(*remark));
   for (const PreparedRecording& r : evaluation.layout().recordings)
-    if (r.every > 1)
+    if (!r.shares.empty())
       d.remarks.push_back(
-          fmt::format("{}: one in {} readings is used: a step of the encoder, {:.2g} {}, is longer than "
-                      "the way between two samples",
-                      r.data.name, r.every, r.data.gear_resolution, units_on(scenario.axis, "rad")));
+          fmt::format("{}: readings that are closer than a step of the encoder, {:.2g} {}, count as one together",
+                      r.data.name, r.data.gear_resolution, units_on(scenario.axis, "rad")));
   if (evaluation.layout().samples < by_all.layout().samples)
     d.remarks.push_back(
         fmt::format("causes were sought in {} of the {} samples, in pieces from all of the time; what was found is "

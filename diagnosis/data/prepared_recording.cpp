@@ -51,23 +51,29 @@ std::vector<double> worm_at_gear(const Recording& recording, double ratio) {
   return angle;
 }
 
-/// How many samples apart the readings of an encoder have to be so that one in four at most, while the gear moves,
-/// repeats the one before. Rounding errors of readings that are closer are alike: they would pass for something that
-/// the model can follow. Not beyond the slowest sampling that shows how a drive starts and stops.
-std::size_t telling_interval(const Recording& recording, const std::vector<std::uint8_t>& moving) {
-  if (recording.gear_resolution == 0.0) return 1;
-  const auto longest = static_cast<std::size_t>(rules::longest_period / recording.period);
+/// Whether readings repeat the one before too often while the gear moves.
+bool repeats_itself(const Recording& recording, const std::vector<std::uint8_t>& moving) {
   const std::vector<double>& y = recording.gear_angle;
-  for (std::size_t every = 1; every < longest; ++every) {
-    std::size_t repeated = 0, all = 0;
-    for (std::size_t k = every; k < y.size(); k += every) {
-      if (!moving[k]) continue;
-      ++all;
-      if (std::abs(y[k] - y[k - every]) < 0.5 * recording.gear_resolution) ++repeated;
-    }
-    if (static_cast<double>(repeated) <= rules::most_repeated * static_cast<double>(all)) return every;
+  std::size_t repeated = 0, all = 0;
+  for (std::size_t k = 1; k < y.size(); ++k) {
+    if (!moving[k]) continue;
+    ++all;
+    if (std::abs(y[k] - y[k - 1]) < 0.5 * recording.gear_resolution) ++repeated;
   }
-  return std::max<std::size_t>(1, longest);
+  return static_cast<double>(repeated) > rules::most_repeated * static_cast<double>(all);
+}
+
+/// What each reading counts, of a sensor whose steps are longer than the way between two readings. Rounding errors of
+/// readings that are closer than a step are alike: they would pass for something that the model can follow. Together
+/// they count as one. None of them can be left out, for a controller has seen it and its torque tells of it.
+std::vector<double> shares_of_readings(const Recording& recording, const std::vector<double>& speed) {
+  // at this speed as many readings repeat the one before as may
+  const double whole = (1.0 - rules::most_repeated) * recording.gear_resolution / recording.period;
+  const double least = std::min(1.0, recording.period / rules::longest_period);
+  std::vector<double> shares(speed.size());
+  std::transform(speed.begin(), speed.end(), shares.begin(),
+                 [&](double v) { return std::clamp(std::abs(v) / whole, least, 1.0); });
+  return shares;
 }
 
 }  // namespace
@@ -99,12 +105,8 @@ PreparedRecording prepared(const Recording& recording, std::size_t first_block, 
   for (std::size_t k = 0; k < n; ++k) {
     p.moving[k] = std::abs(p.speed[k]) > rules::standing_share * p.rms_speed;
   }
-  if (!recording.has_worm_encoder()) p.every = telling_interval(recording, p.moving);
-  if (p.every > 1) {
-    p.data.valid.resize(n, 1);
-    for (std::size_t k = 0; k < n; ++k)
-      if (k % p.every != 0) p.data.valid[k] = 0;
-  }
+  if (!recording.has_worm_encoder() && repeats_itself(recording, p.moving))
+    p.shares = shares_of_readings(recording, p.speed);
   for (std::size_t k = 0; k < n; ++k) {
     p.used[k] = static_cast<double>(k) * Ts >= rules::burn_in && (p.data.valid.empty() || p.data.valid[k]);
     p.held_out[k] = is_held_out(first_block + k / p.block_length);

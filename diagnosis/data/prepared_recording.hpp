@@ -21,12 +21,13 @@ struct PreparedRecording {
   std::vector<std::uint8_t> held_out;  ///< not used for fits
   std::vector<TorqueSpike> torque_spikes;
   std::size_t block_length{};  ///< samples
-  std::size_t every = 1;       ///< every so many-th reading is used: an encoder of long steps repeats itself
+  std::vector<double> shares;  ///< what every reading of the gear's encoder counts; empty: each one wholly
   double rms_speed{};          ///< [rad/s]
   double rms_torque{};         ///< [N m]
   double largest_torque{};     ///< magnitude [N m]
 
   std::size_t samples() const { return data.samples(); }
+  double share(std::size_t k) const { return shares.empty() ? 1.0 : shares[k]; }
   std::size_t blocks() const { return (samples() + block_length - 1) / block_length; }
   /// Of the stretch without a pause in which a sample lies, its first sample, and the sample after its last.
   std::size_t start_of_stretch(std::size_t k) const {

@@ -37,8 +37,8 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
   const PreparedRecording& prepared = is_wrong ? as_it_was : as_recorded;
   const auto with_model = [&]<class Model>(auto&& load) {
     typename Model::Drive followed_drive(stated_mesh(scenario_), std::move(load), followed, {});
-    Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared,
-                               observer_gains(noise, prepared.data), extra);
+    Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared, observer_gains(noise, prepared),
+                               extra);
     use(predictor);
   };
   const LoadParameters& moved = moved_load(scenario_, prepared.data);

@@ -68,15 +68,26 @@ void fit(const Evaluation& evaluation, Hypothesis& h, int rounds, double least_g
   if (search_steps(evaluation, h)) follow_slopes(evaluation, h, rounds, least_gain);
 }
 
+namespace {
+
+double most_process_noise(const Evaluation& evaluation) {
+  const std::vector<PreparedRecording>& all = evaluation.layout().recordings;
+  const bool repeats =
+      std::any_of(all.begin(), all.end(), [](const PreparedRecording& r) { return !r.shares.empty(); });
+  return repeats ? rules::most_process_noise_of_steps : rules::most_process_noise;
+}
+
+}  // namespace
+
 void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
+  const double most = most_process_noise(evaluation);
   for (double ProcessNoise::*kind : {&ProcessNoise::white, &ProcessNoise::coloured})
     for (const double factor : {2.0, 0.5}) {
       bool any = false;
       for (int k = 0; k < depth; ++k) {
         Hypothesis trial = h;
         trial.noise.*kind *= factor;
-        if (trial.noise.white < rules::least_process_noise || trial.noise.white > rules::most_process_noise ||
-            trial.noise.coloured > rules::most_process_noise)
+        if (trial.noise.white < rules::least_process_noise || trial.noise.white > most || trial.noise.coloured > most)
           break;
         if (!evaluate(evaluation, trial) || trial.objective >= h.objective - rules::least_noise_gain) break;
         h = std::move(trial);
@@ -144,8 +155,8 @@ void restart_noise(const Evaluation& evaluation, Hypothesis& h) {
   for (const ProcessNoise& start : starts) try_with(start.white, start.coloured);
   if (!hides_what_is_slow(h.noise_model)) return;
   const ProcessNoise hiding = h.noise;
-  for (double coloured = 2.0 * hiding.coloured; coloured <= rules::most_process_noise; coloured *= 2.0)
-    try_with(hiding.white, coloured);
+  const double most = most_process_noise(evaluation);
+  for (double coloured = 2.0 * hiding.coloured; coloured <= most; coloured *= 2.0) try_with(hiding.white, coloured);
 }
 
 }  // namespace wormdrive

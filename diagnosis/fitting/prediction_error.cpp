@@ -158,45 +158,7 @@ void bootstrap(const std::vector<Stretch>& all, std::uint64_t seed, PredictionEr
   e.after_high = drawn[draws - 1 - draws / 40];
 }
 
-/// Noise of one recording, and of how many samples it is known.
-struct RecordedNoise {
-  NoiseSizes sizes{};
-  double samples = 0.0;
-};
-
-RecordedNoise recorded_noise(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording) {
-  const PreparedRecording& r = evaluation.layout().recordings[recording];
-  const std::span<const double> e =
-      evaluation.layout().of(evaluation.layout().leading(recording), std::span(h.innovations));
-  std::vector<double> sizes;
-  for (std::size_t k = 0; k < r.samples(); ++k)
-    if (r.used[k] && r.moving[k]) sizes.push_back(std::abs(e[k]));
-  if (sizes.empty()) return {};
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-  constexpr double normal_median = 0.6745;
-  const double innovation = sizes[sizes.size() / 2] / normal_median;
-  const double K = observer_gains(h.noise, r.data.period).angle;  // = P/(P + 1)
-  RecordedNoise noise{{}, static_cast<double>(sizes.size())};
-  noise.sizes.angle = innovation * std::sqrt(std::max(0.0, 1.0 - K));
-  const ProcessNoise process = h.noise.over(r.data.period);
-  noise.sizes.torque = std::hypot(process.white, process.coloured) * noise.sizes.angle *
-                       inertia_on_worm(evaluation, h, recording) / (r.data.period * r.data.period);
-  return noise;
-}
-
 }  // namespace
-
-NoiseSizes noise_sizes(const Evaluation& evaluation, const Hypothesis& h) {
-  double samples = 0.0, angles = 0.0, torques = 0.0;
-  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
-    const RecordedNoise one = recorded_noise(evaluation, h, r);
-    samples += one.samples;
-    angles += one.samples * one.sizes.angle * one.sizes.angle;
-    torques += one.samples * one.sizes.torque * one.sizes.torque;
-  }
-  if (samples == 0.0) return {};
-  return {std::sqrt(angles / samples), std::sqrt(torques / samples)};
-}
 
 double error_ahead(const Evaluation& evaluation, const Hypothesis& h, double horizon) {
   return rms(Forecast(evaluation, h).of_data(horizon));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnosis/fitting/gap_search.hpp"
+#include "diagnosis/fitting/noise_sizes.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"

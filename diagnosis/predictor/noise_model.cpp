@@ -60,11 +60,19 @@ double freedom_within_step(double scale, double resolution) {
   return wide * half_step * half_step;
 }
 
-double iterated_scale(const std::vector<double>& squares, double scale, double nu, double least) {
-  double sum = 0.0;
+/// Of an innovation, with what it counts.
+struct Square {
+  double value, share;
+};
+
+double iterated_scale(const std::vector<Square>& squares, double scale, double nu, double least) {
+  double sum = 0.0, count = 0.0;
   const double inverse = 1.0 / (scale * scale);
-  for (const double q : squares) sum += (nu + 1.0) * q / (nu + q * inverse);
-  return std::max(least, std::sqrt(sum / static_cast<double>(squares.size())));
+  for (const Square& q : squares) {
+    sum += q.share * (nu + 1.0) * q.value / (nu + q.value * inverse);
+    count += q.share;
+  }
+  return std::max(least, std::sqrt(sum / count));
 }
 
 /// Student's t as a negative log likelihood, less what it is at zero with the usual degrees of freedom.
@@ -76,9 +84,10 @@ class NegativeLogLikelihood {
         power_(0.5 * (g.freedom + 1.0)),
         inverse_(1.0 / (g.freedom * g.scale * g.scale)) {}
   double operator()(double square) const { return level_ + power_ * std::log1p(square * inverse_); }
-  double operator()(const std::vector<double>& squares) const {
-    return std::accumulate(squares.begin(), squares.end(), 0.0,
-                           [&](double sum, double square) { return sum + (*this)(square); });
+  double operator()(const std::vector<Square>& squares) const {
+    return std::accumulate(squares.begin(), squares.end(), 0.0, [&](double sum, const Square& square) {
+      return sum + square.share * (*this)(square.value);
+    });
   }
 
  private:
@@ -87,7 +96,7 @@ class NegativeLogLikelihood {
 
 /// Scale and tails of a group: the usual tails, or those of errors of rounding where there is hardly any other noise
 /// and the errors become more likely.
-void fit_scale_and_tails(NoiseGroup& group, const std::vector<double>& squares, double least, double resolution,
+void fit_scale_and_tails(NoiseGroup& group, const std::vector<Square>& squares, double least, double resolution,
                          int rounds) {
   for (int k = 0; k < rounds && (k == 0 || group.scale > least); ++k)
     group.scale = iterated_scale(squares, group.scale, rules::tail_freedom, least);
@@ -117,6 +126,7 @@ InnovationLayout::InnovationLayout(std::vector<PreparedRecording> all) : recordi
       for (std::size_t k = 0; k < r.samples(); ++k) {
         group.push_back(static_cast<std::uint8_t>(2 * channels.size() + (r.moving[k] ? 1 : 0)));
         part.push_back(static_cast<std::uint8_t>(!r.used[k] ? 0 : r.held_out[k] ? 2 : 1));
+        share.push_back(r.share(k));
         block.push_back(static_cast<std::uint32_t>(first_blocks[q] + k / r.block_length));
       }
       channels.push_back({q, of_worm, size, of_worm ? r.worm_resolution : r.data.gear_resolution});
@@ -128,13 +138,17 @@ const Channel& InnovationLayout::leading(std::size_t recording) const {
   return *std::find_if(channels.rbegin(), channels.rend(), [&](const Channel& c) { return c.recording == recording; });
 }
 
-std::size_t InnovationLayout::fitted() const {
-  return static_cast<std::size_t>(std::count(part.begin(), part.end(), std::uint8_t{1}));
+double InnovationLayout::fitted() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < size; ++k)
+    if (part[k] == 1) sum += share[k];
+  return sum;
 }
 
 NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double> innovations, bool whitens) {
   NoiseModel noise{std::vector<NoiseGroup>(layout.groups()), whitens};
-  std::vector<double> means, rest;
+  std::vector<double> means, sizes;
+  std::vector<Square> rest;
   for (std::size_t c = 0; c < layout.channels.size(); ++c) {
     const Channel& channel = layout.channels[c];
     const PreparedRecording& recording = layout.recordings[channel.recording];
@@ -157,9 +171,9 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
       std::vector<std::size_t> members;
       for (std::size_t k = 0; k < n; ++k)
         if (mine(k)) members.push_back(k);
-      rest.clear();
-      for (std::size_t q = 0; q < members.size(); q += 5) rest.push_back(std::abs(e[members[q]]));
-      group.scale = std::max(least, rest.size() > rules::fewest_for_scale ? robust_scale(rest) : 0.0);
+      sizes.clear();
+      for (std::size_t q = 0; q < members.size(); q += 5) sizes.push_back(std::abs(e[members[q]]));
+      group.scale = std::max(least, sizes.size() > rules::fewest_for_scale ? robust_scale(sizes) : 0.0);
       if (members.empty()) continue;
       const int rounds = whitens && members.size() >= rules::fewest_for_weights ? 2 : 0;
       for (int round = 0; round <= rounds; ++round) {
@@ -170,7 +184,7 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
           for (const std::size_t k : members) {
             const Eigen::Map<const Vector> z(&means[k * terms]);
             const double x = e[k] - predicted(group.weights, z.data());
-            const double weight = (nu + 1.0) / (nu + x * x * inverse);
+            const double weight = layout.share[begin + k] * (nu + 1.0) / (nu + x * x * inverse);
             b += weight * e[k] * z;
             A += (weight * z) * z.transpose();
           }
@@ -181,7 +195,7 @@ NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double
         rest.clear();
         for (const std::size_t k : members) {
           const double x = e[k] - (whitens ? predicted(group.weights, &means[k * terms]) : 0.0);
-          rest.push_back(x * x);
+          rest.push_back({x * x, layout.share[begin + k]});
         }
         fit_scale_and_tails(group, rest, least, channel.resolution, round == rounds ? 6 : 3);
       }
@@ -225,6 +239,7 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
     const PreparedRecording& recording = layout.recordings[channel.recording];
     Means z(recording.data.period);
     const std::size_t begin = channel.begin, end = begin + recording.samples();
+    double told = 1.0, last = 0.0;  // errors of readings that count as one are alike
     for (std::size_t k = begin; k < end; ++k) {
       const std::vector<double>& pool = pools[layout.group[k]];
       const bool is_read = recording.data.valid.empty() || recording.data.valid[k - begin] != 0;
@@ -232,8 +247,13 @@ std::vector<double> drawn_innovations(const InnovationLayout& layout, std::span<
         z.add(0.0);
         continue;
       }
-      const std::uint64_t draw = random();  // its lowest bit is the sign
-      e[k] = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
+      told += layout.share[k];
+      if (noise.whitens || told >= 1.0) {
+        const std::uint64_t draw = random();  // its lowest bit is the sign
+        last = (draw & 1U ? 1.0 : -1.0) * pool[(draw >> 1U) % pool.size()];
+        told -= 1.0;
+      }
+      e[k] = last;
       // weights that keep most of what is steady tell of slow structure, and would let noise grow
       const WhiteningWeights& weights = noise.groups[layout.group[k]].weights;
       if (noise.whitens && std::accumulate(weights.begin(), weights.end(), 0.0) < rules::hides_what_is_slow)
@@ -250,7 +270,7 @@ Misfit misfit(const InnovationLayout& layout, std::span<const double> w, const N
   const std::vector<NegativeLogLikelihood> negative_log_likelihood(noise.groups.begin(), noise.groups.end());
   for (std::size_t k = 0; k < layout.size; ++k) {
     if (layout.part[k] == 0) continue;
-    sum.blocks[layout.block[k]] += negative_log_likelihood[layout.group[k]](w[k] * w[k]);
+    sum.blocks[layout.block[k]] += layout.share[k] * negative_log_likelihood[layout.group[k]](w[k] * w[k]);
   }
   std::vector<std::uint8_t> out(layout.blocks, 0);
   for (std::size_t k = 0; k < layout.size; ++k)
@@ -265,7 +285,7 @@ std::vector<double> fit_weights(const InnovationLayout& layout, std::span<const 
     if (layout.part[k] != 1) continue;
     const NoiseGroup& group = noise.groups[layout.group[k]];
     const double nu = group.freedom, s2 = group.scale * group.scale;
-    weight[k] = (nu + 1.0) / ((nu + w[k] * w[k] / s2) * s2);
+    weight[k] = layout.share[k] * (nu + 1.0) / ((nu + w[k] * w[k] / s2) * s2);
   }
   return weight;
 }

@@ -40,6 +40,7 @@ struct InnovationLayout {
   std::vector<std::uint8_t> group;        ///< of every innovation: 2 channel + moving
   std::vector<std::uint8_t> part;         ///< of every innovation: 0 not used, 1 fitted, 2 held out
   std::vector<std::uint32_t> block;       ///< of every innovation
+  std::vector<double> share;              ///< of every innovation: what it counts
 
   explicit InnovationLayout(std::vector<PreparedRecording> all);
 
@@ -62,7 +63,7 @@ struct InnovationLayout {
   }
   /// Of the encoder that the predictor's state is corrected by: the worm's where there is one.
   const Channel& leading(std::size_t recording) const;
-  std::size_t fitted() const;  ///< number of innovations
+  double fitted() const;  ///< number of innovations that are
 };
 
 /// The noise as estimated from the fitted samples of innovations.

@@ -76,8 +76,9 @@ ObserverGains observer_gains(const ProcessNoise& stated, double period) {
   return {K[0], K[1], K[2], a};
 }
 
-std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Recording& recording) {
-  if (is_steady(recording)) return {observer_gains(stated, recording.period)};
+std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const PreparedRecording& prepared) {
+  const Recording& recording = prepared.data;
+  if (prepared.shares.empty() && is_steady(recording)) return {observer_gains(stated, recording.period)};
   const ProcessNoise noise = stated.over(recording.period);
   // The angle is a reading of the sensor. The speed, of a line through samples between which the motion may bend, is as
   // good as unknown: what follows tells it.
@@ -93,7 +94,7 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Reco
     const double step = recording.time(k) - recording.time(k - 1), keep = std::exp(-step / rules::colouring_time);
     P = Propagation(noise, step / recording.period, keep).ahead(P);
     Eigen::Vector3d K = Eigen::Vector3d::Zero();
-    if (recording.valid.empty() || recording.valid[k]) K = P.col(0) / (P(0, 0) + 1.0);
+    if (recording.valid.empty() || recording.valid[k]) K = P.col(0) / (P(0, 0) + 1.0 / prepared.share(k));
     P -= K * P.row(0).eval();
     gains[k] = {K[0], K[1], K[2], keep};
   }

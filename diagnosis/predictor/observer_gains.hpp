@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "diagnosis/data/recording.hpp"
+#include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/predictor/restitution.hpp"
 
 namespace wormdrive {
@@ -31,8 +31,9 @@ struct ObserverGains {
 /// is measured [Kalman 1960]; the states are scaled to the sensor's noise and to the period [s].
 ObserverGains observer_gains(const ProcessNoise& noise, double period);
 
-/// The gains for every sample of a recording whose steps are uneven, or of which samples are missing, by the same
-/// filter while it is not steady; a single one where all would be alike. Where nothing is measured they are 0.
-std::vector<ObserverGains> observer_gains(const ProcessNoise& noise, const Recording& recording);
+/// The gains for every sample of a recording whose steps are uneven, of which samples are missing or whose readings
+/// count by shares, by the same filter while it is not steady; a single one where all would be alike. Where nothing is
+/// measured they are 0. A reading that counts by a share is as if its noise had the variance of one divided by it.
+std::vector<ObserverGains> observer_gains(const ProcessNoise& noise, const PreparedRecording& recording);
 
 }  // namespace wormdrive

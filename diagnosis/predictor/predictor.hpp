@@ -9,8 +9,10 @@
 #include "core/effects.hpp"
 #include "diagnosis/data/prepared_recording.hpp"
 #include "diagnosis/predictor/filtered_states.hpp"
+#include "diagnosis/predictor/flight.hpp"
 #include "diagnosis/predictor/observer_gains.hpp"
 #include "diagnosis/rules/noise.hpp"
+#include "events/simulation_failure.hpp"
 
 namespace wormdrive {
 

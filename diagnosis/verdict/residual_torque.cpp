@@ -18,14 +18,14 @@ std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hyp
   std::vector<std::vector<double>> all;
   for (std::size_t recording = 0; recording < evaluation.layout().recordings.size(); ++recording) {
     const PreparedRecording& r = evaluation.layout().recordings[recording];
-    const double Ts = static_cast<double>(r.every) * r.data.period, speed_gain = observer_gains(h.noise, Ts).speed;
-    const double per_acceleration = inertia_on_worm(evaluation, h, recording);
+    const std::vector<ObserverGains> gains = observer_gains(h.noise, r);
+    const double per_speed = inertia_on_worm(evaluation, h, recording) / (r.data.period * r.data.period);
     std::vector<double>& torque = all.emplace_back(r.samples(), 0.0);
     for (std::size_t k = 0; goes_on && k < torque.size(); ++k) {
       const std::size_t q = evaluation.layout().leading(recording).begin + k;
       const double limit = rules::clip_of_torque * h.noise_model.groups[evaluation.layout().group[q]].scale;
       const double e = std::clamp(h.innovations[q], -limit, limit);
-      torque[k] = per_acceleration * speed_gain * e / (Ts * Ts) + states[recording].torque[k];
+      torque[k] = per_speed * gains[gains.size() == 1 ? 0 : k].speed * e + states[recording].torque[k];
     }
   }
   return all;
@@ -46,7 +46,7 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
       double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
       bool whole = true;
       for (std::size_t k = begin; k < begin + bin; ++k) {
-        whole = whole && recording.moving[k] && (recording.used[k] || k % recording.every != 0);
+        whole = whole && recording.moving[k] && recording.used[k];
         if (!recording.used[k]) continue;
         sum_then += then[k];
         sum_now += now[k];

@@ -114,8 +114,8 @@ TEST_CASE("friction that grows with the load predicts a servo better than its pu
     const Diagnosis d = diagnose(sheet, seen, {.threads = 2});
     CAPTURE(gains[k], d.sentence);
     CHECK(d.verdict == Verdict::unexplained);
-    CHECK(d.sentence.find(" The extended scenario holds friction under load, which claims no cause.") !=
-          std::string::npos);
+    CHECK(d.sentence.find(" The extended scenario holds friction under load") != std::string::npos);
+    CHECK(d.sentence.find(" no cause.") != std::string::npos);
     const auto& friction = std::get<std::optional<FrictionUnderLoad<double>>>(d.extended.effects.list);
     REQUIRE(friction);
     CHECK(friction->share > 0.3);
@@ -125,7 +125,7 @@ TEST_CASE("friction that grows with the load predicts a servo better than its pu
     };
     const double ours = error_of(d.extended), theirs = error_of(published);
     CAPTURE(ours, theirs);
-    CHECK(ours < (k == 0 ? 0.9 : 0.93) * theirs);  // 0.85 and 0.91
+    CHECK(ours < (k == 0 ? 0.9 : 0.93) * theirs);  // 0.89 and 0.93
   }
 }
 

@@ -4,7 +4,7 @@
 #include "diagnosis/break_in_data.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/fitting/hypothesis.hpp"
-#include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/fitting/noise_sizes.hpp"
 #include "diagnosis/recordings.hpp"
 #include "diagnosis/report/diagnosis_json.hpp"
 #include "support.hpp"

@@ -7,6 +7,7 @@
 #include "diagnosis/fitting/hypothesis.hpp"
 #include "diagnosis/logger.hpp"
 #include "diagnosis/servo_logs.hpp"
+#include "numbers.hpp"
 #include "support.hpp"
 
 // Logs of which rows are missing, or whose times are not even: what is read of them, and how they are predicted.
@@ -37,6 +38,13 @@ Recording wheel(double period = 1e-3) {
     speed += torque / 0.01 * period;
   }
   r.valid.assign(r.samples(), 1);
+  return r;
+}
+
+/// The same as an encoder with such steps sees it.
+Recording counted(Recording r, double step) {
+  for (double& angle : r.gear_angle) angle = step * std::round(angle / step);
+  r.gear_resolution = step;
   return r;
 }
 
@@ -144,11 +152,11 @@ TEST_CASE("a prediction goes on over missing rows without comparing them, and an
 TEST_CASE("the gains of uneven samples become those of even ones as the steps do") {
   Recording r = wheel();
   const ProcessNoise noise{.white = 0.02, .coloured = 0.005};
-  REQUIRE(observer_gains(noise, r).size() == 1);
+  REQUIRE(observer_gains(noise, prepared(r, 0)).size() == 1);
   for (std::size_t k = 0; k < r.samples(); ++k) r.times.push_back(static_cast<double>(k) * r.period);
-  CHECK(observer_gains(noise, r).size() == 1);
+  CHECK(observer_gains(noise, prepared(r, 0)).size() == 1);
   r.valid[500] = 0;
-  const std::vector<ObserverGains> gains = observer_gains(noise, r);
+  const std::vector<ObserverGains> gains = observer_gains(noise, prepared(r, 0));
   const ObserverGains steady = observer_gains(noise, r.period);
   REQUIRE(gains.size() == r.samples());
   CHECK(gains[500].angle == 0.0);
@@ -156,6 +164,29 @@ TEST_CASE("the gains of uneven samples become those of even ones as the steps do
   CHECK(std::abs(gains[499].angle / steady.angle - 1.0) < 1e-4);
   CHECK(std::abs(gains[499].speed / steady.speed - 1.0) < 1e-4);
   CHECK(std::abs(gains[499].torque / steady.torque - 1.0) < 1e-4);
+}
+
+TEST_CASE("readings that are closer than a step of the encoder count as one together, and fast ones wholly") {
+  const Recording r = wheel();
+  const std::vector<double> speed = prepared(r, 0).speed;
+  const double longest = *std::max_element(speed.begin(), speed.end()) * r.period;
+  CHECK(prepared(r, 0).shares.empty());
+  CHECK(prepared(counted(r, 0.01 * longest), 0).shares.empty());
+  const PreparedRecording coarse = prepared(counted(r, longest), 0);
+  REQUIRE(coarse.shares.size() == r.samples());
+  for (std::size_t k = 0; k < r.samples(); ++k) {
+    const double steps = std::abs(coarse.speed[k]) * r.period / longest;
+    CHECK(close(coarse.share(k), std::clamp(steps / 0.75, r.period / 0.02, 1.0), 1e-12));
+  }
+
+  // a reading of a quarter is one with noise of twice the size
+  PreparedRecording quarter = prepared(wheel(), 0);
+  quarter.shares.assign(quarter.samples(), 0.25);
+  const ObserverGains steady = observer_gains({.white = 0.01, .coloured = 0.0025}, quarter.data.period);
+  const ObserverGains last = observer_gains({.white = 0.02, .coloured = 0.005}, quarter).back();
+  CHECK(close(last.angle, steady.angle, 1e-6));
+  CHECK(close(last.speed, steady.speed, 1e-6));
+  CHECK(close(last.torque, steady.torque, 1e-6));
 }
 
 TEST_CASE("one process noise serves recordings of different rates: their filters forget equally fast") {

@@ -108,6 +108,34 @@ TEST_CASE("a fall of friction with more evidence than the level is in its class"
   CHECK(said.classes == std::vector<std::vector<std::string>>{{"mesh_friction", "stribeck"}});
 }
 
+namespace {
+
+/// Of drawn single effects the ones with these numbers are named exactly.
+void are_named(std::uint64_t seed, const std::vector<long>& numbers) {
+  Plan plan{.kind = Kind::single,
+            .conditions = conditions("realistic"),
+            .cases = *std::max_element(numbers.begin(), numbers.end()) + 1,
+            .seed = seed};
+  plan.any_bench = true;
+  const std::vector<Case> all = draw(plan);
+  std::vector<Case> cases;
+  for (const long number : numbers) cases.push_back(all[static_cast<std::size_t>(number)]);
+  for (const Outcome& o : outcomes(cases)) {
+    INFO(o.told);
+    CHECK(o.score == Score::exact);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("with a coarse encoder no torque over speed takes a name back", "[recovery][slow]") { are_named(811, {58}); }
+
+TEST_CASE("with coarse encoders no torque over speed takes names back", "[.][long]") {
+  are_named(701, {54, 89});
+  are_named(811, {67, 89});
+  are_named(831, {9, 88, 100, 149});
+}
+
 TEST_CASE("a diagnosis hangs on no unit of torque", "[recovery]") {
   constexpr double times = 64.0;  // a power of two: no digit changes
   Case drawn = short_ones({.kind = Kind::single,

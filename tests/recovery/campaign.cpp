@@ -216,15 +216,18 @@ truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator) {
   return drive;
 }
 
-wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
-                            const wormdrive::Scenario& sheet, std::uint64_t seed) {
+truth::Recording recorded_motion(const truth::Drive& drive, const truth::EventSequence& course,
+                                 const wormdrive::Scenario& sheet, std::uint64_t seed) {
   truth::Sheet stated = drive.sheet;
   if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass)
     stated.geometry.mass = *arm->mass;
   const auto law = truth::follow(course, stated);
   const double duration = static_cast<double>(course.angle.size()) * course.period;
-  const auto recorded = truth::record(
+  return truth::record(
       drive, law, {.duration = duration, .period = course.period, .start_angle = course.angle.front(), .seed = seed});
+}
+
+wormdrive::Recording as_read(const truth::Recording& recorded, const wormdrive::Scenario& sheet, std::uint64_t seed) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      ("recovery_" + std::to_string(getpid()) + "_" + std::to_string(seed) + ".csv");
   truth::write_csv(recorded, file.string());
@@ -238,6 +241,11 @@ wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequenc
   std::filesystem::remove(file);
   recording.name = "recording";
   return recording;
+}
+
+wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
+                            const wormdrive::Scenario& sheet, std::uint64_t seed) {
+  return as_read(recorded_motion(drive, course, sheet, seed), sheet, seed);
 }
 
 Bench record(const Case& drawn) {

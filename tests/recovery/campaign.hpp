@@ -9,6 +9,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "recovery/truth/excitation.hpp"
 #include "recovery/truth/hidden.hpp"
+#include "recovery/truth/recording.hpp"
 
 namespace recovery {
 
@@ -88,7 +89,13 @@ Bench record(const Case& drawn);
 /// The drive of a case, with what is hidden in it.
 truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator);
 
-/// Follows a course, writes a CSV file of it, and reads that as a user's.
+/// Follows a course as the data sheet's controller does.
+truth::Recording recorded_motion(const truth::Drive& drive, const truth::EventSequence& course,
+                                 const wormdrive::Scenario& sheet, std::uint64_t seed);
+/// Writes a CSV file and reads it as a user's; the seed is part of the file's name. Throws InputFault if it is
+/// rejected.
+wormdrive::Recording as_read(const truth::Recording& recorded, const wormdrive::Scenario& sheet, std::uint64_t seed);
+/// Both, one after the other.
 wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequence& course,
                             const wormdrive::Scenario& sheet, std::uint64_t seed);
 

@@ -9,6 +9,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "recovery/programs/experiments.hpp"
+#include "recovery/programs/mistakes.hpp"
 #include "recovery/programs/thresholds.hpp"
 #include "recovery/tables.hpp"
 
@@ -98,7 +99,8 @@ int main(int argc, char** argv) {
       "--hide", kind,
       "what is hidden: single, nothing, pair, cancelling, stated_off (an effect beside a stated number that is far "
       "off) or outside (of the catalogue); or a study: thresholds (the "
-      "smallest size that is named), unseen (motions that cannot show the effect), experiments (proposed ones)");
+      "smallest size that is named), unseen (motions that cannot show the effect), experiments (proposed ones), slips "
+      "(in the data sheet), faults (of the recording)");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--sizes", sizes, "sizes of the effects: small, medium, large")->delimiter(',');
   app.add_option("--effects", plan.effects, "hide only these effects")->delimiter(',');
@@ -113,7 +115,8 @@ int main(int argc, char** argv) {
   app.add_option("--output", output, "Markdown file to write");
   CLI11_PARSE(app, argc, argv);
   try {
-    const bool special = kind == "thresholds" || kind == "unseen" || kind == "experiments";
+    constexpr std::string_view studies[] = {"thresholds", "unseen", "experiments", "slips", "faults"};
+    const bool special = std::find(std::begin(studies), std::end(studies), kind) != std::end(studies);
     plan.kind = special ? Kind::single : recovery::kind(kind);
     plan.conditions = recovery::conditions(conditions);
     if (worm_encoder) plan.conditions.worm_counts = 4096;
@@ -146,6 +149,8 @@ int main(int argc, char** argv) {
       plan.duration = 12.0;
       add("\n### Experiments\n\n" + table(recovery::experiments(plan, diagnose)));
     }
+    if (kind == "slips") add(table(recovery::mistakes(recovery::slips(), plan, diagnose, threads)));
+    if (kind == "faults") add(table(recovery::mistakes(recovery::recording_faults(), plan, diagnose, threads)));
     std::cout << "\n" << text;
   } catch (const std::exception& fault) {
     std::cerr << "recovery_campaign: " << fault.what() << "\n";
