@@ -24,6 +24,11 @@ TEST_CASE("a servo whose friction grows with its load is predicted by friction b
   CHECK(d.sentence.find(
             " The extended scenario holds mesh friction, which claims no cause. On data not used for the fit the "
             "0.25 s prediction error falls from ") != std::string::npos);
+  CHECK(std::any_of(d.remarks.begin(), d.remarks.end(), [](const std::string& remark) {
+    return remark.starts_with("a line at ") && remark.ends_with(
+                                                   " Hz is left, but with it the error 0.25 s ahead falls "
+                                                   "by less than 5 %, or no more than by chance");
+  }));
   const auto& friction = std::get<std::optional<MeshFriction<double>>>(d.extended.effects.list);
   REQUIRE(friction);
   CHECK(friction->change > 0.01);

@@ -81,14 +81,13 @@ TEST_CASE("torque noise that lasts is no prediction of innovations by the ones b
   CHECK(error->after < 1.5 * error->floor);
 }
 
-TEST_CASE("a torque that does not lower the error ahead is a remark and no alarm", "[recovery]") {
+TEST_CASE("of readings within a step of the encoder no torque over speed is left", "[recovery]") {
   const auto& [said, noise] = with_nothing_hidden(401, 41);  // 5172 counts per turn
   INFO(said.sentence);
   CHECK(said.verdict == wormdrive::Verdict::adequate);
   CHECK(said.remainders.empty());
-  CHECK(std::count(said.remarks.begin(), said.remarks.end(),
-                   "a torque over speed is left, but with it the error 0.25 s ahead falls by less than 5 %, or no more "
-                   "than by chance") == 1);
+  CHECK(std::none_of(said.remarks.begin(), said.remarks.end(),
+                     [](const std::string& remark) { return remark.find(" is left, but ") != std::string::npos; }));
 }
 
 TEST_CASE("a fall of friction with more evidence than the level is in its class", "[recovery]") {
