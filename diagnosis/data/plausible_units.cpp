@@ -35,6 +35,7 @@ double span(const Values& values) {
 struct Reading {
   std::string says;
   Values torque, angle;
+  bool of_sign = false;  ///< it changes nothing else
 };
 
 std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenario) {
@@ -42,8 +43,8 @@ std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenar
   const std::string &torque = table.torque.name, &angle = table.angle.name;
   std::vector<Reading> all{
       {fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u},
-      {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y},
-      {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0)},
+      {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y, true},
+      {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0), true},
       {fmt::format("{} fits the drive when it is read in m{}", torque, units_on(scenario.axis, "N m")), times(u, 1e-3),
        y}};
   if (scenario.axis == Axis::linear) return all;
@@ -162,18 +163,23 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
     return TorqueJudge(table, torque, angle, period).fit(scenario);
   };
   const TorqueFit as_is = fit(table.torque.values, table.angle.values);
-  if (as_is.missed < rules::too_much_unaccounted) return;
-  std::optional<std::pair<double, std::string>> best;
-  for (const Reading& reading : readings(table, scenario)) {
+  const bool is_in_doubt = as_is.missed >= rules::too_much_unaccounted;
+  std::optional<Reading> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Reading& reading : readings(table, scenario)) {
+    if (!is_in_doubt && !reading.of_sign) continue;
     const double missed = fit(reading.torque, reading.angle).missed;
-    if (!best || missed < best->first) best = {missed, reading.says};
+    if (missed >= least) continue;
+    least = missed;
+    best = std::move(reading);
   }
-  if (best && best->first >= least_missed_by_turned_arm(table, period, scenario)) return;
-  if (best && best->first < rules::well_accounted && best->first < rules::clearly_less * as_is.missed)
-    reject(
-        table.where(),
-        fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->second,
-                    100.0 * best->first, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is.missed, 99.0)));
+  if (!best || least >= rules::clearly_less * as_is.missed) return;
+  // a sign leaves all sizes as they are, so that no other slip passes for it but an arm that stands elsewhere
+  const double turned = least_missed_by_turned_arm(table, period, scenario);
+  if (best->of_sign ? least >= rules::clearly_less * turned : least >= rules::well_accounted || least >= turned) return;
+  reject(table.where(),
+         fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->says,
+                     100.0 * least, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is.missed, 99.0)));
 }
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {

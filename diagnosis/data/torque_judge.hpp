@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "diagnosis/data/needed_torque.hpp"
@@ -13,9 +14,10 @@ namespace wormdrive {
 
 /// How well a torque is the one that a motion needs.
 struct TorqueFit {
-  double missed = 1e9;      ///< median size of what is left over that of the torque
-  double missed_rms = 1e9;  ///< the same by root mean squares, which no half of the motion escapes
-  double factor = 1.0;      ///< median size of the torque over that of the need
+  double missed = 1e9;                 ///< median size of what is left over that of the torque
+  double missed_rms = 1e9;             ///< the same by root mean squares, which no half of the motion escapes
+  double missed_but_for_offset = 1e9;  ///< the same if a constant torque is added that leaves least
+  double factor = 1.0;                 ///< median size of the torque over that of the need
   double factor_rms = 1.0;  ///< the same by root mean squares, which a motor that is off for a while hardly changes
 };
 
@@ -46,8 +48,10 @@ class TorqueJudge {
       asked.push_back(needed[k]);
     }
     if (given.size() < rules::fewest_for_torque || rms(given) == 0.0 || median_size(asked) == 0.0) return {};
-    return {median_size(left) / median_size(given), rms(left) / rms(given), median_size(given) / median_size(asked),
-            rms(given) / rms(asked)};
+    const double offset = std::accumulate(left.begin(), left.end(), 0.0) / static_cast<double>(left.size());
+    const double varying = std::sqrt(std::max(0.0, rms(left) * rms(left) - offset * offset));
+    return {median_size(left) / median_size(given), rms(left) / rms(given), varying / rms(given),
+            median_size(given) / median_size(asked), rms(given) / rms(asked)};
   }
 
  private:

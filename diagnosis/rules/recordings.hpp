@@ -82,6 +82,9 @@ inline constexpr double too_much_unaccounted = 0.6;
 inline constexpr double well_accounted = 0.35;
 /// share | set | ... and less than this of what the columns as they stand leave
 inline constexpr double clearly_less = 0.5;
+/// share | set | a load is missing if a mass on an arm leaves less than this of what no load leaves; of drives without
+/// one, whatever else they lack, it leaves 0.96 or more
+inline constexpr double less_with_load = 0.9;
 /// square of a correlation | set | a recorded speed that follows the angle's derivative less is not it
 inline constexpr double least_speed_likeness = 0.8;
 /// times the derivative | set | a recorded speed between its inverse and this is the derivative

@@ -74,6 +74,57 @@ TEST_CASE("friction that is stated as zero is named", "[slow]") {
   CHECK(std::abs(only_cause(bench, "mesh_friction") / friction - 1.0) < 0.02);
 }
 
+namespace {
+
+/// Why a recording is rejected; empty if it is read.
+std::string rejection(const truth::Recording& recorded, const Scenario& sheet, std::uint64_t seed) {
+  try {
+    recovery::as_read(recorded, sheet, seed);
+    return {};
+  } catch (const InputFault& fault) {
+    return fault.what();
+  }
+}
+
+truth::Recording turned(truth::Recording recorded, std::vector<double> truth::Recording::*column) {
+  for (double& x : recorded.*column) x = -x;
+  return recorded;
+}
+
+}  // namespace
+
+TEST_CASE("a wrong sign and a load that nobody states are told on benches of any size before anything is diagnosed") {
+  recovery::Plan plan{
+      .kind = recovery::Kind::nothing, .conditions = recovery::conditions("realistic"), .cases = 24, .seed = 2002};
+  plan.any_bench = true;
+  int benches = 0;
+  for (recovery::Case drawn : recovery::draw(plan)) {
+    if (drawn.duration / drawn.period > 8000.0) continue;
+    ++benches;
+    CAPTURE(drawn.seed);
+    truth::Generator generator(drawn.seed);
+    const truth::Drive drive = recovery::disturbed_drive(drawn, generator);
+    const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
+    Scenario sheet = recovery::data_sheet(drawn);
+    const truth::Recording recorded = recovery::recorded_motion(drive, course, sheet, generator());
+    const auto said = [&](const truth::Recording& r) { return rejection(r, sheet, drawn.seed); };
+    CHECK(said(recorded).empty());
+    CHECK(said(turned(recorded, &truth::Recording::motor_torque))
+              .find("motor_torque_Nm fits the drive with the opposite sign, not as it stands") != std::string::npos);
+    CHECK(said(turned(recorded, &truth::Recording::gear_angle))
+              .find("gear_angle_rad fits the drive with the opposite sign, not as it stands") != std::string::npos);
+    sheet.load = Signal{};
+    CHECK(said(recorded).find(": state the [load]") != std::string::npos);
+
+    // without a load none is missed
+    drawn.stated.sheet.geometry.mass = drawn.stated.geometry.mass = 1e-9;
+    truth::Generator again(drawn.seed);
+    const truth::Drive bare = recovery::disturbed_drive(drawn, again);
+    CHECK(said(recovery::recorded_motion(bare, course, recovery::data_sheet(drawn), again())).empty());
+  }
+  REQUIRE(benches >= 5);
+}
+
 TEST_CASE("a load that nobody states is missed before anything is diagnosed") {
   const std::string folder = WORMDRIVE_SCENARIOS;
   Scenario scenario = load_scenario(folder + "/example_bench.toml", {}, Purpose::look);

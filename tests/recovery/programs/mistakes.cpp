@@ -128,7 +128,8 @@ std::vector<Mistake> recording_faults() {
              return fmt::format("{} of {:.2g} N m", bad, size);
            },
            {"torque_spikes"},
-           {"left out: motor_torque"}},
+           {"left out: motor_torque"},
+           true},
           {"torque late",
            [](Scenario&, Record& recorded, Generator& generator) {
              const auto late = static_cast<double>(1 + generator() % 8);
