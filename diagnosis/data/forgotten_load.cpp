@@ -50,7 +50,7 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
     if (const double left = judge.fit(with).missed_rms; left < best.missed) best = {torque, offset, left};
   };
   // what the motor could hold without any loss, and less by the losses of a gear
-  const double largest = mesh->i * median_size(table.torque.values);
+  const double usual = median_size(table.torque.values), largest = mesh->i * usual;
   constexpr double turn = 2.0 * std::numbers::pi;
   for (double torque = 4.0 * largest; torque > largest / 40.0; torque /= 2.0)
     for (int k = 0; k < 12; ++k) look(torque, turn * k / 12.0);
@@ -60,9 +60,7 @@ void reject_forgotten_load(const RecordedTable& table, double period, const Scen
       for (const double factor : {1.0 - 0.6 * step, 1.0, 1.0 + 0.6 * step})
         look(from.torque * factor, from.offset + angle);
   }
-  if (best.missed > rules::less_with_load * as_it_is) return;
-  const double by_constants = least_missed_by_constants(judge, scenario, median_size(table.torque.values));
-  if (best.missed > rules::less_with_load * by_constants) return;
+  if (best.missed > rules::less_with_load * least_missed_by_constants(judge, scenario, usual)) return;
   reject(
       table.where(),
       fmt::format("{} does not fit a drive without a load ({:.0f} % of it unaccounted for) but one with a mass on an "

@@ -38,15 +38,16 @@ struct Reading {
   bool of_sign = false;  ///< it changes nothing else
 };
 
-std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenario) {
+/// With another sign; other columns and units only where the ones that are written are in doubt.
+std::vector<Reading> readings(const RecordedTable& table, const Scenario& scenario, bool is_in_doubt) {
   const Values &u = table.torque.values, &y = table.angle.values;
   const std::string &torque = table.torque.name, &angle = table.angle.name;
-  std::vector<Reading> all{
-      {fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u},
-      {fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y, true},
-      {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0), true},
-      {fmt::format("{} fits the drive when it is read in m{}", torque, units_on(scenario.axis, "N m")), times(u, 1e-3),
-       y}};
+  std::vector<Reading> all{{fmt::format("{} fits the drive with the opposite sign", torque), times(u, -1.0), y, true},
+                           {fmt::format("{} fits the drive with the opposite sign", angle), u, times(y, -1.0), true}};
+  if (!is_in_doubt) return all;
+  all.push_back({fmt::format("{} and {} fit the drive when they are swapped", torque, angle), y, u});
+  all.push_back({fmt::format("{} fits the drive when it is read in m{}", torque, units_on(scenario.axis, "N m")),
+                 times(u, 1e-3), y});
   if (scenario.axis == Axis::linear) return all;
   constexpr double pi = std::numbers::pi;
   all.push_back({fmt::format("{} fits the drive when it is read in degrees", angle), u, times(y, pi / 180.0)});
@@ -132,9 +133,8 @@ void refuse_other_ratio(const RecordedTable& table, const Scenario& scenario) {
 }
 
 /// What an arm that stands at another angle than stated would leave, which is a matter of the diagnosis.
-double least_missed_by_turned_arm(const RecordedTable& table, double period, Scenario scenario) {
+double least_missed_by_turned_arm(const TorqueJudge& judge, Scenario scenario) {
   double least = std::numeric_limits<double>::infinity();
-  const TorqueJudge judge(table, table.torque.values, table.angle.values, period);
   if (auto* const arm = std::get_if<GravityArm>(&scenario.load))
     for (int k = 1; k < 12; ++k) {
       arm->offset += std::numbers::pi / 6.0;
@@ -159,27 +159,23 @@ void refuse_implausible_units(const RecordedTable& table, double period, const S
                     table.angle.name, span(table.angle.values), units_on(scenario.axis, "rad"), rules::least_motion));
   refuse_other_speed(table, period, scenario);
   refuse_other_ratio(table, scenario);
-  const auto fit = [&](const Values& torque, const Values& angle) {
-    return TorqueJudge(table, torque, angle, period).fit(scenario);
-  };
-  const TorqueFit as_is = fit(table.torque.values, table.angle.values);
-  const bool is_in_doubt = as_is.missed >= rules::too_much_unaccounted;
+  const TorqueJudge judge(table, table.torque.values, table.angle.values, period);
+  const double as_is = judge.fit(scenario).missed;
   std::optional<Reading> best;
   double least = std::numeric_limits<double>::infinity();
-  for (Reading& reading : readings(table, scenario)) {
-    if (!is_in_doubt && !reading.of_sign) continue;
-    const double missed = fit(reading.torque, reading.angle).missed;
+  for (Reading& reading : readings(table, scenario, as_is >= rules::too_much_unaccounted)) {
+    const double missed = TorqueJudge(table, reading.torque, reading.angle, period).fit(scenario).missed;
     if (missed >= least) continue;
     least = missed;
     best = std::move(reading);
   }
-  if (!best || least >= rules::clearly_less * as_is.missed) return;
+  if (!best || least >= rules::clearly_less * as_is) return;
   // a sign leaves all sizes as they are, so that no other slip passes for it but an arm that stands elsewhere
-  const double turned = least_missed_by_turned_arm(table, period, scenario);
+  const double turned = least_missed_by_turned_arm(judge, scenario);
   if (best->of_sign ? least >= rules::clearly_less * turned : least >= rules::well_accounted || least >= turned) return;
   reject(table.where(),
          fmt::format("{}, not as it stands ({:.0f} % of the {} unaccounted for, {:.0f} % as it stands)", best->says,
-                     100.0 * least, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is.missed, 99.0)));
+                     100.0 * least, in_words_of(scenario.axis, "torque"), 100.0 * std::min(as_is, 99.0)));
 }
 
 void refuse_implausible_size(const RecordedTable& table, double period, const Scenario& scenario) {

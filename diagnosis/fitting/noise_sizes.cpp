@@ -27,7 +27,7 @@ RecordedNoise recorded_noise(const Evaluation& evaluation, const Hypothesis& h, 
   for (std::size_t k = 0; k < r.samples(); ++k) {
     if (!r.used[k] || !r.moving[k]) continue;
     sizes.push_back(std::abs(e[k]));
-    const double K = gains[gains.size() == 1 ? 0 : k].angle;  // = P/(P + 1/share)
+    const double K = gains_at(gains, k).angle;  // = P/(P + 1/share)
     variances += K / ((1.0 - K) * r.share(k));
   }
   if (sizes.empty()) return {};

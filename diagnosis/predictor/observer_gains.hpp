@@ -36,4 +36,9 @@ ObserverGains observer_gains(const ProcessNoise& noise, double period);
 /// measured they are 0. A reading that counts by a share is as if its noise had the variance of one divided by it.
 std::vector<ObserverGains> observer_gains(const ProcessNoise& noise, const PreparedRecording& recording);
 
+/// The gains at a sample.
+inline const ObserverGains& gains_at(const std::vector<ObserverGains>& gains, std::size_t k) {
+  return gains.size() == 1 ? gains.front() : gains[k];
+}
+
 }  // namespace wormdrive

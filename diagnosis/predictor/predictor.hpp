@@ -107,7 +107,7 @@ class Predictor {
 
   double time(std::size_t k) const { return recording_.data.time(k); }
 
-  const ObserverGains& gains(std::size_t k) const { return gains_.size() == 1 ? gains_.front() : gains_[k]; }
+  const ObserverGains& gains(std::size_t k) const { return gains_at(gains_, k); }
 
   /// What a sample that none before tells of shows of the state.
   State start(std::size_t k) {

@@ -25,7 +25,7 @@ std::vector<std::vector<double>> torques(const Evaluation& evaluation, const Hyp
       const std::size_t q = evaluation.layout().leading(recording).begin + k;
       const double limit = rules::clip_of_torque * h.noise_model.groups[evaluation.layout().group[q]].scale;
       const double e = std::clamp(h.innovations[q], -limit, limit);
-      torque[k] = per_speed * gains[gains.size() == 1 ? 0 : k].speed * e + states[recording].torque[k];
+      torque[k] = per_speed * gains_at(gains, k).speed * e + states[recording].torque[k];
     }
   }
   return all;
@@ -43,16 +43,14 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
     const auto drive = loaded_drive(evaluation.scenario(), recording.data);
     auto load = drive.load();
     for (std::size_t begin = 0; begin + bin <= recording.samples(); begin += bin) {
-      double sum_then = 0.0, sum_now = 0.0, readings = 0.0;
+      double sum_then = 0.0, sum_now = 0.0;
       bool whole = true;
       for (std::size_t k = begin; k < begin + bin; ++k) {
         whole = whole && recording.moving[k] && recording.used[k];
-        if (!recording.used[k]) continue;
         sum_then += then[k];
         sum_now += now[k];
-        readings += 1.0;
       }
-      if (!whole || readings == 0.0) continue;
+      if (!whole) continue;
       const std::size_t middle = begin + bin / 2;
       const double t = recording.data.time(middle);
       const double angle = recording.data.gear_angle[middle];
@@ -64,8 +62,8 @@ ResidualTorque residual_torque(const Evaluation& evaluation, const Hypothesis& b
       map.gear_speed.push_back(recording.speed[middle]);
       map.load_torque.push_back(load.torque(at));
       map.worm_phase.push_back(at.theta_w - turn * std::floor(at.theta_w / turn));
-      map.before.push_back(sum_then / readings);
-      map.after.push_back(sum_now / readings);
+      map.before.push_back(sum_then / static_cast<double>(bin));
+      map.after.push_back(sum_now / static_cast<double>(bin));
       map.held_out.push_back(recording.held_out[middle]);
     }
   }

@@ -13,6 +13,7 @@
 #include "diagnosis/report/diagnosis_folder.hpp"
 #include "diagnosis/report/diagnosis_json.hpp"
 #include "recovery/campaign.hpp"
+#include "recovery/spoiled_torque.hpp"
 
 // What goes wrong between a drive and its file: the ground truth of the recovery tests is recorded, its columns are
 // spoiled here, and the diagnosis has to name the fault and not some physics.
@@ -20,6 +21,8 @@
 namespace wormdrive::test::diagnosis_recording_faults {
 
 namespace {
+
+using recovery::reread;
 
 constexpr double period = 1e-3;
 
@@ -33,13 +36,6 @@ Recording recorded(const recovery::Case& drawn) { return recovery::record(drawn)
 
 Diagnosis diagnosed(const Recording& recording) {
   return diagnose(recovery::data_sheet(recovery::conditions("ideal")), {recording}, {.threads = 2});
-}
-
-/// A torque that is read at other samples than its own; before the first it stood as there.
-void reread(std::vector<double>& torque, const std::function<double(double)>& sample) {
-  const std::vector<double> was = torque;
-  for (std::size_t k = 0; k < torque.size(); ++k)
-    torque[k] = was[static_cast<std::size_t>(std::max(0.0, std::floor(sample(static_cast<double>(k)) + 1e-9)))];
 }
 
 struct Fault {
@@ -70,13 +66,8 @@ TEST_CASE("a fault of the recording is named with its size and its remedy, and l
   const std::vector<Fault> faults{
       {"torque_late", [](Recording& r) { reread(r.motor_torque, [](double k) { return k - 4.0; }); }, 4e-3, 0.02,
        "shift the torque by 4 ms towards the start"},
-      {"torque_filtered",
-       [](Recording& r) {
-         const double keep = std::exp(-period / 5e-3);
-         double out = r.motor_torque.front();
-         for (double& u : r.motor_torque) u = out = keep * out + (1.0 - keep) * u;
-       },
-       5e-3, 0.02, "went through a filter of 5"},
+      {"torque_filtered", [](Recording& r) { recovery::filter(r.motor_torque, 5e-3 / period); }, 5e-3, 0.02,
+       "went through a filter of 5"},
       {"clock_drift", [](Recording& r) { reread(r.motor_torque, [](double k) { return k - 1e-3 * k + 0.5; }); }, 1e-3,
        0.1, "Log torque and angle by one clock"},
       {"time_scale", [](Recording& r) { r.period *= 1.024; }, 0.024, 0.05, "Multiply the times in the file by 0.97"}};

@@ -102,11 +102,8 @@ TEST_CASE("a wrong sign and a load that nobody states are told on benches of any
     if (drawn.duration / drawn.period > 8000.0) continue;
     ++benches;
     CAPTURE(drawn.seed);
-    truth::Generator generator(drawn.seed);
-    const truth::Drive drive = recovery::disturbed_drive(drawn, generator);
-    const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
     Scenario sheet = recovery::data_sheet(drawn);
-    const truth::Recording recorded = recovery::recorded_motion(drive, course, sheet, generator());
+    const truth::Recording recorded = recovery::followed(drawn).recorded;
     const auto said = [&](const truth::Recording& r) { return rejection(r, sheet, drawn.seed); };
     CHECK(said(recorded).empty());
     CHECK(said(turned(recorded, &truth::Recording::motor_torque))
@@ -118,9 +115,7 @@ TEST_CASE("a wrong sign and a load that nobody states are told on benches of any
 
     // without a load none is missed
     drawn.stated.sheet.geometry.mass = drawn.stated.geometry.mass = 1e-9;
-    truth::Generator again(drawn.seed);
-    const truth::Drive bare = recovery::disturbed_drive(drawn, again);
-    CHECK(said(recovery::recorded_motion(bare, course, recovery::data_sheet(drawn), again())).empty());
+    CHECK(said(recovery::followed(drawn).recorded).empty());
   }
   REQUIRE(benches >= 5);
 }

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include "catch.hpp"
 #include "diagnosis/answers.hpp"
 #include "diagnosis/servo_logs.hpp"

@@ -248,12 +248,17 @@ wormdrive::Recording follow(const truth::Drive& drive, const truth::EventSequenc
   return as_read(recorded_motion(drive, course, sheet, seed), sheet, seed);
 }
 
-Bench record(const Case& drawn) {
+Followed followed(const Case& drawn) {
   truth::Generator generator(drawn.seed);
-  Bench bench{disturbed_drive(drawn, generator), {}};
+  Followed bench{disturbed_drive(drawn, generator), {}};
   const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
-  bench.recording = follow(bench.drive, course, data_sheet(drawn), generator());
+  bench.recorded = recorded_motion(bench.drive, course, data_sheet(drawn), generator());
   return bench;
+}
+
+Bench record(const Case& drawn) {
+  Followed bench = followed(drawn);
+  return {std::move(bench.drive), as_read(bench.recorded, data_sheet(drawn), drawn.seed)};
 }
 
 std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnose, int threads,

@@ -79,6 +79,13 @@ std::vector<Case> draw(const Plan& plan);
 wormdrive::Scenario data_sheet(const Conditions& conditions, const truth::Sheet& stated = {});
 inline wormdrive::Scenario data_sheet(const Case& drawn) { return data_sheet(drawn.conditions, drawn.stated.sheet); }
 
+/// The drive of a case, with what it recorded on a rich course.
+struct Followed {
+  truth::Drive drive;
+  truth::Recording recorded;
+};
+Followed followed(const Case& drawn);
+
 /// Records a case, writes it to a CSV file, and reads it as a user's.
 struct Bench {
   truth::Drive drive;  ///< sealed: for the score alone

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "description/diagnostics.hpp"
+#include "recovery/spoiled_torque.hpp"
 #include "recovery/tables.hpp"
 #include "statistics/parallel.hpp"
 
@@ -40,13 +40,6 @@ wormdrive::GravityArm& arm(Scenario& sheet) { return std::get<wormdrive::Gravity
 std::string times(std::vector<double>& column, double f) {
   for (double& x : column) x *= f;
   return fmt::format("x {:.3g}", f);
-}
-
-/// The torque column is read at other samples than its own; before the first it stood as there.
-void reread(std::vector<double>& torque, const std::function<double(double)>& sample) {
-  const std::vector<double> was = torque;
-  for (std::size_t k = 0; k < torque.size(); ++k)
-    torque[k] = was[static_cast<std::size_t>(std::max(0.0, std::floor(sample(static_cast<double>(k)) + 1e-9)))];
 }
 
 double largest(const std::vector<double>& column) {
@@ -140,9 +133,8 @@ std::vector<Mistake> recording_faults() {
            {}},
           {"torque filtered",
            [](Scenario&, Record& recorded, Generator& generator) {
-             const double samples = factor(0.5, 20.0, generator), keep = std::exp(-1.0 / samples);
-             double out = recorded.motor_torque.front();
-             for (double& u : recorded.motor_torque) u = out = keep * out + (1.0 - keep) * u;
+             const double samples = factor(0.5, 20.0, generator);
+             filter(recorded.motor_torque, samples);
              return fmt::format("{:.3g} samples", samples);
            },
            {"torque_filtered"},
@@ -200,11 +192,9 @@ std::vector<Mistake> recording_faults() {
 namespace {
 
 Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnose) {
-  Generator generator(bench.seed);
-  const truth::Drive drive = disturbed_drive(bench, generator);
+  Generator generator(bench.seed + 1);  // the bench has its own
   Scenario sheet = data_sheet(bench);
-  truth::Recording recorded =
-      recorded_motion(drive, truth::rich_course(generator(), bench.duration, bench.period), sheet, generator());
+  truth::Recording recorded = followed(bench).recorded;
   Judged j{mistake.name, mistake.make(sheet, recorded, generator)};
   const auto tells = [&](const std::string& said) {
     return std::any_of(mistake.words.begin(), mistake.words.end(),
