@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -54,19 +55,19 @@ std::vector<Recording> in_their_own_order(std::vector<Recording> recordings) {
   return recordings;
 }
 
-std::vector<PreparedRecording> prepared_all(const std::vector<Recording>& recordings, const Scenario& scenario) {
+std::vector<PreparedRecording> prepared_all(std::vector<Recording> recordings, const Scenario& scenario) {
   if (recordings.empty()) throw std::invalid_argument("a diagnosis needs a recording");
   std::vector<PreparedRecording> all;
   std::size_t blocks = 0;
-  for (const Recording& r : recordings) {
+  for (Recording& r : recordings) {
     if (r.samples() < rules::least_samples ||
         static_cast<double>(r.samples()) * r.period < rules::least_duration - 1e-9)
       throw std::invalid_argument(fmt::format("a diagnosis needs recordings of at least {} s and {} samples",
                                               rules::least_duration, rules::least_samples));
-    all.push_back(prepared(r, blocks, stated_mesh(scenario).i));
-    blocks += all.back().blocks();
     const auto [low, high] = std::minmax_element(r.gear_angle.begin(), r.gear_angle.end());
     if (*low == *high) throw std::invalid_argument("nothing moves in the recording");
+    all.push_back(prepared(std::move(r), blocks, stated_mesh(scenario).i));
+    blocks += all.back().blocks();
   }
   return all;
 }
@@ -146,7 +147,7 @@ Hypothesis settled(Hypothesis h) {
 /// Looks for a motion that splits a class of a diagnosis, the first for which there may be one.
 void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Candidate>& all,
                         const std::vector<Coordinate>& stated, const Magnitudes& sizes,
-                        const std::vector<Recording>& recordings, const DiagnosisSettings& settings) {
+                        const std::vector<PreparedRecording>& recordings, const DiagnosisSettings& settings) {
   for (const std::vector<std::string>& effects : d.classes) {
     std::vector<Candidate> members;
     for (const std::string& effect : effects)
@@ -161,8 +162,8 @@ void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vecto
     double size = 0.0, excursion = 0.0;
     for (const EstimatedEffect& cause : d.causes)
       if (cause.effect == effects.front()) size = std::abs(cause.parameters.front().value);
-    for (const Recording& r : recordings)
-      for (const double y : r.gear_angle) excursion = std::max(excursion, std::abs(y));
+    for (const PreparedRecording& r : recordings)
+      for (const double y : r.data.gear_angle) excursion = std::max(excursion, std::abs(y));
     if (settings.progress) settings.progress("looking for an experiment");
     Experiment found =
         splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
@@ -176,16 +177,17 @@ void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vecto
 
 Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given, const DiagnosisSettings& settings) {
   if (const std::string why = why_not_diagnosed(scenario.effects); !why.empty()) throw std::invalid_argument(why);
-  const std::vector<Recording> recordings = in_their_own_order(given);
+  std::vector<Recording> recordings = in_their_own_order(given);
   const auto tell = [&](const std::string& what) {
     if (settings.progress) settings.progress(what);
   };
-  std::vector<PreparedRecording> all_prepared = prepared_all(recordings, scenario);
+  const bool is_long = samples_of(recordings) > rules::most_searched;
+  std::vector<Recording> to_search = is_long ? representative_pieces(recordings) : std::vector<Recording>{};
+  std::vector<PreparedRecording> all_prepared = prepared_all(std::move(recordings), scenario);
   const Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Candidate> all = everything(scenario, all_prepared, sizes, stated);
-  const bool is_long = samples_of(recordings) > rules::most_searched;
-  auto searched = is_long ? prepared_all(representative_pieces(recordings), scenario) : all_prepared;
+  auto searched = is_long ? prepared_all(std::move(to_search), scenario) : all_prepared;
   const Evaluation evaluation(scenario, InnovationLayout(std::move(searched)), settings.threads);
 
   const Hypothesis base = stated_hypothesis(scenario.effects, stated);
@@ -228,7 +230,8 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   };
 
   tell("looking for what is left");
-  d.remainders = remainders(by_all, last, sizes);
+  const Evaluation pieces(scenario, with_nothing_held_out(evaluation.layout().recordings), settings.threads);
+  d.remainders = remainders(by_all, last, pieces, sizes);
   keep_what_counts(d, evaluation, found, sizes, scenario.axis);
   if (const auto excess = error_above_noise(d)) d.remainders.push_back(*excess);
   d.extended = scenario;
@@ -272,7 +275,8 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
         withdraw(found_effects, scenario.effects, all[f.candidate]);
     d.extended = extended_scenario(scenario, found_effects, last.noise.impact, d.remarks);
   }
-  if (d.verdict == Verdict::ambiguous) propose_experiment(d, scenario, all, stated, sizes, recordings, settings);
+  if (d.verdict == Verdict::ambiguous)
+    propose_experiment(d, scenario, all, stated, sizes, by_all.layout().recordings, settings);
   if (auto remark = other_ratio(d, scenario, sizes.has_worm_encoder)) d.remarks.push_back(std::move(*remark));
   for (const PreparedRecording& r : evaluation.layout().recordings)
     if (!r.shares.empty())
@@ -286,7 +290,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
                     evaluation.layout().samples, by_all.layout().samples));
   for (const NotExamined& n : not_examined(scenario.effects, sizes))
     d.remarks.push_back(fmt::format("{} was not examined: {}", n.effect, n.reason));
-  d.passes = evaluation.passes() + by_all.passes();
+  d.passes = evaluation.passes() + by_all.passes() + pieces.passes();
   return d;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/rules/recordings.hpp"
@@ -80,9 +81,10 @@ std::vector<double> shares_of_readings(const Recording& recording, const std::ve
 
 bool is_held_out(std::size_t block) { return block % rules::held_out_every == rules::held_out_every - 1; }
 
-PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio) {
+PreparedRecording prepared(Recording given, std::size_t first_block, double ratio) {
   PreparedRecording p;
-  p.data = recording;
+  p.data = std::move(given);
+  const Recording& recording = p.data;
   const std::size_t n = recording.samples();
   const double Ts = recording.period;
   p.worm_angle = worm_at_gear(recording, ratio);

@@ -46,7 +46,7 @@ bool is_held_out(std::size_t block);
 
 /// first_block: number of the recording's first block, counted through all recordings. ratio: worm angle over gear
 /// angle.
-PreparedRecording prepared(const Recording& recording, std::size_t first_block, double ratio = 1.0);
+PreparedRecording prepared(Recording recording, std::size_t first_block, double ratio = 1.0);
 
 /// The same with nothing held out: for the final fit.
 PreparedRecording with_all_data(PreparedRecording recording);

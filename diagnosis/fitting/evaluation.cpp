@@ -26,6 +26,21 @@ std::span<const double> Evaluation::of_recording(std::span<const double> extra, 
   return extra.empty() ? extra : extra.subspan(layout_.begins[recording], layout_.recordings[recording].samples());
 }
 
+/// Of a recording as it is.
+std::shared_ptr<const std::vector<ObserverGains>> Evaluation::gains_of(std::size_t recording,
+                                                                       const ProcessNoise& noise) const {
+  {
+    const std::lock_guard lock(knows_gains_);
+    for (const KnownGains& known : known_gains_)
+      if (known.recording == recording && known.noise.has_torques_of(noise)) return known.gains;
+  }
+  auto gains = std::make_shared<const std::vector<ObserverGains>>(observer_gains(noise, layout_.recordings[recording]));
+  const std::lock_guard lock(knows_gains_);
+  known_gains_.push_back({recording, noise, gains});
+  if (known_gains_.size() > static_cast<std::size_t>(threads_) * layout_.recordings.size()) known_gains_.pop_front();
+  return gains;
+}
+
 template <class Use>
 void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                                 std::span<const double> extra, Use&& use) const {
@@ -35,10 +50,11 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
   const bool is_wrong = drive.faults.any();
   const PreparedRecording as_it_was = is_wrong ? mended(as_recorded, drive.faults) : PreparedRecording{};
   const PreparedRecording& prepared = is_wrong ? as_it_was : as_recorded;
+  const auto gains = is_wrong ? std::make_shared<const std::vector<ObserverGains>>(observer_gains(noise, prepared))
+                              : gains_of(recording, noise);
   const auto with_model = [&]<class Model>(auto&& load) {
     typename Model::Drive followed_drive(stated_mesh(scenario_), std::move(load), followed, {});
-    Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared, observer_gains(noise, prepared),
-                               extra);
+    Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared, *gains, extra);
     use(predictor);
   };
   const LoadParameters& moved = moved_load(scenario_, prepared.data);

@@ -1,5 +1,8 @@
 #pragma once
 #include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +43,7 @@ class Evaluation {
 
  private:
   std::span<const double> of_recording(std::span<const double> extra, std::size_t recording) const;
+  std::shared_ptr<const std::vector<ObserverGains>> gains_of(std::size_t recording, const ProcessNoise& noise) const;
   template <class Use>
   void with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
                       std::span<const double> extra, Use&& use) const;
@@ -49,6 +53,13 @@ class Evaluation {
   int threads_;
   double shortest_period_ = 0.0;
   mutable std::atomic<long> passes_{0};
+  struct KnownGains {
+    std::size_t recording;
+    ProcessNoise noise;
+    std::shared_ptr<const std::vector<ObserverGains>> gains;
+  };
+  mutable std::mutex knows_gains_;
+  mutable std::deque<KnownGains> known_gains_;  ///< the last ones, for many passes have the same
 };
 
 }  // namespace wormdrive

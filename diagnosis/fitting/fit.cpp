@@ -32,13 +32,12 @@ void follow_slopes(const Evaluation& evaluation, Hypothesis& h, int rounds, doub
   for (int round = 0; round < rounds; ++round) {
     const WeightedColumns weigh(fit_weights(evaluation.layout(), h.residuals, h.noise_model));
     const Eigen::VectorXd residual = weigh(h.residuals);
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(residual.size(), static_cast<Eigen::Index>(n));
+    Eigen::MatrixXf J = Eigen::MatrixXf::Zero(residual.size(), static_cast<Eigen::Index>(n));
     parallel_for(n, evaluation.threads(), [&](std::size_t k) {
       if (has_slope(h.free[k]))
-        J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(evaluation, h, k, derivative_step));
+        J.col(static_cast<Eigen::Index>(k)) = weigh(sensitivity(evaluation, h, k, derivative_step)).cast<float>();
     });
-    Eigen::MatrixXd A = J.transpose() * J;
-    Eigen::VectorXd b = -J.transpose() * residual;
+    auto [A, b] = NormalEquations(J, residual);
     add_tolerances(h, A, b);
 
     const double before = h.objective;

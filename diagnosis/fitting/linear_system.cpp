@@ -17,8 +17,6 @@ LinearSystem linear_system(const Evaluation& evaluation, const Hypothesis& base,
       signatures.push_back(&signature);
     }
   }
-  // part by part, for all columns once more would take as much memory as they
-  constexpr Eigen::Index rows_of_part = 4096;
   const auto n = free + static_cast<Eigen::Index>(signatures.size());
   made.A = Eigen::MatrixXd::Zero(n, n);
   made.b = Eigen::VectorXd::Zero(n);

@@ -1,5 +1,6 @@
 #include "diagnosis/fitting/normal_equations.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,16 @@ WeightedColumns::WeightedColumns(std::span<const double> weights) {
       rows_.push_back(k);
       root_.push_back(std::sqrt(weights[k]));
     }
+}
+
+NormalEquations::NormalEquations(const Eigen::MatrixXf& J, const Eigen::VectorXd& residual)
+    : A(Eigen::MatrixXd::Zero(J.cols(), J.cols())), b(Eigen::VectorXd::Zero(J.cols())) {
+  for (Eigen::Index begin = 0; begin < J.rows(); begin += rows_of_part) {
+    const Eigen::Index rows = std::min(rows_of_part, J.rows() - begin);
+    const Eigen::MatrixXd part = J.middleRows(begin, rows).cast<double>();
+    A.noalias() += part.transpose() * part;
+    b.noalias() -= part.transpose() * residual.segment(begin, rows);
+  }
 }
 
 Eigen::VectorXd solve_normal(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double damping) {

@@ -7,6 +7,10 @@
 
 namespace wormdrive {
 
+/// Rows whose products are worked out at a time: for all at once a copy of the columns would take as much memory as
+/// they.
+inline constexpr Eigen::Index rows_of_part = 4096;
+
 /// Changes of whitened innovations, one column per cause, weighted and reduced to the fitted samples.
 class WeightedColumns {
  public:
@@ -40,6 +44,14 @@ void for_each_stretch(std::span<const std::uint32_t> block_of, Visit&& visit) {
     visit(block_of[begin], static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
   }
 }
+
+/// Of columns that are kept in floats, A = J^T J and b = -J^T residual, worked out part by part in doubles.
+struct NormalEquations {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+
+  NormalEquations(const Eigen::MatrixXf& J, const Eigen::VectorXd& residual);
+};
 
 /// Solves A x = b for a positive A that may be singular to rounding; in the columns' own sizes.
 Eigen::VectorXd solve_normal(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double damping = 1e-9);

@@ -18,9 +18,6 @@ namespace wormdrive {
 
 namespace {
 
-/// Change of the whitened innovations by the free coordinates, per scale; of hours of samples, so not in doubles.
-using Slopes = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// What all draws have in common.
 struct Common {
   Slopes J;                    ///< at the fit, over steps as long as standard errors
@@ -32,12 +29,10 @@ Common common(const Evaluation& evaluation, const Hypothesis& fit, const Eigen::
   Eigen::VectorXd variances = covariance.diagonal();
   for (Eigen::Index k = 0; k < variances.size(); ++k)
     variances[k] /= std::pow(fit.free[static_cast<std::size_t>(k)].scale, 2);
-  const std::vector<std::vector<double>> columns = central_sensitivities(evaluation, fit, steps_over_errors(variances));
-  Common c{Slopes(static_cast<Eigen::Index>(evaluation.layout().size), variances.size()), {}, {}};
-  Eigen::MatrixXd missing = sandwich(evaluation, fit, columns).missing;
+  Common c{central_sensitivities(evaluation, fit, steps_over_errors(variances)), {}, {}};
+  Eigen::MatrixXd missing = sandwich(evaluation, fit, c.J).missing;
   for (Eigen::Index k = 0; k < c.J.cols(); ++k) {
     const auto q = static_cast<std::size_t>(k);
-    c.J.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[q].data(), c.J.rows()).cast<float>();
     const bool slopes = has_slope(fit.free[q]);
     c.errors.push_back(std::hypot(structural_error(fit, q), slopes ? 0.0 : std::sqrt(covariance(k, k))));
     if (slopes) continue;

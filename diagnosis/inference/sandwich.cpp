@@ -20,9 +20,8 @@ struct BlockSlopes {
   Eigen::VectorXd slope;
 };
 
-/// Of the blocks that are fitted. J: change of the whitened innovations by each free coordinate, per scale.
-std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hypothesis& h,
-                                         const std::vector<std::vector<double>>& J) {
+/// Of the blocks that are fitted.
+std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hypothesis& h, const Slopes& J) {
   const InnovationLayout& layout = evaluation.layout();
   const auto n = static_cast<Eigen::Index>(h.free.size());
   std::vector<BlockSlopes> all(layout.blocks, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
@@ -32,7 +31,7 @@ std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hyp
     if (layout.part[r] != 1) continue;
     const NoiseGroup& group = h.noise_model.groups[layout.group[r]];
     const double nu = group.freedom, s = group.scale, z = h.residuals[r] / s, z2 = z * z;
-    for (Eigen::Index k = 0; k < n; ++k) row[k] = J[static_cast<std::size_t>(k)][r] / s;
+    row = J.row(static_cast<Eigen::Index>(r)).transpose().cast<double>() / s;
     BlockSlopes& block = all[layout.block[r]];
     block.slope += ((nu + 1.0) * z / (nu + z2)) * row;
     block.curvature += ((nu + 1.0) * (nu - z2) / ((nu + z2) * (nu + z2))) * (row * row.transpose());
@@ -47,15 +46,14 @@ std::vector<BlockSlopes> slopes_by_block(const Evaluation& evaluation, const Hyp
 
 }  // namespace
 
-std::vector<std::vector<double>> central_sensitivities(const Evaluation& evaluation, const Hypothesis& h,
-                                                       const std::vector<double>& steps) {
-  std::vector<std::vector<double>> J(h.free.size());
+Slopes central_sensitivities(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps) {
+  Slopes J = Slopes::Zero(static_cast<Eigen::Index>(evaluation.layout().size), static_cast<Eigen::Index>(steps.size()));
   parallel_for(h.free.size(), evaluation.threads(), [&](std::size_t k) {
-    J[k].assign(evaluation.layout().size, 0.0);
     if (!has_slope(h.free[k])) return;
     for (const double step : {steps[k], -steps[k]}) {
       const std::vector<double> side = sensitivity(evaluation, h, k, step);
-      for (std::size_t r = 0; r < side.size(); ++r) J[k][r] += 0.5 * side[r];
+      J.col(static_cast<Eigen::Index>(k)) +=
+          0.5F * Eigen::Map<const Eigen::VectorXd>(side.data(), J.rows()).cast<float>();
     }
   });
   return J;
@@ -68,7 +66,7 @@ std::vector<double> steps_over_errors(const Eigen::VectorXd& variances) {
   return steps;
 }
 
-Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<std::vector<double>>& J) {
+Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const Slopes& J) {
   const std::vector<BlockSlopes> blocks = slopes_by_block(evaluation, h, J);
   const auto n = static_cast<Eigen::Index>(h.free.size());
   Eigen::MatrixXd tolerances = Eigen::MatrixXd::Zero(n, n);

@@ -7,10 +7,12 @@
 
 namespace wormdrive {
 
-/// Change of the whitened innovations by each free coordinate, per scale, as the mean of a step up and one down. steps:
-/// of each, in scales.
-std::vector<std::vector<double>> central_sensitivities(const Evaluation& evaluation, const Hypothesis& h,
-                                                       const std::vector<double>& steps);
+/// Changes of the whitened innovations, a row each, by the free coordinates, per scale; of hours of samples, so not in
+/// doubles.
+using Slopes = Eigen::MatrixXf;
+
+/// Slopes as the mean of a step up and one down. steps: of each coordinate, in scales.
+Slopes central_sensitivities(const Evaluation& evaluation, const Hypothesis& h, const std::vector<double>& steps);
 /// Steps as long as standard errors, within limits; variances in squared scales.
 std::vector<double> steps_over_errors(const Eigen::VectorXd& variances);
 
@@ -21,6 +23,6 @@ struct Sandwich {
 };
 
 /// Of an evaluated hypothesis. J: its central_sensitivities().
-Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const std::vector<std::vector<double>>& J);
+Sandwich sandwich(const Evaluation& evaluation, const Hypothesis& h, const Slopes& J);
 
 }  // namespace wormdrive

@@ -56,14 +56,14 @@ MapEquations map_equations(const Evaluation& evaluation, const Hypothesis& h, co
   const std::vector<double> weights = fit_weights(evaluation.layout(), h.residuals, h.noise_model);
   const WeightedColumns weigh(weights);
   const Eigen::VectorXd residual = weigh(h.residuals);
-  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(residual.size(), n);
+  Eigen::MatrixXf V = Eigen::MatrixXf::Zero(residual.size(), n);  // of hours of samples, so not in doubles
   parallel_for(points.size(), evaluation.threads(), [&](std::size_t k) {
     RecordedDrive drive = extended(h);
     LearnedMap moved = map;
     moved.values[k] += map.form.step;
     put_on(drive, moved);
     if (const auto e = evaluation.innovations(drive, h.noise))
-      V.col(static_cast<Eigen::Index>(k)) = weigh(difference(evaluation, h, *e)) / map.form.step;
+      V.col(static_cast<Eigen::Index>(k)) = (weigh(difference(evaluation, h, *e)) / map.form.step).cast<float>();
   });
 
   MapEquations q;
@@ -86,7 +86,7 @@ MapEquations map_equations(const Evaluation& evaluation, const Hypothesis& h, co
     if (weights[k] > 0.0) blocks.push_back(evaluation.layout().block[k]);
   std::size_t next = 0;
   for_each_stretch(blocks, [&](std::size_t, Eigen::Index first, Eigen::Index rows) {
-    const auto block = V.middleRows(first, rows);
+    const Eigen::MatrixXd block = V.middleRows(first, rows).cast<double>();
     const std::size_t p = next++ % MapEquations::parts;
     q.A_of[p] += block.transpose() * block;
     q.b_of[p] -= block.transpose() * residual.segment(first, rows);

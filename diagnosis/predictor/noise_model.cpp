@@ -1,6 +1,7 @@
 #include "diagnosis/predictor/noise_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -110,97 +111,103 @@ void fit_scale_and_tails(NoiseGroup& group, const std::vector<Square>& squares, 
   if (NegativeLogLikelihood(rounding)(squares) < NegativeLogLikelihood(group)(squares)) group = rounding;
 }
 
-}  // namespace
-
-InnovationLayout::InnovationLayout(std::vector<PreparedRecording> all) : recordings(std::move(all)) {
-  for (const PreparedRecording& r : recordings) {
-    begins.push_back(samples);
-    first_blocks.push_back(blocks);
-    samples += r.samples();
-    blocks += r.blocks();
+/// Estimates the noise of one channel: of its standing and of its moving samples. It walks the samples again and again,
+/// for to keep what a walk needs of each takes more time and memory than to work it out anew.
+class NoiseOfChannel {
+ public:
+  NoiseOfChannel(const InnovationLayout& layout, const Channel& channel, std::span<const double> innovations,
+                 bool whitens)
+      : layout_(layout),
+        channel_(channel),
+        recording_(layout.recordings[channel.recording]),
+        e_(layout.of(channel, innovations)),
+        whitens_(whitens) {
+    for_each_fitted([&](std::size_t, std::size_t g, const double*) { ++members_[g]; });
   }
-  for (const bool of_worm : {false, true})
-    for (std::size_t q = 0; q < recordings.size(); ++q) {
-      const PreparedRecording& r = recordings[q];
-      if (of_worm && r.worm_angle.empty()) continue;
-      for (std::size_t k = 0; k < r.samples(); ++k) {
-        group.push_back(static_cast<std::uint8_t>(2 * channels.size() + (r.moving[k] ? 1 : 0)));
-        part.push_back(static_cast<std::uint8_t>(!r.used[k] ? 0 : r.held_out[k] ? 2 : 1));
-        share.push_back(r.share(k));
-        block.push_back(static_cast<std::uint32_t>(first_blocks[q] + k / r.block_length));
-      }
-      channels.push_back({q, of_worm, size, of_worm ? r.worm_resolution : r.data.gear_resolution});
-      size += r.samples();
+
+  /// groups: of standing and of moving samples.
+  void fit(std::span<NoiseGroup> groups) const {
+    fit_first_scales(groups);
+    for (const int iterations : {3, 6}) {  // the scales of the first round only serve the weights of the second
+      const bool is_last = iterations == 6;
+      const auto takes_part = [&](std::size_t g) { return members_[g] > 0 && (is_last || is_whitened(g)); };
+      if (!takes_part(0) && !takes_part(1)) continue;
+      if (is_whitened(0) || is_whitened(1)) whiten(groups);
+      const std::array<std::vector<Square>, 2> left = squares_left(groups);
+      for (const std::size_t g : {0, 1})
+        if (takes_part(g)) fit_scale_and_tails(groups[g], left[g], least(g), channel_.resolution, iterations);
     }
-}
+  }
 
-const Channel& InnovationLayout::leading(std::size_t recording) const {
-  return *std::find_if(channels.rbegin(), channels.rend(), [&](const Channel& c) { return c.recording == recording; });
-}
+ private:
+  /// visit(sample, group, means before it)
+  template <class Visit>
+  void for_each_fitted(Visit&& visit) const {
+    Means z(recording_.data.period);
+    for (std::size_t k = 0; k < e_.size(); ++k) {
+      if (layout_.part[channel_.begin + k] == 1) visit(k, layout_.group[channel_.begin + k] & 1U, z.values().data());
+      if (whitens_) z.add(e_[k]);
+    }
+  }
+  bool is_whitened(std::size_t g) const { return whitens_ && members_[g] >= rules::fewest_for_weights; }
+  double least(std::size_t g) const { return least_scale(recording_, channel_.resolution, g == 1); }
+  double share(std::size_t k) const { return layout_.share[channel_.begin + k]; }
 
-double InnovationLayout::fitted() const {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < size; ++k)
-    if (part[k] == 1) sum += share[k];
-  return sum;
-}
+  /// By the median of every fifth sample.
+  void fit_first_scales(std::span<NoiseGroup> groups) const {
+    std::array<std::vector<double>, 2> sizes;
+    std::array<std::size_t, 2> seen{};
+    for_each_fitted([&](std::size_t k, std::size_t g, const double*) {
+      if (seen[g]++ % 5 == 0) sizes[g].push_back(std::abs(e_[k]));
+    });
+    for (const std::size_t g : {0, 1})
+      groups[g].scale = std::max(least(g), sizes[g].size() > rules::fewest_for_scale ? robust_scale(sizes[g]) : 0.0);
+  }
+
+  void whiten(std::span<NoiseGroup> groups) const {
+    std::array<Matrix, 2> A{Matrix::Zero(), Matrix::Zero()};
+    std::array<Vector, 2> b{Vector::Zero(), Vector::Zero()};
+    const auto inverse_square = [](const NoiseGroup& group) { return 1.0 / (group.scale * group.scale); };
+    const std::array inverse{inverse_square(groups[0]), inverse_square(groups[1])};
+    for_each_fitted([&](std::size_t k, std::size_t g, const double* means) {
+      const Eigen::Map<const Vector> z(means);
+      const double x = e_[k] - predicted(groups[g].weights, means), nu = groups[g].freedom;
+      const double weight = share(k) * (nu + 1.0) / (nu + x * x * inverse[g]);
+      b[g] += weight * e_[k] * z;
+      A[g] += (weight * z) * z.transpose();
+    });
+    for (const std::size_t g : {0, 1}) {
+      if (!is_whitened(g)) continue;
+      A[g].diagonal().array() += 1e-6 * A[g].trace() / terms + 1e-300;
+      Vector::Map(groups[g].weights.data()) = A[g].ldlt().solve(b[g]);
+    }
+  }
+
+  /// Of the innovations less what those before predict of them.
+  std::array<std::vector<Square>, 2> squares_left(std::span<const NoiseGroup> groups) const {
+    std::array<std::vector<Square>, 2> left;
+    for (const std::size_t g : {0, 1}) left[g].reserve(members_[g]);
+    for_each_fitted([&](std::size_t k, std::size_t g, const double* means) {
+      const double x = e_[k] - predicted(groups[g].weights, means);
+      left[g].push_back({x * x, share(k)});
+    });
+    return left;
+  }
+
+  const InnovationLayout& layout_;
+  const Channel& channel_;
+  const PreparedRecording& recording_;
+  std::span<const double> e_;
+  bool whitens_;
+  std::array<std::size_t, 2> members_{};  ///< samples that are fitted
+};
+
+}  // namespace
 
 NoiseModel estimate_noise(const InnovationLayout& layout, std::span<const double> innovations, bool whitens) {
   NoiseModel noise{std::vector<NoiseGroup>(layout.groups()), whitens};
-  std::vector<double> means, sizes;
-  std::vector<Square> rest;
-  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-    const Channel& channel = layout.channels[c];
-    const PreparedRecording& recording = layout.recordings[channel.recording];
-    const std::span<const double> e = layout.of(channel, innovations);
-    const std::size_t n = e.size(), begin = channel.begin;
-    if (whitens) {
-      means.resize(n * terms);
-      Means z(recording.data.period);
-      for (std::size_t k = 0; k < n; ++k) {
-        std::copy(z.values().begin(), z.values().end(), means.begin() + static_cast<std::ptrdiff_t>(k * terms));
-        z.add(e[k]);
-      }
-    }
-    for (const bool moving : {false, true}) {
-      NoiseGroup& group = noise.groups[2 * c + (moving ? 1 : 0)];
-      const double least = least_scale(recording, channel.resolution, moving);
-      const auto mine = [&](std::size_t k) {
-        return layout.part[begin + k] == 1 && (recording.moving[k] != 0) == moving;
-      };
-      std::vector<std::size_t> members;
-      for (std::size_t k = 0; k < n; ++k)
-        if (mine(k)) members.push_back(k);
-      sizes.clear();
-      for (std::size_t q = 0; q < members.size(); q += 5) sizes.push_back(std::abs(e[members[q]]));
-      group.scale = std::max(least, sizes.size() > rules::fewest_for_scale ? robust_scale(sizes) : 0.0);
-      if (members.empty()) continue;
-      const int rounds = whitens && members.size() >= rules::fewest_for_weights ? 2 : 0;
-      for (int round = 0; round <= rounds; ++round) {
-        if (round > 0) {
-          Matrix A = Matrix::Zero();
-          Vector b = Vector::Zero();
-          const double nu = group.freedom, inverse = 1.0 / (group.scale * group.scale);
-          for (const std::size_t k : members) {
-            const Eigen::Map<const Vector> z(&means[k * terms]);
-            const double x = e[k] - predicted(group.weights, z.data());
-            const double weight = layout.share[begin + k] * (nu + 1.0) / (nu + x * x * inverse);
-            b += weight * e[k] * z;
-            A += (weight * z) * z.transpose();
-          }
-          A.diagonal().array() += 1e-6 * A.trace() / terms + 1e-300;
-          Vector::Map(group.weights.data()) = A.ldlt().solve(b);
-        }
-        if (round == 0 && rounds > 0) continue;
-        rest.clear();
-        for (const std::size_t k : members) {
-          const double x = e[k] - (whitens ? predicted(group.weights, &means[k * terms]) : 0.0);
-          rest.push_back({x * x, layout.share[begin + k]});
-        }
-        fit_scale_and_tails(group, rest, least, channel.resolution, round == rounds ? 6 : 3);
-      }
-    }
-  }
+  for (std::size_t c = 0; c < layout.channels.size(); ++c)
+    NoiseOfChannel(layout, layout.channels[c], innovations, whitens).fit(std::span(noise.groups).subspan(2 * c, 2));
   return noise;
 }
 

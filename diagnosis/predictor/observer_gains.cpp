@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -83,20 +84,39 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Prep
   // The angle is a reading of the sensor. The speed, of a line through samples between which the motion may bend, is as
   // good as unknown: what follows tells it.
   constexpr double unknown = 1e8;
+  constexpr double alike = 1e-6;  // shares: steps that differ by the rounding of their times
+  constexpr double still =
+      1e-10;  // shares: what a change of the gains from sample to sample may still sum up to is less
   const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, unknown, noise.coloured * noise.coloured).asDiagonal();
   std::vector<ObserverGains> gains(recording.samples());
+  std::optional<Propagation> ahead;
   Eigen::Matrix3d P = at_start;
+  double length = 0.0;   // of the last step [s]
+  bool settled = false;  // the gains no longer change
   for (std::size_t k = 1; k < gains.size(); ++k) {
     if (std::binary_search(recording.restarts.begin(), recording.restarts.end(), k)) {
       P = at_start;
+      settled = false;
       continue;
     }
-    const double step = recording.time(k) - recording.time(k - 1), keep = std::exp(-step / rules::colouring_time);
-    P = Propagation(noise, step / recording.period, keep).ahead(P);
+    const double step = recording.time(k) - recording.time(k - 1);
+    const bool is_like_last = std::abs(step - length) <= alike * length;
+    const bool is_read = recording.valid.empty() || recording.valid[k];
+    if (!is_like_last) ahead.emplace(noise, step / recording.period, std::exp(-step / rules::colouring_time));
+    length = step;
+    if (settled && is_like_last && is_read) {
+      gains[k] = gains[k - 1];
+      continue;
+    }
+    P = ahead->ahead(P);
     Eigen::Vector3d K = Eigen::Vector3d::Zero();
-    if (recording.valid.empty() || recording.valid[k]) K = P.col(0) / (P(0, 0) + 1.0 / prepared.share(k));
+    if (is_read) K = P.col(0) / (P(0, 0) + 1.0 / prepared.share(k));
     P -= K * P.row(0).eval();
-    gains[k] = {K[0], K[1], K[2], keep};
+    gains[k] = {K[0], K[1], K[2], ahead->F(2, 2)};
+    const auto is_still = [&](double now, double before) { return std::abs(now - before) <= still * std::abs(now); };
+    const ObserverGains& last = gains[k - 1];
+    settled = prepared.shares.empty() && is_like_last && is_read && is_still(K[0], last.angle) &&
+              is_still(K[1], last.speed) && is_still(K[2], last.torque);
   }
   return gains;
 }

@@ -15,6 +15,9 @@ struct ProcessNoise {
   Restitution impact{};
   double period = 0.0;  ///< of the samples for which these are stated [s]; 0: of any
 
+  bool has_torques_of(const ProcessNoise& other) const {
+    return white == other.white && coloured == other.coloured && period == other.period;
+  }
   /// The same torques, by what they do within samples of another period.
   ProcessNoise over(double other) const;
 };

@@ -39,11 +39,11 @@ class Predictor {
 
   /// extra: torque added to the command at every sample [N m], empty for none.
   Predictor(Drive drive, const TakenOut& out, const Restitution& impact, const PreparedRecording& recording,
-            std::vector<ObserverGains> gains, std::span<const double> extra = {})
+            const std::vector<ObserverGains>& gains, std::span<const double> extra = {})
       : model_(std::move(drive), out.gap, recording.worm_angle.empty() ? 0.0 : out.compliance, impact),
         out_(out),
         recording_(recording),
-        gains_(std::move(gains)),
+        gains_(gains),
         extra_(extra),
         held_torque_(
             (model_.drive().mesh().Jw * model_.drive().mesh().i + model_.drive().mesh().C(0.0) * model_.drive().Jg()) /
@@ -175,7 +175,7 @@ class Predictor {
   Model model_;
   TakenOut out_;
   const PreparedRecording& recording_;
-  std::vector<ObserverGains> gains_;  ///< of every sample, or one for all
+  const std::vector<ObserverGains>& gains_;  ///< of every sample, or one for all
   std::span<const double> extra_;
   double held_torque_;  ///< on the worm, of an acceleration by 1 rad per period squared, without friction [N m]
 };

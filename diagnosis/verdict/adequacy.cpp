@@ -26,13 +26,14 @@ namespace {
 
 /// What every sample of all recordings may be ordered by.
 struct Abscissae {
-  std::vector<double> angle, speed, time, load, direction, side, moving;
+  std::vector<double> angle, speed, time, load, direction, moving;
 };
 
-/// They are taken from the state that the predictor had before a sample: what is smoothed from later samples as well
-/// knows their noise, and would find itself in it.
-Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
-  Abscissae a;
+/// Calls visit(recording, k, t, angle, speed, load) for every sample, load in shares of the largest. The state is the
+/// one that the predictor had before the sample: what is smoothed from later samples as well knows their noise, and
+/// would find itself in it.
+template <class Visit>
+void for_each_state(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes, Visit&& visit) {
   std::vector<FilteredStates> states;
   evaluation.innovations(extended(h), h.noise, {}, &states);
   for (std::size_t q = 0; q < states.size(); ++q) {
@@ -46,17 +47,33 @@ Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Mag
       const double tau = sizes.load_torque > 0.0
                              ? load.torque(drive.moment(t, state.angle[k], state.speed[k])) / sizes.load_torque
                              : 0.0;
-      const double direction = state.speed[k] > 0.0 ? 1.0 : -1.0;
-      a.angle.push_back(state.angle[k]);
-      a.speed.push_back(state.speed[k]);
-      a.time.push_back(t);
-      a.load.push_back(tau);
-      a.direction.push_back(direction);
-      a.side.push_back(tau * direction > 0.0 ? 1.0 : -1.0);
-      a.moving.push_back(r.moving[k]);
+      visit(r, k, t, state.angle[k], state.speed[k], tau);
     }
   }
+}
+
+Abscissae abscissae(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
+  Abscissae a;
+  for_each_state(evaluation, h, sizes,
+                 [&](const PreparedRecording& r, std::size_t k, double t, double angle, double speed, double load) {
+                   a.angle.push_back(angle);
+                   a.speed.push_back(speed);
+                   a.time.push_back(t);
+                   a.load.push_back(load);
+                   a.direction.push_back(speed > 0.0 ? 1.0 : -1.0);
+                   a.moving.push_back(r.moving[k]);
+                 });
   return a;
+}
+
+/// On which flank the load presses, at every sample: 1 or -1.
+std::vector<double> sides(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
+  std::vector<double> all;
+  for_each_state(evaluation, h, sizes,
+                 [&](const PreparedRecording&, std::size_t, double, double, double speed, double load) {
+                   all.push_back((speed > 0.0 ? load : -load) > 0.0 ? 1.0 : -1.0);
+                 });
+  return all;
 }
 
 /// A torque that is a free function of one axis, times one of several factors.
@@ -235,14 +252,6 @@ std::vector<ScoreTest> score_tests(const Evaluation& evaluation, const Hypothesi
                  test.held_out > (axis.one_place ? rules::left_gain_of_a_place : rules::left_gain) &&
                  test.what.torque > least_torque;
   }
-  for (ScoreTest& line : spectral_lines(evaluation, h)) {
-    all.push_back(std::move(line));  // judged by what it does as a vibration
-    all.back().found = all.back().what.evidence > rules::left_line;
-  }
-  for (std::size_t r = 0; r < evaluation.layout().recordings.size(); ++r) {
-    all.push_back(spectral_line(evaluation, h, r, &a.side, "a line by flank"));
-    all.back().found = all.back().what.evidence > rules::left_line && all.back().ahead > rules::left_ahead;
-  }
   return all;
 }
 
@@ -270,10 +279,20 @@ std::vector<Remainder> strongest_first(std::vector<Remainder> all) {
   return all;
 }
 
-std::vector<Remainder> remainders(const Evaluation& evaluation, const Hypothesis& h, const Magnitudes& sizes) {
+std::vector<Remainder> remainders(const Evaluation& all, const Hypothesis& h, const Evaluation& pieces,
+                                  const Magnitudes& sizes) {
   std::vector<Remainder> found;
-  for (const ScoreTest& test : score_tests(evaluation, h, sizes))
-    if (test.found) found.push_back(test.what);
+  Hypothesis there = h;
+  if (evaluate(pieces, there))
+    for (const ScoreTest& test : score_tests(pieces, there, sizes))
+      if (test.found) found.push_back(test.what);
+  for (const ScoreTest& line : spectral_lines(all, h))  // judged by what it does as a vibration
+    if (line.what.evidence > rules::left_line) found.push_back(line.what);
+  const std::vector<double> side = sides(all, h, sizes);
+  for (std::size_t r = 0; r < all.layout().recordings.size(); ++r)
+    if (const ScoreTest line = spectral_line(all, h, r, &side, "a line by flank");
+        line.what.evidence > rules::left_line && line.ahead > rules::left_ahead)
+      found.push_back(line.what);
   return strongest_first(std::move(found));
 }
 
