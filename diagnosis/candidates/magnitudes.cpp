@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "description/build.hpp"
 #include "diagnosis/data/moved_load.hpp"
@@ -24,6 +25,21 @@ std::array<double, 3> rare_torques(const std::vector<PreparedRecording>& recordi
   return rare;
 }
 
+/// The time in which the correlation of a torque with itself falls to a half [s].
+double torque_memory(const Recording& r) {
+  const std::vector<double>& u = r.motor_torque;
+  const double mean = std::accumulate(u.begin(), u.end(), 0.0) / static_cast<double>(u.size());
+  const auto product = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t k = lag; k < u.size(); ++k) sum += (u[k] - mean) * (u[k - lag] - mean);
+    return sum;
+  };
+  const double half = 0.5 * product(0);
+  std::size_t lag = 1;
+  while (lag < u.size() / 2 && product(lag) > half) lag += 1 + lag / 4;
+  return static_cast<double>(lag) * r.period;
+}
+
 }  // namespace
 
 Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecording>& recordings) {
@@ -33,6 +49,8 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
     m.largest_torque = std::max(m.largest_torque, r.largest_torque);
     m.gear_speed = std::max(m.gear_speed, r.rms_speed);
     m.duration = std::max(m.duration, r.duration());
+    const double memory = torque_memory(r.data);
+    m.torque_memory = m.torque_memory > 0.0 ? std::min(m.torque_memory, memory) : memory;
     m.period = std::max(m.period, r.data.period);
     m.has_worm_encoder = m.has_worm_encoder || r.data.has_worm_encoder();
   }

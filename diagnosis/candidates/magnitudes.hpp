@@ -22,6 +22,7 @@ struct Magnitudes {
   double gear_inertia{};                 ///< with the load's own [kg m^2]; 0 without teeth
   double duration{};                     ///< of the longest recording [s]
   double period{};                       ///< of the slowest sampling [s]
+  double torque_memory{};                ///< after which a command tells half of another, in the fastest recording [s]
   bool has_teeth = true;
   double gear_arm{};              ///< lever arm of the teeth's normal force on the gear [m]; 0 without teeth
   bool has_worm_encoder = false;  ///< in one of the recordings at least

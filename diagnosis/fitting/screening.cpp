@@ -134,6 +134,11 @@ class Trial {
   std::size_t size_ = 0;  ///< the candidate's first coordinate among the free ones
 };
 
+/// How many far values of a candidate are tried. A recording that is so wrong comes before anything else.
+std::size_t far_values(const Hypothesis& h, const Candidate& candidate) {
+  return candidate.of_recording && !h.causes.empty() ? 0 : candidate.far.size();
+}
+
 }  // namespace
 
 bool is_in(const Hypothesis& h, const std::vector<Candidate>& all, std::size_t candidate) {
@@ -156,7 +161,7 @@ Screening screen(const Evaluation& evaluation, const Hypothesis& h, const std::v
 
   for (std::size_t c = 0; c < all.size(); ++c)
     if (!all[c].alone && !is_in(h, all, c))
-      for (std::size_t start = 0; start < all[c].starts.size() + all[c].far.size(); ++start)
+      for (std::size_t start = 0; start < all[c].starts.size() + far_values(h, all[c]); ++start)
         s.found.push_back({.candidate = c, .start = start, .is_far = start >= all[c].starts.size()});
   parallel_for(s.found.size(), evaluation.threads(), [&](std::size_t k) {
     Trial(evaluation, h, all, s.found[k])(weigh, J, residual);

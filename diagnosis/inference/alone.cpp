@@ -45,7 +45,9 @@ void try_alone(const Evaluation& evaluation, const std::vector<Candidate>& all, 
     const Evidence evidence =
         compare(without.objective < found.base.objective ? without : found.base, with, all[c], evaluation.layout());
     found.tried.push_back({c, with, evidence});
-    if (!accepted(evidence, all[c]) || with.bic >= found.model.bic) continue;
+    // one that explains as much as several is the better explanation
+    const double several = found.causes.size() > 1 ? equivalence_margin(found.base.bic - found.model.bic) : 0.0;
+    if (!accepted(evidence, all[c]) || with.bic >= found.model.bic + several) continue;
     found.model = std::move(with);
     found.causes = {{c, {}}};
     found.beyond_bound.reset();

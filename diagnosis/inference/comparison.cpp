@@ -12,6 +12,7 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
                  const InnovationLayout& layout) {
   Evidence e;
   e.delta_bic = without.bic - with.bic;
+  e.of_tolerances = 2.0 * (with_tolerances(0.0, without) - with_tolerances(0.0, with));
   std::vector<std::uint8_t> out(layout.blocks, 0);
   for (std::size_t k = 0; k < layout.size; ++k)
     if (layout.part[k] == 2) out[layout.block[k]] = 1;
@@ -67,8 +68,11 @@ bool holds(const Evidence& e, const Candidate& candidate) {
   const bool broad = e.clipped > rules::least_held_out && e.positive_share >= rules::positive_share;
   // teeth that bounce throw single blocks about, by more than many causes are worth
   if (e.beside_gap) return steady && broad;
-  // a number that is free within its tolerance without being named has gained most of it already
-  if (candidate.toleranced) return e.held_out > -std::max(rules::least_held_out, rules::held_out_loss * e.delta_bic);
+  // stated numbers have gained most of it already: this one within its tolerance, or all of them far beyond theirs, as
+  // far as it takes to do what the fault of a recording does
+  const bool moves_back = e.of_tolerances > std::max(rules::least_bic, rules::mostly * e.delta_bic);
+  if (candidate.toleranced || (candidate.of_recording && moves_back))
+    return e.held_out > -std::max(rules::least_held_out, rules::held_out_loss * e.delta_bic);
   const bool has_steps = std::any_of(candidate.coordinates.begin(), candidate.coordinates.end(),
                                      [](const Coordinate& c) { return !has_slope(c); });
   return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules::least_bic);

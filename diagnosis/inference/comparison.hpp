@@ -9,6 +9,7 @@ namespace wormdrive {
 /// How a model with a candidate compares with one without it.
 struct Evidence {
   double delta_bic{};
+  double of_tolerances{};        ///< what of it stated numbers give that move back towards their values
   double held_out{};             ///< gain of held-out data [nats]
   double without_best{};         ///< the same without the block that gains most
   double clipped{};              ///< the same with every block's gain clipped

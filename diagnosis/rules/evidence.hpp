@@ -18,6 +18,8 @@ inline constexpr double positive_share = 0.7;
 inline constexpr double least_bic_toleranced = 5.0;
 /// standard deviations | standard | one false name in two thousand numbers that are stated rightly
 inline constexpr double least_tolerances = 3.5;
+/// share of the BIC's gain | derived | is most of it
+inline constexpr double mostly = 0.5;
 /// share of the BIC's gain | set | that held-out data may lose by a stated number: it was free before
 inline constexpr double held_out_loss = 0.05;
 /// share of the best evidence | set | candidates so near the best one form a class with it
@@ -51,6 +53,8 @@ inline constexpr double most_own_curvature = 0.9;
 inline constexpr double least_promise = 0.5;
 /// candidates, starts | set | fitted in a round at most
 inline constexpr std::size_t most_fitted = 6, most_starts = 12;
+/// values | set | of a drift of clocks, fast and slow ones each, that are tried out as they are
+inline constexpr int most_far_clocks = 16;
 /// share of the first start's gain, of the best gain | set | a second start of a candidate needs both
 inline constexpr double second_start = 0.5, second_start_of_best = 0.3;
 /// share of the best gain | set | a candidate beyond most_fitted needs this

@@ -84,6 +84,15 @@ TEST_CASE("a fault of the recording is named with its size and its remedy, and l
   }
 }
 
+TEST_CASE("clocks that part by more than the torque remembers are told", "[slow]") {
+  std::uint64_t seed = 45;
+  for (const double share : {0.004, 0.016, -0.009})
+    only_fault(
+        {"clock_drift", [&](Recording& r) { reread(r.motor_torque, [&](double k) { return k - share * k + 0.5; }); },
+         share, 0.05, "Log torque and angle by one clock"},
+        seed++);
+}
+
 TEST_CASE("torques that never acted are told from those that did") {
   const auto spikes = [](std::vector<double>& torque, double size) {
     std::mt19937_64 random(7);

@@ -180,7 +180,9 @@ std::vector<Mistake> recording_faults() {
              return fmt::format("{:.2g}", share);
            },
            {"clock_drift"},
-           {}},
+           {},
+           false,
+           {"torque_late", "torque_filtered"}},
           {"time scale",
            [](Scenario&, Record& recorded, Generator& generator) {
              return times(recorded.time, factor(0.5, 2.0, generator));
@@ -209,8 +211,15 @@ Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnos
     bool told = tells(d.sentence);
     for (const std::string& remark : d.remarks) told = told || tells(remark);
     const bool claims = d.verdict == wormdrive::Verdict::named || d.verdict == wormdrive::Verdict::ambiguous;
-    std::size_t right = 0;
-    for (const auto& cause : d.causes) right += is_right(cause.effect);
+    const auto follows = [&](std::string_view effect) {
+      return std::ranges::find(mistake.follow, effect) != mistake.follow.end();
+    };
+    std::size_t right = 0, others = 0;
+    for (const auto& cause : d.causes)
+      if (is_right(cause.effect))
+        ++right;
+      else if (!follows(cause.effect))
+        ++others;
     bool in_class = false;
     for (const auto& of_class : d.classes)
       for (const std::string& member : of_class) in_class = in_class || is_right(member);
@@ -218,7 +227,7 @@ Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnos
       j.score = Score::exact;
     else if (!claims || d.causes.empty())
       j.score = mistake.may_be_harmless && d.verdict == wormdrive::Verdict::adequate ? Score::exact : Score::silent;
-    else if (right == d.causes.size() && !in_class)
+    else if (right > 0 && others == 0 && !in_class)
       j.score = Score::exact;
     else if (in_class && d.causes.size() == 1)
       j.score = Score::in_class;
@@ -236,10 +245,14 @@ Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnos
 std::vector<Judged> mistakes(const std::vector<Mistake>& all, const Plan& plan, const Diagnose& diagnose, int threads) {
   Plan nothing = plan;
   nothing.kind = Kind::nothing;
+  nothing.effects.clear();
   const std::vector<Case> benches = draw(nothing);
-  std::vector<Judged> outcomes(benches.size());
-  wormdrive::parallel_for(benches.size(), threads, [&](std::size_t k) {
-    outcomes[k] = judged(all[k % all.size()], benches[k], diagnose);
+  std::vector<std::size_t> made;  // a mistake has the same benches whichever others are made
+  for (std::size_t k = 0; k < benches.size(); ++k)
+    if (plan.effects.empty() || std::ranges::count(plan.effects, all[k % all.size()].name) > 0) made.push_back(k);
+  std::vector<Judged> outcomes(made.size());
+  wormdrive::parallel_for(made.size(), threads, [&](std::size_t k) {
+    outcomes[k] = judged(all[made[k] % all.size()], benches[made[k]], diagnose);
     std::cout << fmt::format("{} {}: {} -> {}\n", outcomes[k].mistake, outcomes[k].size, name(outcomes[k].score),
                              outcomes[k].answer)
               << std::flush;

@@ -12,9 +12,10 @@ struct Mistake {
   std::string_view name;
   /// Makes it, of a size that is drawn; says which.
   std::string (*make)(wormdrive::Scenario& sheet, truth::Recording& recorded, truth::Generator& generator);
-  std::vector<std::string_view> effects;  ///< causes that name it
-  std::vector<std::string_view> words;    ///< of a sentence, a remark or a rejection; any of them tells of it
-  bool may_be_harmless = false;           ///< an answer that the simulation has all that the data show is right, too
+  std::vector<std::string_view> effects;   ///< causes that name it
+  std::vector<std::string_view> words;     ///< of a sentence, a remark or a rejection; any of them tells of it
+  bool may_be_harmless = false;            ///< an answer that the simulation has all that the data show is right, too
+  std::vector<std::string_view> follow{};  ///< causes beside it that follow from it
 };
 
 /// In a data sheet; in a recording.

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
       "(in the data sheet), faults (of the recording)");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--sizes", sizes, "sizes of the effects: small, medium, large")->delimiter(',');
-  app.add_option("--effects", plan.effects, "hide only these effects")->delimiter(',');
+  app.add_option("--effects", plan.effects, "hide only these effects, or make only these mistakes")->delimiter(',');
   app.add_option("--cases", plan.cases, "number of recordings");
   app.add_option("--seed", plan.seed, "seed of all random numbers");
   app.add_option("--duration", plan.duration, "of a recording [s]");
