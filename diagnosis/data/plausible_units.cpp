@@ -182,10 +182,13 @@ void refuse_implausible_size(const RecordedTable& table, double period, const Sc
   if (!std::holds_alternative<MeshParameters<double>>(scenario.mesh)) return;
   const TorqueFit as_is = TorqueJudge(table, table.torque.values, table.angle.values, period).fit(scenario);
   const auto wrong = [](double factor) { return factor > rules::wrong_size || factor * rules::wrong_size < 1.0; };
-  if (as_is.missed > rules::too_much_unaccounted && wrong(as_is.factor) && wrong(as_is.factor_rms))
-    reject(table.where(), fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong "
-                                      "unit, or wrong scenario",
-                                      table.torque.name, as_is.factor));
+  if (!(as_is.missed > rules::too_much_unaccounted && wrong(as_is.factor) && wrong(as_is.factor_rms))) return;
+  const bool in_degrees = std::abs(as_is.factor * 180.0 / std::numbers::pi - 1.0) < rules::near_unit;
+  reject(table.where(),
+         fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong unit, or wrong "
+                     "scenario{}",
+                     table.torque.name, as_is.factor,
+                     in_degrees ? fmt::format("; so it is if {} is in degrees", table.angle.name) : ""));
 }
 
 }  // namespace wormdrive

@@ -16,7 +16,7 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
   std::vector<std::uint8_t> out(layout.blocks, 0);
   for (std::size_t k = 0; k < layout.size; ++k)
     if (layout.part[k] == 2) out[layout.block[k]] = 1;
-  std::vector<double> gains, sizes;
+  std::vector<double> gains;
   double best_of_all = 0.0;
   for (std::size_t b = 0; b < layout.blocks; ++b) {
     const double gain = without.misfit.blocks[b] - with.misfit.blocks[b];
@@ -26,18 +26,18 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
   }
   e.everywhere_but_best -= best_of_all;
   if (!gains.empty()) {
-    double best = gains.front();
+    std::sort(gains.begin(), gains.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+    const double most = rules::clip * std::abs(gains[gains.size() / 2]);
+    double best = gains.front(), rank = 0.0, positive = 0.0;
     for (const double g : gains) {
       e.held_out += g;
       best = std::max(best, g);
-      e.positive_share += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(gains.size());
-      sizes.push_back(std::abs(g));
+      e.clipped += std::clamp(g, -most, most);
+      rank += 1.0;
+      if (g > 0.0) positive += rank;
     }
     e.without_best = e.held_out - best;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const double most = rules::clip * *middle;
-    for (const double g : gains) e.clipped += std::clamp(g, -most, most);
+    e.positive_share = positive / (0.5 * rank * (rank + 1.0));
   }
   e.beside_gap = !candidate.impacts && gap_of(with);
   for (const Coordinate& c : candidate.coordinates) {

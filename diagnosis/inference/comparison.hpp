@@ -13,7 +13,7 @@ struct Evidence {
   double held_out{};             ///< gain of held-out data [nats]
   double without_best{};         ///< the same without the block that gains most
   double clipped{};              ///< the same with every block's gain clipped
-  double positive_share{};       ///< of the held-out blocks that gain
+  double positive_share{};       ///< of the ranks by size of the held-out blocks, those that gain [Wilcoxon 1945]
   double tolerances{};           ///< largest distance of a stated number from its value, in tolerances
   double everywhere_but_best{};  ///< gain of all data, fitted or not, without the block that gains most [nats]
   bool beside_gap = false;       ///< a gap between the teeth is in both models

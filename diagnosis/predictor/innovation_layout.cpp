@@ -6,12 +6,18 @@
 namespace wormdrive {
 
 InnovationLayout::InnovationLayout(std::vector<PreparedRecording> all) : recordings(std::move(all)) {
+  std::size_t wanted = 0;
   for (const PreparedRecording& r : recordings) {
     begins.push_back(samples);
     first_blocks.push_back(blocks);
     samples += r.samples();
     blocks += r.blocks();
+    wanted += r.samples() * (r.worm_angle.empty() ? 1 : 2);
   }
+  group.reserve(wanted);
+  part.reserve(wanted);
+  share.reserve(wanted);
+  block.reserve(wanted);
   for (const bool of_worm : {false, true})
     for (std::size_t q = 0; q < recordings.size(); ++q) {
       const PreparedRecording& r = recordings[q];

@@ -84,15 +84,16 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Prep
   // The angle is a reading of the sensor. The speed, of a line through samples between which the motion may bend, is as
   // good as unknown: what follows tells it.
   constexpr double unknown = 1e8;
-  constexpr double alike = 1e-6;  // shares: steps that differ by the rounding of their times
+  constexpr double alike = 1e-6;  // share of a step: two that differ by the rounding of their times
   constexpr double still =
-      1e-10;  // shares: what a change of the gains from sample to sample may still sum up to is less
+      1e-10;  // share of the gains: such changes from sample to sample add up to no more than floats
   const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, unknown, noise.coloured * noise.coloured).asDiagonal();
   std::vector<ObserverGains> gains(recording.samples());
   std::optional<Propagation> ahead;
   Eigen::Matrix3d P = at_start;
   double length = 0.0;   // of the last step [s]
   bool settled = false;  // the gains no longer change
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
   for (std::size_t k = 1; k < gains.size(); ++k) {
     if (std::binary_search(recording.restarts.begin(), recording.restarts.end(), k)) {
       P = at_start;
@@ -113,10 +114,8 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Prep
     if (is_read) K = P.col(0) / (P(0, 0) + 1.0 / prepared.share(k));
     P -= K * P.row(0).eval();
     gains[k] = {K[0], K[1], K[2], ahead->F(2, 2)};
-    const auto is_still = [&](double now, double before) { return std::abs(now - before) <= still * std::abs(now); };
-    const ObserverGains& last = gains[k - 1];
-    settled = prepared.shares.empty() && is_like_last && is_read && is_still(K[0], last.angle) &&
-              is_still(K[1], last.speed) && is_still(K[2], last.torque);
+    settled = prepared.shares.empty() && is_like_last && is_read && (K - last).norm() <= still * K.norm();
+    last = K;
   }
   return gains;
 }

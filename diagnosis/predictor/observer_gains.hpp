@@ -22,12 +22,19 @@ struct ProcessNoise {
   ProcessNoise over(double other) const;
 };
 
-/// What an innovation of the angle adds to the state.
+/// What an innovation of the angle adds to the state; in floats, for hours of samples may have one each.
 struct ObserverGains {
-  double angle{};   ///< per innovation
-  double speed{};   ///< per innovation and period
-  double torque{};  ///< as acceleration, per innovation and period squared; only while moving
-  double keep{};    ///< share of the coloured torque that is left after one period
+  float angle{};   ///< per innovation
+  float speed{};   ///< per innovation and period
+  float torque{};  ///< as acceleration, per innovation and period squared; only while moving
+  float keep{};    ///< share of the coloured torque that is left after one period
+
+  ObserverGains() = default;
+  ObserverGains(double to_angle, double to_speed, double to_torque, double kept)
+      : angle(static_cast<float>(to_angle)),
+        speed(static_cast<float>(to_speed)),
+        torque(static_cast<float>(to_torque)),
+        keep(static_cast<float>(kept)) {}
 };
 
 /// Gains of the steady Kalman filter for a double integrator that is driven by white and coloured noise and whose angle

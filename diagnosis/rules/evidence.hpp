@@ -12,7 +12,8 @@ inline constexpr double least_bic = 20.0;
 inline constexpr double least_held_out = 3.0;
 /// medians | set | where a block's gain is cut, so that no single one decides
 inline constexpr double clip = 4.0;
-/// share of the blocks | set | so many have to gain where the gain counts clipped only
+/// share of the blocks' ranks | set | so many have to gain where the gain counts clipped only: what says little, and one
+/// that says much, does not outvote the others
 inline constexpr double positive_share = 0.7;
 /// BIC | standard | strong, of a stated number that is off: its tolerance has taken a part
 inline constexpr double least_bic_toleranced = 5.0;

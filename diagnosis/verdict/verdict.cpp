@@ -112,7 +112,7 @@ bool noise_dominated(const Diagnosis& d, double torque) {
 
 std::optional<Remainder> error_above_noise(const Diagnosis& d) {
   const PredictionError* e = reported_error(d);
-  if (!e || e->after <= rules::above_noise * e->floor) return std::nullopt;
+  if (!e || e->after_low <= rules::above_noise * e->floor) return std::nullopt;  // a few blocks may be all of it
   const double ratio = e->after / e->floor;
   // what bounces leave does not speak against a gap
   const double gain =
