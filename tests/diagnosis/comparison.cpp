@@ -1,6 +1,8 @@
 #include "diagnosis/inference/comparison.hpp"
 
 #include "catch.hpp"
+#include "diagnosis/recordings.hpp"
+#include "numbers.hpp"
 
 // When a candidate is believed, from what speaks for it alone.
 
@@ -79,6 +81,34 @@ TEST_CASE("a stated number needs evidence beyond its tolerance, and must not mak
   CHECK(outcome(e, candidate("gear_inertia", true)) == "within what its tolerance leaves open");
   e.delta_bic = 4.0;
   CHECK(outcome(e, candidate("gear_inertia", true)) == "no evidence beyond the stated tolerance");
+}
+
+TEST_CASE("a fault of the recording need not predict more than stated numbers do that are far off without it") {
+  Candidate fault = candidate("time_scale");
+  fault.of_recording = true;
+  Evidence e = good();
+  e.held_out = e.without_best = e.clipped = -4.0;
+  CHECK(outcome(e, fault) == refuted);
+  e.of_tolerances = 51.0;  // of 100
+  CHECK(outcome(e, fault) == "named");
+  CHECK(outcome(e, candidate("cogging")) == refuted);
+  e.held_out = -5.1;
+  CHECK(outcome(e, fault) == refuted);
+}
+
+TEST_CASE("held-out blocks vote by the ranks of their gains") {
+  const InnovationLayout layout({prepared(record(nominal_arm(), {.duration = 12.0}), 0)});
+  const std::vector<double> gains{-1.0, 5.0, -2.0, 6.0, 9.0, 7.0, 8.0, -1000.0};  // eight of 24 blocks
+  REQUIRE(layout.blocks == 3 * gains.size());
+  Hypothesis without, with;
+  without.misfit.blocks.assign(layout.blocks, 0.0);
+  with.misfit.blocks.assign(layout.blocks, -20.0);
+  for (std::size_t k = 0; k < gains.size(); ++k) with.misfit.blocks[3 * k + 2] = -gains[k];
+  const Evidence e = compare(without, with, candidate("cogging"), layout);
+  CHECK(close(e.held_out, -968.0, 1e-15));
+  CHECK(close(e.without_best, -977.0, 1e-15));
+  CHECK(close(e.positive_share, (3.0 + 4.0 + 5.0 + 6.0 + 7.0) / 36.0, 1e-15));
+  CHECK(close(e.clipped, 32.0 - 4.0 * 7.0, 1e-15));  // the lost block counts four times the median of the sizes
 }
 
 TEST_CASE("beside a gap a cause has to gain in most blocks, and not by one of them") {

@@ -110,9 +110,11 @@ TEST_CASE("a fall of friction with more evidence than the level is in its class"
 namespace {
 
 /// Of drawn single effects the ones with these numbers are named exactly.
-void are_named(std::uint64_t seed, const std::vector<long>& numbers) {
+void are_named(std::uint64_t seed, const std::vector<long>& numbers,
+               const std::vector<truth::Size>& sizes = Plan{}.sizes) {
   Plan plan{.kind = Kind::single,
             .conditions = conditions("realistic"),
+            .sizes = sizes,
             .cases = *std::max_element(numbers.begin(), numbers.end()) + 1,
             .seed = seed};
   plan.any_bench = true;
@@ -128,6 +130,12 @@ void are_named(std::uint64_t seed, const std::vector<long>& numbers) {
 }  // namespace
 
 TEST_CASE("with a coarse encoder no torque over speed takes a name back", "[recovery][slow]") { are_named(811, {58}); }
+
+TEST_CASE("one lost block refutes no cause and a few large errors withdraw no name", "[recovery][slow]") {
+  are_named(
+      1801, {47, 53},
+      {truth::Size::medium, truth::Size::large});  // an error ahead of 3.4 times the noise; a gap, lost in a block
+}
 
 TEST_CASE("with coarse encoders no torque over speed takes names back", "[.][long]") {
   are_named(701, {54, 89});
