@@ -15,7 +15,7 @@ std::vector<Candidate> fault_candidates(const Magnitudes& m, bool has_torque_spi
   }
   // an output of which next to nothing is smeared within a sample is its input
   all.push_back(late(FilteredTorque::id, "time_constant", m.period, 0.02 * m.period));
-  all.push_back(late(LateTorque::id, "time", m.period, 0.0));
+  all.push_back(late(LateTorque::id, "time", m.period, rules::least_late * m.period));
   constexpr double worst_clock = 0.02;  // an oscillator of a resistor and a capacitor, as a microcontroller has it
   all.push_back(linear(ClockDrift::id, "share", m.period / m.duration, -worst_clock, worst_clock));
   // so far apart that near one of them torque and angle still go together at the end

@@ -54,6 +54,9 @@ inline constexpr double most_own_curvature = 0.9;
 inline constexpr double least_promise = 0.5;
 /// candidates, starts | set | fitted in a round at most
 inline constexpr std::size_t most_fitted = 6, most_starts = 12;
+/// share of a sample | set | a torque that is late by less is not: to bring it forward mixes in a trace of the next one,
+/// which answers the very reading that is predicted, and so foretells that reading's noise
+inline constexpr double least_late = 0.1;
 /// values | set | of a drift of clocks, fast and slow ones each, that are tried out as they are
 inline constexpr int most_far_clocks = 16;
 /// share of the first start's gain, of the best gain | set | a second start of a candidate needs both

@@ -90,6 +90,12 @@ TEST_CASE("of readings within a step of the encoder no torque over speed is left
                      [](const std::string& remark) { return remark.find(" is left, but ") != std::string::npos; }));
 }
 
+TEST_CASE("no torque is late for a trace of the next one, which answers the reading that is predicted", "[recovery]") {
+  const wormdrive::Diagnosis said = with_nothing_hidden(1901, 111).said;
+  INFO(said.sentence);
+  CHECK(said.verdict == wormdrive::Verdict::adequate);
+}
+
 TEST_CASE("a fall of friction with more evidence than the level is in its class", "[recovery]") {
   Plan plan{.kind = Kind::single, .conditions = conditions("realistic"), .cases = 29, .seed = 701};
   plan.any_bench = true;
