@@ -19,6 +19,8 @@
 namespace wormdrive {
 namespace {
 
+bool is_near(double factor, double expected, double share) { return std::abs(factor / expected - 1.0) < share; }
+
 using Values = std::vector<double>;
 
 Values times(Values values, double factor) {
@@ -93,7 +95,7 @@ void refuse_other_speed(const RecordedTable& table, double period, const Scenari
   if (product * product > rules::least_speed_likeness * square * other && factor * rules::most_speed_factor > 1.0 &&
       factor < rules::most_speed_factor)
     return;
-  const auto is = [&](double expected) { return std::abs(factor / expected - 1.0) < rules::near_unit; };
+  const auto is = [&](double expected) { return is_near(factor, expected, rules::near_unit); };
   std::string why = "is not the derivative of";
   if (is(30.0 / std::numbers::pi)) why = "is in rpm, which does not match";
   if (is(180.0 / std::numbers::pi)) why = "is in degrees per second, which does not match";
@@ -122,7 +124,7 @@ void refuse_other_ratio(const RecordedTable& table, const Scenario& scenario) {
   if (square == 0.0 || product * product < rules::least_meshing * square * other) return;
   const double ratio = product / square;
   if (std::abs(ratio / mesh->i - 1.0) < rules::other_ratio) return;
-  const auto is = [&](double expected) { return std::abs(ratio / expected - 1.0) < rules::near_ratio; };
+  const auto is = [&](double expected) { return is_near(ratio, expected, rules::near_ratio); };
   const std::string remedy = is(-mesh->i)                             ? "turn its sign"
                              : is(1.0)                                ? "it is counted at the gear"
                              : is(mesh->i * 180.0 / std::numbers::pi) ? "it is in degrees"
@@ -183,7 +185,7 @@ void refuse_implausible_size(const RecordedTable& table, double period, const Sc
   const TorqueFit as_is = TorqueJudge(table, table.torque.values, table.angle.values, period).fit(scenario);
   const auto wrong = [](double factor) { return factor > rules::wrong_size || factor * rules::wrong_size < 1.0; };
   if (!(as_is.missed > rules::too_much_unaccounted && wrong(as_is.factor) && wrong(as_is.factor_rms))) return;
-  const bool in_degrees = std::abs(as_is.factor * 180.0 / std::numbers::pi - 1.0) < rules::near_unit;
+  const bool in_degrees = is_near(as_is.factor, std::numbers::pi / 180.0, rules::near_unit);
   reject(table.where(),
          fmt::format("{} is {:.2g} times what the drive of the scenario needs for this motion: wrong unit, or wrong "
                      "scenario{}",

@@ -26,7 +26,6 @@ std::span<const double> Evaluation::of_recording(std::span<const double> extra, 
   return extra.empty() ? extra : extra.subspan(layout_.begins[recording], layout_.recordings[recording].samples());
 }
 
-/// Of a recording as it is.
 std::shared_ptr<const std::vector<ObserverGains>> Evaluation::gains_of(std::size_t recording,
                                                                        const ProcessNoise& noise) const {
   {
@@ -50,8 +49,9 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
   const bool is_wrong = drive.faults.any();
   const PreparedRecording as_it_was = is_wrong ? mended(as_recorded, drive.faults) : PreparedRecording{};
   const PreparedRecording& prepared = is_wrong ? as_it_was : as_recorded;
-  const auto gains = is_wrong ? std::make_shared<const std::vector<ObserverGains>>(observer_gains(noise, prepared))
-                              : gains_of(recording, noise);
+  const auto gains = drive.faults.of<TimeScale>()  // no other fault has times of its own
+                         ? std::make_shared<const std::vector<ObserverGains>>(observer_gains(noise, prepared))
+                         : gains_of(recording, noise);
   const auto with_model = [&]<class Model>(auto&& load) {
     typename Model::Drive followed_drive(stated_mesh(scenario_), std::move(load), followed, {});
     Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared, *gains, extra);

@@ -43,6 +43,7 @@ class Evaluation {
 
  private:
   std::span<const double> of_recording(std::span<const double> extra, std::size_t recording) const;
+  /// Of a recording with the times that it has.
   std::shared_ptr<const std::vector<ObserverGains>> gains_of(std::size_t recording, const ProcessNoise& noise) const;
   template <class Use>
   void with_predictor(const RecordedDrive& drive, std::size_t recording, const ProcessNoise& noise,
@@ -53,6 +54,7 @@ class Evaluation {
   int threads_;
   double shortest_period_ = 0.0;
   mutable std::atomic<long> passes_{0};
+
   struct KnownGains {
     std::size_t recording;
     ProcessNoise noise;

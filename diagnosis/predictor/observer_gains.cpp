@@ -84,9 +84,9 @@ std::vector<ObserverGains> observer_gains(const ProcessNoise& stated, const Prep
   // The angle is a reading of the sensor. The speed, of a line through samples between which the motion may bend, is as
   // good as unknown: what follows tells it.
   constexpr double unknown = 1e8;
-  constexpr double alike = 1e-6;  // share of a step: two that differ by the rounding of their times
-  constexpr double still =
-      1e-10;  // share of the gains: such changes from sample to sample add up to no more than floats
+  // Steps whose lengths differ by the rounding of their times are alike. Gains that change by less from sample to
+  // sample add up to no more than floats show.
+  constexpr double alike = 1e-6, still = 1e-10;
   const Eigen::Matrix3d at_start = Eigen::Vector3d(1.0, unknown, noise.coloured * noise.coloured).asDiagonal();
   std::vector<ObserverGains> gains(recording.samples());
   std::optional<Propagation> ahead;

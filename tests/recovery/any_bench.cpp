@@ -138,9 +138,8 @@ void are_named(std::uint64_t seed, const std::vector<long>& numbers,
 TEST_CASE("with a coarse encoder no torque over speed takes a name back", "[recovery][slow]") { are_named(811, {58}); }
 
 TEST_CASE("one lost block refutes no cause and a few large errors withdraw no name", "[recovery][slow]") {
-  are_named(
-      1801, {47, 53},
-      {truth::Size::medium, truth::Size::large});  // an error ahead of 3.4 times the noise; a gap, lost in a block
+  // the error ahead of a few blocks is 3.4 times that of noise; a gap is lost in one
+  are_named(1801, {47, 53}, {truth::Size::medium, truth::Size::large});
 }
 
 TEST_CASE("with coarse encoders no torque over speed takes names back", "[.][long]") {

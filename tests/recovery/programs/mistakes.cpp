@@ -202,8 +202,8 @@ Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnos
     return std::any_of(mistake.words.begin(), mistake.words.end(),
                        [&](std::string_view word) { return said.find(word) != std::string::npos; });
   };
-  const auto is_right = [&](std::string_view effect) {
-    return std::find(mistake.effects.begin(), mistake.effects.end(), effect) != mistake.effects.end();
+  const auto is_among = [](const std::vector<std::string_view>& effects, std::string_view effect) {
+    return std::ranges::find(effects, effect) != effects.end();
   };
   try {
     const wormdrive::Diagnosis d = diagnose(sheet, {as_read(recorded, sheet, bench.seed)});
@@ -211,18 +211,15 @@ Judged judged(const Mistake& mistake, const Case& bench, const Diagnose& diagnos
     bool told = tells(d.sentence);
     for (const std::string& remark : d.remarks) told = told || tells(remark);
     const bool claims = d.verdict == wormdrive::Verdict::named || d.verdict == wormdrive::Verdict::ambiguous;
-    const auto follows = [&](std::string_view effect) {
-      return std::ranges::find(mistake.follow, effect) != mistake.follow.end();
-    };
     std::size_t right = 0, others = 0;
     for (const auto& cause : d.causes)
-      if (is_right(cause.effect))
+      if (is_among(mistake.effects, cause.effect))
         ++right;
-      else if (!follows(cause.effect))
+      else if (!is_among(mistake.follow, cause.effect))
         ++others;
     bool in_class = false;
     for (const auto& of_class : d.classes)
-      for (const std::string& member : of_class) in_class = in_class || is_right(member);
+      for (const std::string& member : of_class) in_class = in_class || is_among(mistake.effects, member);
     if (told)
       j.score = Score::exact;
     else if (!claims || d.causes.empty())
