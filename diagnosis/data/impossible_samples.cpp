@@ -18,11 +18,13 @@ namespace {
 struct Straightness {
   double tolerance, bend;
 
-  Straightness(const std::vector<double>& y, const SampleLimits& limits)
+  Straightness(const std::vector<double>& y, const std::vector<std::uint8_t>& valid, const SampleLimits& limits)
       : bend(limits.largest_acceleration * limits.period * limits.period) {
     std::vector<double> seconds;
-    for (std::size_t k = 1; k + 1 < y.size(); ++k) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
-    tolerance = rules::impossible_deviations * std::max(robust_deviation(std::move(seconds)), resolution(y));
+    for (std::size_t k = 1; k + 1 < y.size(); ++k)
+      if (valid[k - 1] && valid[k] && valid[k + 1]) seconds.push_back(y[k + 1] - 2.0 * y[k] + y[k - 1]);
+    const double deviation = seconds.empty() ? 0.0 : robust_deviation(std::move(seconds));
+    tolerance = rules::impossible_deviations * std::max(deviation, resolution(y, valid));
   }
 };
 
@@ -61,13 +63,14 @@ class Path {
 }
 
 /// Readings that stand still beside samples at which the gear moved at a speed that nothing reaches so soon.
-void refuse_standing(const RecordedTable& table, const RecordedValues& angle, const SampleLimits& limits) {
+void refuse_standing(const RecordedTable& table, const RecordedValues& angle, const std::vector<std::uint8_t>& valid,
+                     const SampleLimits& limits) {
   const std::vector<double>& y = angle.values;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   constexpr std::size_t look = rules::beside_standstill;
   const double sudden =
       rules::impossible_start * limits.largest_acceleration * static_cast<double>(look) * limits.period +
-      rules::rounding_of_speed * resolution(y) / (static_cast<double>(look - 1) * limits.period);
+      rules::rounding_of_speed * resolution(y, valid) / (static_cast<double>(look - 1) * limits.period);
   // speed between two samples, or between the first and the one before the second, should that be a wrong one
   const auto speed = [&](std::size_t a, std::size_t b) {
     const double steps = static_cast<double>(b - a);
@@ -76,9 +79,9 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
     return std::min(std::abs(all), std::abs(fewer));
   };
   for (std::size_t from = 0; from < y.size();) {
-    std::size_t to = from + 1;
-    while (to < y.size() && y[to] == y[from]) ++to;
-    if (to - from >= rules::standing_readings) {
+    std::size_t to = from + 1, readings = valid[from];  // rows put in between two equal readings are none
+    for (; to < y.size() && y[to] == y[from]; ++to) readings += valid[to];
+    if (readings >= rules::standing_readings) {
       const double before = from < look || table.crosses_pause(from, look) ? 0.0 : speed(from - look, from - 1);
       const double after = to + look > y.size() || table.crosses_pause(to, look) ? 0.0 : speed(to, to + look - 1);
       if (std::max(before, after) > sudden)
@@ -135,8 +138,11 @@ void follow(const RecordedTable& table, RecordedValues& angle, std::size_t begin
 
 }  // namespace
 
-double resolution(const std::vector<double>& angles) {
-  std::vector<double> sorted = angles;
+double resolution(const std::vector<double>& angles, const std::vector<std::uint8_t>& valid) {
+  std::vector<double> sorted;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (valid[k]) sorted.push_back(angles[k]);
+  if (sorted.empty()) return 0.0;
   std::sort(sorted.begin(), sorted.end());
   const double range = sorted.back() - sorted.front();
   std::vector<double> steps;
@@ -181,8 +187,8 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
   for (const auto& [angle, own] : {std::pair{&table.angle, limits}, std::pair{&table.worm_angle, of_worm}}) {
     std::vector<double>& y = angle->values;
     if (y.empty()) continue;
-    refuse_standing(table, *angle, own);
-    const Straightness straight(y, own);
+    refuse_standing(table, *angle, valid, own);
+    const Straightness straight(y, valid, own);
     std::size_t begin = 0;
     for (std::size_t stretch = 0; stretch <= table.restarts.size(); ++stretch) {
       const std::size_t end = stretch < table.restarts.size() ? table.restarts[stretch] : y.size();

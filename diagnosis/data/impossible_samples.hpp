@@ -21,7 +21,7 @@ struct SampleLimits {
 std::vector<std::string> leave_out_impossible(RecordedTable& table, const SampleLimits& limits,
                                               std::vector<std::uint8_t>& valid);
 
-/// The step of an encoder as its readings show it [rad], 0 if they show none.
-double resolution(const std::vector<double>& angles);
+/// The step of an encoder as the readings that are valid show it [rad], 0 if they show none.
+double resolution(const std::vector<double>& angles, const std::vector<std::uint8_t>& valid);
 
 }  // namespace wormdrive

@@ -147,13 +147,14 @@ double least_missed_by_turned_arm(const TorqueJudge& judge, Scenario scenario) {
 
 }  // namespace
 
-void refuse_implausible_units(const RecordedTable& table, double period, const Scenario& scenario) {
+void refuse_implausible_units(const RecordedTable& table, const std::vector<std::uint8_t>& there, double period,
+                              const Scenario& scenario) {
   refuse_rest(table, table.torque,
               in_words_of(scenario.axis, "a torque that never changes shows nothing of the drive"));
   refuse_rest(table, table.angle,
               scenario.axis == Axis::linear ? "nothing ever moved, or its encoder was stuck"
                                             : "the gear never moved, or its encoder was stuck");
-  const double step = resolution(table.angle.values);
+  const double step = resolution(table.angle.values, there);
   if (span(table.angle.values) < rules::least_motion * step)
     reject(
         table.where(),

@@ -17,7 +17,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   const std::optional<std::string> rounded = even_out_rounded_stamps(table);
   MissingRows rows = bridge_missing_rows(table);
   SampleTimes time = sample_times(table, rows);
-  refuse_implausible_units(table, time.period, scenario);
+  refuse_implausible_units(table, rows.there, time.period, scenario);
   Recording recording;
   recording.name = std::filesystem::path(path).filename().string();
   recording.start = time.start;
@@ -34,8 +34,9 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   refuse_implausible_size(table, time.period, scenario);
   reject_forgotten_load(table, time.period, scenario);
   recording.restarts = table.restarts;
-  recording.gear_resolution = resolution(table.angle.values);
-  if (!table.worm_angle.values.empty()) recording.worm_resolution = resolution(table.worm_angle.values);
+  recording.gear_resolution = resolution(table.angle.values, recording.valid);
+  if (!table.worm_angle.values.empty())
+    recording.worm_resolution = resolution(table.worm_angle.values, recording.valid);
   recording.motor_torque = std::move(table.torque.values);
   recording.gear_angle = std::move(table.angle.values);
   recording.worm_angle = std::move(table.worm_angle.values);

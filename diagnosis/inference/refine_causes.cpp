@@ -86,8 +86,9 @@ void CauseSearch::simplify() {
     if (causes.empty()) continue;
     Hypothesis simpler = fit_causes(causes, &s_.model, 6);
     if (simpler.bic >= s_.model.bic + rules::as_good) continue;
+    const bool as_good = s_.model.bic < simpler.bic + rules::as_good;
+    found = {index, as_good ? std::vector{found.candidate} : std::vector<std::size_t>{}};
     s_.model = std::move(simpler);
-    found = {index, {}};
   }
 }
 

@@ -110,6 +110,20 @@ TEST_CASE("after a pause, whose torque nobody knows, the recording starts anew, 
   CHECK(p.used[2102] == 1);
 }
 
+TEST_CASE("rows that are put in hide no encoder's steps and are no standstill") {
+  for (const double counts : {1000.0, 4000.0, 16384.0, 65536.0})
+    for (const std::size_t run : {1u, 6u, 11u}) {
+      CAPTURE(counts, run);
+      truth::Drive drive;
+      drive.sensor.counts = counts;
+      Sheet sheet = Logger{.duration = 6.0}.write(drive);
+      lose(sheet, 0.2, run);
+      const Recording r = read(Folder(), sheet);
+      CHECK(close(r.gear_resolution, 2.0 * pi / counts, 1e-4));
+      CHECK(r.remarks.size() == 1);  // of the rows that are missing
+    }
+}
+
 TEST_CASE("times to which the readings belong are followed, also where the rate changes") {
   const Folder folder;
   const Sheet sheet = Logger{.jitter = 0.2, .duration = 4.0}.write({});

@@ -217,14 +217,21 @@ truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator) {
 }
 
 truth::Recording recorded_motion(const truth::Drive& drive, const truth::EventSequence& course,
-                                 const wormdrive::Scenario& sheet, std::uint64_t seed) {
+                                 const wormdrive::Scenario& sheet, std::uint64_t seed, double jitter) {
   truth::Sheet stated = drive.sheet;
   if (const auto* arm = std::get_if<wormdrive::GravityArm>(&sheet.load); arm && arm->mass)
     stated.geometry.mass = *arm->mass;
   const auto law = truth::follow(course, stated);
   const double duration = static_cast<double>(course.angle.size()) * course.period;
-  return truth::record(
-      drive, law, {.duration = duration, .period = course.period, .start_angle = course.angle.front(), .seed = seed});
+  truth::RecordingSettings settings{.duration = duration,
+                                    .period = course.period,
+                                    .jitter = jitter,
+                                    .start_angle = course.angle.front(),
+                                    .seed = seed};
+  if (jitter > 0.0) settings.step = std::min(settings.step, 0.01 * course.period);  // jitter is whole steps
+  const double steps = std::ceil(course.period / settings.step - 1e-6);
+  if (std::abs(steps * settings.step / course.period - 1.0) > 1e-9) settings.step = course.period / steps;
+  return truth::record(drive, law, settings);
 }
 
 wormdrive::Recording as_read(const truth::Recording& recorded, const wormdrive::Scenario& sheet, std::uint64_t seed) {
@@ -252,7 +259,7 @@ Followed followed(const Case& drawn) {
   truth::Generator generator(drawn.seed);
   Followed bench{disturbed_drive(drawn, generator), {}};
   const auto course = truth::rich_course(generator(), drawn.duration, drawn.period);
-  bench.recorded = recorded_motion(bench.drive, course, data_sheet(drawn), generator());
+  bench.recorded = recorded_motion(bench.drive, course, data_sheet(drawn), generator(), drawn.jitter);
   return bench;
 }
 

@@ -57,6 +57,7 @@ struct Case {
   std::vector<Hiding> hidden;
   double duration = 24.0, period = 1e-3;  ///< [s]
   truth::Drive stated{};                  ///< the drive as its data sheet has it
+  double jitter = 0.0;                    ///< most by which a sample is early or late [periods]
 };
 
 /// What a campaign draws from.
@@ -98,7 +99,7 @@ truth::Drive disturbed_drive(const Case& drawn, truth::Generator& generator);
 
 /// Follows a course as the data sheet's controller does.
 truth::Recording recorded_motion(const truth::Drive& drive, const truth::EventSequence& course,
-                                 const wormdrive::Scenario& sheet, std::uint64_t seed);
+                                 const wormdrive::Scenario& sheet, std::uint64_t seed, double jitter = 0.0);
 /// Writes a CSV file and reads it as a user's; the seed is part of the file's name. Throws InputFault if it is
 /// rejected.
 wormdrive::Recording as_read(const truth::Recording& recorded, const wormdrive::Scenario& sheet, std::uint64_t seed);

@@ -9,6 +9,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "recovery/programs/experiments.hpp"
+#include "recovery/programs/logs.hpp"
 #include "recovery/programs/mistakes.hpp"
 #include "recovery/programs/thresholds.hpp"
 #include "recovery/tables.hpp"
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
       "what is hidden: single, nothing, pair, cancelling, stated_off (an effect beside a stated number that is far "
       "off) or outside (of the catalogue); or a study: thresholds (the "
       "smallest size that is named), unseen (motions that cannot show the effect), experiments (proposed ones), slips "
-      "(in the data sheet), faults (of the recording)");
+      "(in the data sheet), faults (of the recording), logs (that are uneven, beside clean ones of the same benches)");
   app.add_option("--conditions", conditions, "ideal, coloured, realistic or double");
   app.add_option("--sizes", sizes, "sizes of the effects: small, medium, large")->delimiter(',');
   app.add_option("--effects", plan.effects, "hide only these effects, or make only these mistakes")->delimiter(',');
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
   app.add_option("--output", output, "Markdown file to write");
   CLI11_PARSE(app, argc, argv);
   try {
-    constexpr std::string_view studies[] = {"thresholds", "unseen", "experiments", "slips", "faults"};
+    constexpr std::string_view studies[] = {"thresholds", "unseen", "experiments", "slips", "faults", "logs"};
     const bool special = std::find(std::begin(studies), std::end(studies), kind) != std::end(studies);
     plan.kind = special ? Kind::single : recovery::kind(kind);
     plan.conditions = recovery::conditions(conditions);
@@ -151,6 +152,7 @@ int main(int argc, char** argv) {
     }
     if (kind == "slips") add(table(recovery::mistakes(recovery::slips(), plan, diagnose, threads)));
     if (kind == "faults") add(table(recovery::mistakes(recovery::recording_faults(), plan, diagnose, threads)));
+    if (kind == "logs") add(table(recovery::logs(plan, diagnose, threads)));
     std::cout << "\n" << text;
   } catch (const std::exception& fault) {
     std::cerr << "recovery_campaign: " << fault.what() << "\n";

@@ -177,11 +177,24 @@ double rounded(double angle, double counts) {
   return quantum * std::round(angle / quantum) + 0.0;  // no negative zero
 }
 
+/// The steps at which samples are taken: one per period, all but the first early or late.
+std::vector<long> sampled_steps(const RecordingSettings& settings) {
+  const long per_sample = std::lround(settings.period / settings.step);
+  const long samples = std::lround(settings.duration / settings.period);
+  const double most = settings.jitter * static_cast<double>(per_sample);
+  std::mt19937_64 generator(settings.seed + 1);  // the noise is that of an even recording
+  std::uniform_real_distribution<double> early_or_late(-most, most);
+  std::vector<long> steps;
+  for (long k = 0; k < samples; ++k)
+    steps.push_back(k * per_sample + (most > 0.0 && k > 0 ? std::lround(early_or_late(generator)) : 0));
+  return steps;
+}
+
 }  // namespace
 
 Recording record(const Drive& drive, const Law& law, const RecordingSettings& settings) {
   const long per_sample = std::lround(settings.period / settings.step);
-  const long samples = std::lround(settings.duration / settings.period);
+  const std::vector<long> at = sampled_steps(settings);
   const long late_torque = std::lround(drive.actuator.delay / settings.step);
   const long late_angle = std::lround(drive.sensor.delay / settings.step);
   std::mt19937_64 generator(settings.seed);
@@ -193,10 +206,12 @@ Recording record(const Drive& drive, const Law& law, const RecordingSettings& se
   const double retained = std::exp(-settings.period / drive.noise.time_constant);
   double colour = drive.noise.coloured * normal(generator);
   Recording r;
-  long n = 0;
-  for (long k = 0; k < samples; ++k) {
-    const double t = static_cast<double>(k) * settings.period;
-    const double angle = waiting[slot(n)];  // the oldest, whose place the next step will take
+  if (settings.jitter > 0.0) r.time_digits = 7;
+  std::size_t held = 0;  // the sample whose torque arrives
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const long even = static_cast<long>(k) * per_sample;
+    const double t = static_cast<double>(k) * settings.period + static_cast<double>(at[k] - even) * settings.step;
+    const double angle = waiting[slot(at[k])];  // the oldest, whose place the next step will take
     const Sensor& s = drive.sensor;
     const double seen = rounded((1.0 + s.scale) * angle + s.offset + s.noise * normal(generator), s.counts);
     r.time.push_back(t);
@@ -209,9 +224,11 @@ Recording record(const Drive& drive, const Law& law, const RecordingSettings& se
     r.mechanical_energy.push_back(machine.energy());
     colour = retained * colour + std::sqrt(1.0 - retained * retained) * drive.noise.coloured * normal(generator);
     const double disturbance = drive.noise.white * normal(generator) + colour;
-    for (long j = 0; j < per_sample; ++j, ++n) {
+    const long next = k + 1 < at.size() ? at[k + 1] : even + per_sample;
+    for (long n = at[k]; n < next; ++n) {
       const long from = n - late_torque;
-      const double received = from < 0 ? 0.0 : r.motor_torque[static_cast<std::size_t>(from / per_sample)];
+      while (held < k && at[held + 1] <= from) ++held;
+      const double received = from < 0 ? 0.0 : r.motor_torque[held];
       machine.step(static_cast<double>(n) * settings.step, received, disturbance);
       waiting[slot(n)] = machine.gear();
     }
