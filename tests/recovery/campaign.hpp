@@ -125,6 +125,21 @@ inline constexpr Score scores[] = {Score::exact, Score::in_class, Score::off,   
                                    Score::extra, Score::silent,   Score::wrong, Score::crash};
 std::string_view name(Score score);
 
+/// How many 95 % intervals hold the truth.
+struct Coverage {
+  long intervals = 0, holding = 0;
+
+  void count(const wormdrive::Estimate& estimate, double truth) {
+    ++intervals;
+    holding += estimate.low <= truth && truth <= estimate.high;
+  }
+  Coverage& operator+=(const Coverage& more) {
+    intervals += more.intervals;
+    holding += more.holding;
+    return *this;
+  }
+};
+
 struct Outcome {
   Case drawn;
   Score score = Score::crash;
@@ -134,7 +149,9 @@ struct Outcome {
   std::size_t class_size = 1;
   std::vector<double> errors;      ///< of the named causes' parameters, as shares of the truth
   std::vector<double> deviations;  ///< of all their parameters, in standard errors
+  Coverage causes, calibrated;     ///< intervals of the causes; of stated numbers that moved beside the right ones
   double held_out = 0.0;           ///< 0.25 s prediction error after over the noise floor; 0: not told
+  double improved = 0.0;           ///< the same over that of the stated drive; 0: not told
   double seconds = 0.0;
   std::string told;  ///< the sentence, or the exception's words
 };

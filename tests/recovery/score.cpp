@@ -10,14 +10,25 @@
 namespace recovery {
 namespace {
 
-/// Whether a certificate says that an effect of this size can be named; of exact twins, as their class.
+/// Whether a certificate says that an effect can be named as it is in the drive, the errors of what is stated included;
+/// of exact twins, as their class.
 bool can_be_named(const wormdrive::Diagnosis& found, const Hiding& hiding, const truth::Drive& drive) {
   const truth::Secret& secret = *hiding.secret;
   const wormdrive::Visibility* v = visibility(found, secret.effect, drive);
   if (!v) return true;
   if (!v->observable) return false;
   if (secret.effect == "torque_saturation") return hiding.amount <= v->detectable;
-  return std::abs(hiding.amount) >= v->nameable;
+  const double size = secret.parameters.empty() ? hiding.amount : secret.parameters.front().of(drive);
+  return std::abs(size) >= v->nameable;
+}
+
+/// use(estimate, true value) of the parameters that the ground truth knows.
+template <class Use>
+void each_known(const truth::Secret& secret, const truth::Drive& drive, const wormdrive::EstimatedEffect& found,
+                Use&& use) {
+  for (const truth::TrueParameter& parameter : secret.parameters)
+    for (const wormdrive::Estimate& estimate : found.parameters)
+      if (estimate.field == parameter.field) use(estimate, parameter.of(drive));
 }
 
 /// Whether a stated number is off by so many of its tolerances that naming it is no fault.
@@ -118,17 +129,22 @@ Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Dia
   for (const Hiding& hiding : drawn.hidden)
     for (const auto& cause : found.causes) {
       if (cause.effect != hiding.secret->effect) continue;
-      for (const truth::TrueParameter& parameter : hiding.secret->parameters)
-        for (const wormdrive::Estimate& estimate : cause.parameters) {
-          if (estimate.field != parameter.field) continue;
-          const double is = parameter.of(drive);
-          outcome.errors.push_back(std::abs(estimate.value - is) / std::abs(is));
-          if (estimate.standard_error > 0.0)
-            outcome.deviations.push_back((estimate.value - is) / estimate.standard_error);
-        }
+      each_known(*hiding.secret, drive, cause, [&](const wormdrive::Estimate& estimate, double is) {
+        outcome.errors.push_back(std::abs(estimate.value - is) / std::abs(is));
+        if (!(estimate.standard_error > 0.0)) return;
+        outcome.deviations.push_back((estimate.value - is) / estimate.standard_error);
+        outcome.causes.count(estimate, is);
+      });
     }
-  for (const auto& error : found.prediction)
-    if (std::abs(error.horizon - 0.25) < 1e-9 && error.floor > 0.0) outcome.held_out = error.after / error.floor;
+  if (outcome.score == Score::exact)
+    for (const auto& moved : found.calibration)
+      each_known(truth::secret(moved.effect), drive, moved,
+                 [&](const wormdrive::Estimate& estimate, double is) { outcome.calibrated.count(estimate, is); });
+  for (const auto& error : found.prediction) {
+    if (std::abs(error.horizon - 0.25) > 1e-9 || !(error.floor > 0.0)) continue;
+    outcome.held_out = error.after / error.floor;
+    outcome.improved = error.after / error.before;
+  }
   return outcome;
 }
 

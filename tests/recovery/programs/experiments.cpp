@@ -38,8 +38,8 @@ std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
     const wormdrive::Scenario sheet = data_sheet(hidden);
     const auto slow = follow(drive, poor_course(generator, hidden.duration), sheet, generator());
     const wormdrive::Diagnosis first = diagnose(sheet, {slow});
-    if (first.verdict != wormdrive::Verdict::ambiguous) continue;
-    if (judge(hidden, drive, first).score != Score::in_class) continue;
+    const bool unexplained = first.verdict == wormdrive::Verdict::unexplained;
+    if (!unexplained && judge(hidden, drive, first).score != Score::in_class) continue;
     Split split{hidden, first.classes.empty() ? std::vector<std::string>{} : first.classes[0],
                 first.experiment.has_value()};
     if (split.proposed) {
@@ -59,13 +59,15 @@ std::vector<Split> experiments(const Plan& plan, const Diagnose& diagnose) {
 }
 
 std::string table(const std::vector<Split>& splits) {
-  std::string text = "| hidden | class | after the experiment |\n|---|---|---|\n";
+  std::string text = "| hidden | class before | after the experiment |\n|---|---|---|\n";
   long split = 0, proposed = 0;
   for (const Split& s : splits) {
     proposed += s.proposed;
     split += s.proposed && s.score == Score::exact;
-    text += fmt::format("| {} {:+.3g} | {} | {} |\n", s.hidden.hidden.front().secret->effect,
-                        s.hidden.hidden.front().amount, fmt::join(s.members, ", "),
+    std::vector<std::string> what;
+    for (const Hiding& h : s.hidden.hidden) what.push_back(fmt::format("{} {:+.3g}", h.secret->effect, h.amount));
+    text += fmt::format("| {} | {} | {} |\n", fmt::join(what, ", "),
+                        s.members.empty() ? "unexplained" : fmt::format("{}", fmt::join(s.members, ", ")),
                         s.proposed ? fmt::format("{} ({})", s.answer, name(s.score)) : "none was proposed");
   }
   return text + fmt::format("\nClasses with an experiment: {} of {}; split to the right name: {} of {}.\n", proposed,

@@ -81,7 +81,8 @@ of 0.5 mN m and encoder noise of 3e-5 rad are always present.
 | `flagged` | diagnoses that report something unexplained |
 | `class` | mean size of the class |
 | `error` | median error of the named parameters, error of the nominal values included |
-| `covered` | share of the 95 % intervals that contain the true value |
+| `covered` | share of the 95 % intervals of named parameters that contain the true value |
+| `calibrated` | the same of stated numbers that moved, where the answer is exact |
 | `held out` | median ratio of the prediction error 0.25 s ahead on held-out data to that of noise alone |
 
 )";
