@@ -13,6 +13,7 @@
 #include "core/mesh.hpp"
 #include "core/signal.hpp"
 #include "description/control_scenario.hpp"
+#include "description/experiment_limits.hpp"
 #include "description/recorded_columns.hpp"
 #include "description/tolerances.hpp"
 #include "events/solver_settings.hpp"
@@ -71,6 +72,7 @@ struct Scenario {
   RunSettings run;
   std::optional<ControlScenario> control;  ///< nothing: the motor's signal alone
   std::optional<Tolerances> tolerance;     ///< nothing: not stated, the defaults
+  std::optional<ExperimentLimits> limits;  ///< nothing: not stated
   ColumnNames columns;                     ///< of recordings, where they have other names than usual
 };
 

@@ -28,7 +28,7 @@ struct TablePlace {
 template <class Parameters>
 inline constexpr bool has_numbers_of_drive =
     !std::is_same_v<Parameters, RunSettings> && !std::is_same_v<Parameters, Tolerances> &&
-    !std::is_same_v<Parameters, MetricsWindow> && requires {
+    !std::is_same_v<Parameters, ExperimentLimits> && !std::is_same_v<Parameters, MetricsWindow> && requires {
   Parameters::fields();
 };
 
@@ -73,6 +73,7 @@ void for_each_table(ScenarioRef& scenario, Visit&& visit) {
     plain("metrics", control.window);
   }
   if (scenario.tolerance) plain("tolerance", *scenario.tolerance);
+  if (scenario.limits) plain("limits", *scenario.limits);
 }
 
 }  // namespace wormdrive

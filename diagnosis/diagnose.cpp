@@ -14,6 +14,7 @@
 #include "description/build.hpp"
 #include "description/keys.hpp"
 #include "diagnosis/candidates/tolerances.hpp"
+#include "diagnosis/experiment/next_step.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/noise_sizes.hpp"
@@ -32,7 +33,6 @@
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/adequacy.hpp"
 #include "diagnosis/verdict/certificate.hpp"
-#include "diagnosis/verdict/experiment.hpp"
 #include "diagnosis/verdict/extended_scenario.hpp"
 #include "diagnosis/verdict/learned_terms.hpp"
 #include "diagnosis/verdict/other_ratio.hpp"
@@ -144,35 +144,6 @@ Hypothesis settled(Hypothesis h) {
   return h;
 }
 
-/// Looks for a motion that splits a class of a diagnosis, the first for which there may be one.
-void propose_experiment(Diagnosis& d, const Scenario& scenario, const std::vector<Candidate>& all,
-                        const std::vector<Coordinate>& stated, const Magnitudes& sizes,
-                        const std::vector<PreparedRecording>& recordings, const DiagnosisSettings& settings) {
-  for (const std::vector<std::string>& effects : d.classes) {
-    std::vector<Candidate> members;
-    for (const std::string& effect : effects)
-      for (const Candidate& s : all)
-        if (s.effect == effect) members.push_back(s);
-    if (members.size() < effects.size()) {  // twins are no candidates of their own
-      d.experiment_reason =
-          fmt::format("no motion tells {} apart: it takes an index mark for a zero, a time stamp for a delay",
-                      fmt::join(effects, " and "));
-      continue;
-    }
-    double size = 0.0, excursion = 0.0;
-    for (const EstimatedEffect& cause : d.causes)
-      if (cause.effect == effects.front()) size = std::abs(cause.parameters.front().value);
-    for (const PreparedRecording& r : recordings)
-      for (const double y : r.data.gear_angle) excursion = std::max(excursion, std::abs(y));
-    if (settings.progress) settings.progress("looking for an experiment");
-    Experiment found =
-        splitting_experiment(d.extended, scenario, members, size, stated, sizes, excursion, settings.threads);
-    d.experiment = std::move(found.scenario);
-    d.experiment_reason = std::move(found.reason);
-    if (d.experiment) return;
-  }
-}
-
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given, const DiagnosisSettings& settings) {
@@ -275,8 +246,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
         withdraw(found_effects, scenario.effects, all[f.candidate]);
     d.extended = extended_scenario(scenario, found_effects, last.noise.impact, d.remarks);
   }
-  if (d.verdict == Verdict::ambiguous)
-    propose_experiment(d, scenario, all, stated, sizes, by_all.layout().recordings, settings);
+  propose_next_step(d, scenario, all, stated, sizes, by_all.layout().recordings, settings);
   if (auto remark = other_ratio(d, scenario, sizes.has_worm_encoder)) d.remarks.push_back(std::move(*remark));
   for (const PreparedRecording& r : evaluation.layout().recordings)
     if (!r.shares.empty())

@@ -19,7 +19,7 @@ packages=(
   libtomlplusplus-dev  # scenario files
   nlohmann-json3-dev   # reports for machines
   libfmt-dev           # text output
-  libnlopt-dev         # searches for the worst case
+  libnlopt-dev         # searches for the worst case and the best experiment
   libopenmpi-dev       # sweeps shared by several machines
   openmpi-bin          # mpirun
   libarchive-dev       # writes FMUs, which are zip archives

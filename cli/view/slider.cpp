@@ -15,7 +15,8 @@ namespace {
 
 /// Tables whose numbers say how a run is computed or judged, not what the drive is.
 bool is_of_the_run(const std::string& key) {
-  return key.starts_with("run.") || key.starts_with("metrics.") || key.starts_with("tolerance.");
+  return key.starts_with("run.") || key.starts_with("metrics.") || key.starts_with("tolerance.") ||
+         key.starts_with("limits.");
 }
 
 /// The farthest of some values, from the most to the least, that a scenario admits; else the value itself.

@@ -119,6 +119,16 @@ class ScenarioReader {
       table.read_fields(tolerances);
       if (root_.has("tolerance")) scenario_.tolerance = tolerances;
     });
+    root_.section("limits", [&](TableReader& table) {
+      ExperimentLimits limits;
+      table.read_fields(limits);
+      if (root_.has("limits")) scenario_.limits = limits;
+      if (!limits.low || !limits.high || *limits.low < *limits.high) return;
+      const auto key = [&](std::string_view name) { return spellings(name, unit::degrees, scenario_.axis).front(); };
+      const Spelling low = key("angle_low"), high = key("angle_high");
+      table.fault(low.key, fmt::format("limits.{} = {:g} must be below limits.{} = {:g}", low.key,
+                                       *limits.low / low.unit.si, high.key, *limits.high / high.unit.si));
+    });
     root_.section("data", [&](TableReader& data) {
       for (const RecordedColumn& column : recorded_columns) {
         const std::string usual = spellings(column.name, column.unit, scenario_.axis).front().key;

@@ -1,18 +1,22 @@
-#include "diagnosis/verdict/experiment.hpp"
+#include "diagnosis/experiment/experiment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
+#include <nlopt.h>
 
-#include "control/pid.hpp"
 #include "core/elastic/elastic_teeth.hpp"
-#include "description/build_control.hpp"
 #include "description/rejection.hpp"
 #include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/rules/recordings.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/certificate.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 #include "events/simulation_failure.hpp"
 #include "simulation/run_scenario.hpp"
 
@@ -20,39 +24,8 @@ namespace wormdrive {
 
 namespace {
 
-struct Variant {
-  std::string_view what;
-  double highest;  ///< frequency [Hz]
-  double payload;  ///< times the stated one
-};
-/// The gentler ones first: fast motions show how teeth yield, of which a predictor with rigid teeth knows nothing.
-constexpr Variant variants[] = {{"a motion over a larger angle", 4.0, 1.0},
-                                {"a faster motion over a larger angle", 10.0, 1.0},
-                                {"a second payload, twice the first", 4.0, 2.0}};
-
-/// A closed loop that follows a slow sweep and several sines with all its poles at one distance from the origin. Steps
-/// would let the teeth bounce, which tells more of the teeth than of anything else.
-ControlScenario rich_motion(const Scenario& scenario, double angle, double highest, double period) {
-  ControlScenario control;
-  control.sampling.period = period;
-  PidParameters pid;
-  constexpr double pole = 40.0;  // [rad/s]
-  Scenario told = scenario;
-  told.control = control;
-  const double M = mean_inertia(make_nominal(told));
-  pid.integral_weight = M * M * std::pow(pole, 6);
-  pid.feedforward = 1.0;
-  control.law = pid;
-  control.reference.terms = {
-      SinusoidReference{.amplitude = angle, .frequency = 0.045},
-      MultisineReference{.amplitude = 0.015 * angle, .lowest_frequency = 0.7, .highest_frequency = highest, .count = 7},
-      SinusoidReference{.amplitude = 0.06 * angle, .frequency = 1.5}};
-  control.sensor.filter_cutoff = 0.1 / period;
-  return control;
-}
-
-/// Angle of the slow sweep where the load turns with the gear: it pulls either way, and not at all [rad].
-constexpr double quarter_turn_and_more = 2.2;
+/// Coordinates of a motion, each from 0 to 1: amplitude and frequency of the sweep, those of the fast sines.
+using Point = std::array<double, 4>;
 
 bool multiply_payload(Scenario& scenario, double factor) {
   if (factor == 1.0) return true;
@@ -63,6 +36,150 @@ bool multiply_payload(Scenario& scenario, double factor) {
   if (arm->own_inertia) *arm->own_inertia *= factor;
   return true;
 }
+
+/// Looks for the best motion with one payload.
+class MotionSearch {
+ public:
+  MotionSearch(const Question& question, const MotionLimits& range, double payload, int threads)
+      : question_(question), range_(range), threads_(threads), run_(question.found), told_(question.stated) {
+    possible_ = multiply_payload(run_, payload) && multiply_payload(told_, payload);
+    const Magnitudes& sizes = question.sizes;
+    for (Scenario* each : {&run_, &told_}) {
+      each->initial.theta_g = std::clamp(each->initial.theta_g, range.low, range.high);
+      each->initial.omega_g = 0.0;
+      each->run.duration = std::min(sizes.duration, rules::most_of_experiment * sizes.period);
+      each->run.relative_tolerance = 1e-9;
+      each->run.solver = has_elastic_teeth(each->effects) ? SolverKind::cvode : SolverKind::taylor;
+    }
+  }
+
+  /// Tries motions out, from a gentle one on.
+  void search() {
+    if (!possible_ || !admits_slow_sweep()) return;
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(NLOPT_LN_COBYLA, Point{}.size()),
+                                                                      nlopt_destroy);
+    nlopt_set_lower_bounds1(optimiser.get(), 0.0);
+    nlopt_set_upper_bounds1(optimiser.get(), 1.0);
+    nlopt_set_initial_step1(optimiser.get(), 0.25);
+    nlopt_set_maxeval(optimiser.get(), rules::most_motions);
+    nlopt_set_xtol_abs1(optimiser.get(), 0.02);
+    nlopt_set_max_objective(
+        optimiser.get(),
+        [](unsigned, const double* x, double*, void* self) {
+          return static_cast<MotionSearch*>(self)->tried({x[0], x[1], x[2], x[3]}).worth;
+        },
+        this);
+    nlopt_add_inequality_mconstraint(
+        optimiser.get(), static_cast<unsigned>(Trial{}.beyond.size()),
+        [](unsigned, double* result, unsigned, const double* x, double*, void* self) {
+          const Trial& trial = static_cast<MotionSearch*>(self)->tried({x[0], x[1], x[2], x[3]});
+          std::copy(trial.beyond.begin(), trial.beyond.end(), result);
+        },
+        this, nullptr);
+    optimiser_ = optimiser.get();
+    Point start = gentle;
+    double best = 0.0;
+    nlopt_optimize(optimiser.get(), start.data(), &best);
+  }
+
+  double margin = 0.0;  ///< sizes of the first contender that the best motion could name within one as it was found
+  Scenario experiment;  ///< with the best motion
+  MotionLimits asks{};  ///< what it asks of the drive
+
+ private:
+  /// What came of a motion.
+  struct Trial {
+    double worth = std::log(least_margin);             ///< logarithm of the margin
+    std::array<double, 4> beyond{1.0, 1.0, 1.0, 1.0};  ///< torque, speed, angles; positive: it goes too far
+  };
+  static constexpr double least_margin = 1e-6;
+  static constexpr Point gentle{0.97, 0.03, 0.55, 0.6};
+
+  ProbingMotion motion(const Point& u) const {
+    const auto between = [](double low, double high, double share) { return low * std::pow(high / low, share); };
+    ProbingMotion m{};
+    const double once = 1.0 / told_.run.duration, fastest = highest_frequency(question_.sizes.period);
+    m.amplitude = range_.half() * between(0.05, 1.0, u[0]);
+    m.frequency = between(once, std::max(once, 0.25 * fastest), u[1]);
+    m.fast_amplitude = m.amplitude * between(1e-3, 0.1, u[2]);
+    m.fastest = between(std::min(4.0 * m.frequency, fastest), fastest, u[3]);
+    return m;
+  }
+
+  /// The torque that a slow sweep through the whole range takes is allowed, and as much again for what is faster.
+  bool admits_slow_sweep() {
+    const ProbingMotion slow{range_.half(), 1.0 / told_.run.duration, 0.0, highest_frequency(question_.sizes.period)};
+    const auto recording = recorded(told_, slow);
+    if (!recording) return false;
+    const double takes = reached(*recording, told_.control->reference).torque;
+    if (question_.stated.limits && question_.stated.limits->torque) return takes <= range_.torque;
+    range_.torque = std::max(range_.torque, rules::torque_beyond * takes);
+    return true;
+  }
+
+  /// What a scenario writes down when it follows a motion; nothing where it cannot.
+  std::optional<Recording> recorded(Scenario& scenario, const ProbingMotion& motion) const {
+    scenario.control = following(question_.stated, motion, range_, question_.sizes.period);
+    scenario.control->sensor.counts = question_.counts;
+    scenario.control->disturbance.deviation = question_.noise_torque;
+    if (why_it_cannot_run(scenario)) return std::nullopt;
+    try {
+      return simulated(scenario);
+    } catch (const SimulationFailure&) {
+      return std::nullopt;  // a drive that cannot follow this motion needs another one
+    }
+  }
+
+  const Trial& tried(const Point& u) {
+    if (u == last_point_) return last_;
+    last_point_ = u;
+    last_ = trial(u);
+    return last_;
+  }
+
+  Trial trial(const Point& u) {
+    Trial t;
+    const ProbingMotion m = motion(u);
+    // signatures are those about what is stated
+    const std::optional<Recording> recording = recorded(told_, m);
+    if (!recording) return t;
+    const MotionLimits went = reached(*recording, told_.control->reference);
+    t.beyond = {went.torque / range_.torque - 1.0, went.speed / range_.speed - 1.0,
+                (range_.low - went.low) / range_.half() - rules::beside_range,
+                (went.high - range_.high) / range_.half() - rules::beside_range};
+    const double found = margin_of(*recording);
+    t.worth = std::log(std::max(least_margin, found));
+    if (found <= margin || std::any_of(t.beyond.begin(), t.beyond.end(), [](double x) { return x > 0.0; })) return t;
+    if (!recorded(run_, m)) return t;
+    margin = found;
+    experiment = run_;
+    asks = went;
+    if (margin >= rules::ample_margin) nlopt_force_stop(optimiser_);
+    return t;
+  }
+
+  double margin_of(const Recording& recording) const {
+    const std::vector<Candidate>& contenders = question_.contenders;
+    const Evaluation evaluation(told_, InnovationLayout({prepared(recording, 0)}), threads_);
+    Hypothesis h = stated_hypothesis(told_.effects, question_.toleranced);
+    if (!evaluate(evaluation, h)) return 0.0;
+    adjust_noise(evaluation, h, 6);
+    const std::vector<Visibility> seen =
+        certificate(linear_system(evaluation, h, screen(evaluation, h, contenders)), h, contenders, question_.sizes);
+    if (seen.empty() || seen.front().effect != contenders.front().effect) return 0.0;
+    const double nameable = seen.front().nameable;
+    return contenders.front().is_limit ? nameable / question_.size : question_.size / nameable;
+  }
+
+  const Question& question_;
+  MotionLimits range_;
+  int threads_;
+  Scenario run_, told_;  ///< the drive as it was found and as it is stated, with this payload
+  bool possible_ = false;
+  nlopt_opt optimiser_ = nullptr;
+  Point last_point_{-1.0, -1.0, -1.0, -1.0};
+  Trial last_;
+};
 
 }  // namespace
 
@@ -83,48 +200,26 @@ Recording simulated(const Scenario& scenario) {
   return recording;
 }
 
-Experiment splitting_experiment(const Scenario& extended, const Scenario& stated, const std::vector<Candidate>& members,
-                                double size, const std::vector<Coordinate>& toleranced, const Magnitudes& sizes,
-                                double excursion, int threads) {
+Experiment best_experiment(const Question& question, const MotionLimits& range, int threads) {
   Experiment best;
-  double best_margin = 1.0;  // sizes that could be named
-  for (const Variant& v : variants) {
-    if (best_margin >= rules::ample_margin) break;
-    Scenario run = extended, told = stated;
-    if (!multiply_payload(run, v.payload) || !multiply_payload(told, v.payload)) continue;
-    const double angle = sizes.load_turns ? quarter_turn_and_more : excursion;
-    run.control = rich_motion(stated, angle, v.highest, sizes.period);
-    run.control->sensor.counts = 65536.0;
-    run.control->disturbance.deviation = 0.01 * sizes.torque;
-    run.run.duration = 24.0;
-    run.run.relative_tolerance = 1e-9;
-    told.control = run.control;
-    told.run = run.run;
-    for (Scenario* each : {&run, &told})
-      each->run.solver = has_elastic_teeth(each->effects) ? SolverKind::cvode : SolverKind::taylor;
-    if (why_it_cannot_run(told) || why_it_cannot_run(run)) continue;
-    try {
-      // signatures are those about what is stated
-      const PreparedRecording recording = prepared(simulated(told), 0);
-      const Evaluation evaluation(told, InnovationLayout({recording}), threads);
-      Hypothesis h = stated_hypothesis(told.effects, toleranced);
-      if (!evaluate(evaluation, h)) continue;
-      adjust_noise(evaluation, h, 6);
-      const std::vector<Visibility> seen =
-          certificate(linear_system(evaluation, h, screen(evaluation, h, members)), h, members, sizes);
-      if (seen.empty() || seen.front().effect != members.front().effect) continue;
-      const double margin = size / seen.front().nameable;
-      if (margin <= best_margin) continue;
-      best_margin = margin;
-      run.control->disturbance.deviation = 0.0;
-      run.title = fmt::format("Experiment that tells {} from what looks like it", members.front().effect);
-      best.scenario = run;
-      best.reason = fmt::format("{}: a {} {:.2g} times smaller could be named", v.what, members.front().effect, margin);
-    } catch (const SimulationFailure&) {
-      continue;  // a drive that cannot follow this motion needs another one
-    }
+  double margin = 1.0;  // sizes that could be named
+  const std::string first = in_words(std::string(question.contenders.front().effect));
+  for (const double payload : {1.0, 2.0}) {
+    if (margin >= rules::ample_margin) break;
+    MotionSearch motions(question, range, payload, threads);
+    motions.search();
+    if (motions.margin <= margin) continue;
+    margin = motions.margin;
+    best.scenario = std::move(motions.experiment);
+    best.scenario->control->disturbance.deviation = 0.0;
+    best.scenario->title = fmt::format("Experiment that tells {} from what looks like it", first);
+    best.reason = fmt::format(
+        "{}motion from {:.3g} to {:.3g} rad with up to {:.2g} rad/s and {:.2g} N m: {} {:.2g} times smaller could be "
+        "named",
+        payload == 1.0 ? "a " : "a second payload, twice the first, and a ", motions.asks.low, motions.asks.high,
+        motions.asks.speed, motions.asks.torque, first, margin);
   }
-  if (!best.scenario) best.reason = "none of the motions that were tried out tells them apart";
+  if (!best.scenario) best.reason = "no motion that the drive may be asked for tells them apart";
   return best;
 }
 

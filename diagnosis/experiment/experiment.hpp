@@ -6,24 +6,34 @@
 #include "description/scenario.hpp"
 #include "diagnosis/candidates/catalogue.hpp"
 #include "diagnosis/candidates/magnitudes.hpp"
-#include "diagnosis/data/recording.hpp"
+#include "diagnosis/experiment/motion.hpp"
 
 namespace wormdrive {
 
 /// What a run of a scenario with a controller writes down. Throws SimulationFailure.
 Recording simulated(const Scenario& scenario);
 
-/// A scenario that would tell a class of causes apart, and why.
+/// What an experiment is to tell apart, and how well the bench measures.
+struct Question {
+  Scenario stated;  ///< the drive as its scenario has it
+  Scenario found;   ///< the same with what was found
+  std::vector<Candidate> contenders;
+  double size;  ///< of the first contender, as it was found
+  std::vector<Coordinate> toleranced;
+  Magnitudes sizes;
+  double noise_torque;  ///< [N m]
+  double counts;        ///< of the gear's encoder per turn, 0: finer than its noise
+};
+
+/// A scenario that would tell contenders apart, and why.
 struct Experiment {
-  std::optional<Scenario> scenario;  ///< nothing: none of those tried out would
+  std::optional<Scenario> scenario;  ///< nothing: no motion within the range would
   std::string reason;                ///< a sentence
 };
 
-/// Chooses among a few motions, with the payload as it is and doubled, the one whose simulated recording tells the
-/// members of a class apart best, by its certificate. extended: the scenario with the first member as it was found, at
-/// its size; nameable means that this size could be told from every other member.
-Experiment splitting_experiment(const Scenario& extended, const Scenario& stated, const std::vector<Candidate>& members,
-                                double size, const std::vector<Coordinate>& toleranced, const Magnitudes& sizes,
-                                double excursion, int threads);
+/// Seeks the motion within a range whose simulated recording tells the first contender from all others best, by the
+/// certificate of its innovations, the gentlest first, with the payload as it is and doubled. One is good enough by
+/// which the first contender could be told at a fraction of its size.
+Experiment best_experiment(const Question& question, const MotionLimits& range, int threads);
 
 }  // namespace wormdrive

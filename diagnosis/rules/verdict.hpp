@@ -68,9 +68,29 @@ inline constexpr double findable_length = 60.0;
 inline constexpr double nameable_share = equivalence_share / 3.0;
 /// share | set | of a signature below which its shape, not its length, decides whether it can be named
 inline constexpr double much_alike = 0.1;
-/// margin | set | an experiment that could name an effect so many times smaller is good enough
-inline constexpr double ample_margin = 5.0;
 /// ratio | derived | a wheel with one start is seldom stated wrongly by less than half a tooth
 inline constexpr double least_other_ratio = 0.5;
+
+// Experiments.
+
+/// margin | set | an experiment that could name an effect so many times smaller is good enough
+inline constexpr double ample_margin = 5.0;
+/// motions | set | tried out with each payload: four numbers take a dozen to move at all
+inline constexpr int most_motions = 30;
+/// candidates | set | the best of those that might explain what nothing explains
+inline constexpr std::size_t most_contenders = 4;
+/// samples | set | of an experiment, which lasts as long as the longest recording where that is shorter
+inline constexpr double most_of_experiment = 24000.0;
+/// times what the recordings reached, or a slow sweep takes | set | that an experiment may ask where nothing is stated
+inline constexpr double torque_beyond = 2.0, speed_beyond = 5.0;
+/// rad | derived | a quarter of a turn and more: a load that turns with the gear pulls either way, and not at all
+inline constexpr double either_way_of_load = 2.2;
+/// share of half the way | set | kept free beside stops, and by which a motion may miss its range
+inline constexpr double beside_stops = 0.1, beside_range = 0.02;
+/// per sample | set | poles of the loop of an experiment, and its highest frequency: faster motions show how teeth
+/// yield, of which a predictor with rigid teeth knows nothing
+inline constexpr double pole_per_sample = 0.04, cycles_per_sample = 0.01;
+/// share of the highest frequency | set | the lowest one of the fast sines
+inline constexpr double lowest_sine = 0.15;
 
 }  // namespace wormdrive::rules

@@ -146,7 +146,10 @@ TEST_CASE("a value outside its limits is rejected with unit and limits") {
       {"tolerance 0", with_run("relative_tolerance = 0"),
        "s.toml:19:22: error: run.relative_tolerance = 0 must be at least 1e-14 and at most 0.01"},
       {"tolerance 1e-20", with_run("relative_tolerance = 1e-20"),
-       "s.toml:19:22: error: run.relative_tolerance = 1e-20 must be at least 1e-14 and at most 0.01"}});
+       "s.toml:19:22: error: run.relative_tolerance = 1e-20 must be at least 1e-14 and at most 0.01"},
+      {"limits of no motor", good_scenario + "[limits]\ntorque_Nm = 0\n", "s.toml:20:13: error: limits.torque_Nm = 0 N m must be greater than 0 N m"},
+      {"limits without room", good_scenario + "[limits]\nangle_low_deg = 30\nangle_high_deg = 10\n",
+       "s.toml:20:17: error: limits.angle_low_deg = 30 must be below limits.angle_high_deg = 10"}});
 }
 
 TEST_CASE("an unknown word is rejected with the known ones") {

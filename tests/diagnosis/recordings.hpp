@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "diagnosis/verdict/experiment.hpp"
+#include "diagnosis/experiment/experiment.hpp"
 #include "statistics/random.hpp"
 
 namespace wormdrive::test {

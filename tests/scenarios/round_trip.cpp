@@ -130,6 +130,8 @@ Scenario full(Filler& filler, const LoadParameters& load) {
   s.run.solver = SolverKind::taylor;
   s.run.method = Method::adams;
   s.tolerance = filler.make<Tolerances>();
+  s.limits = filler.make<ExperimentLimits>();
+  std::tie(s.limits->low, s.limits->high) = std::minmax({*s.limits->low, *s.limits->high});
   s.columns = {{"motor_torque_Nm", "u \"raw\", N m"}, {"gear_angle_rad", "q"}};
   return s;
 }
