@@ -68,6 +68,7 @@ struct Visibility {
   double detectable{};  ///< smallest size that can be seen, in SI; infinity: none
   double nameable{};    ///< smallest size that can be told apart from other effects, of exact twins as their class;
                         ///< infinity: none
+  double resolved{};    ///< the same by the data alone, whatever is stated of it
   std::string nearest;  ///< that effect
   double likeness{};    ///< share of its signature that the nearest effect can imitate, 0 to 1
   bool observable = true;

@@ -55,7 +55,8 @@ class MotionSearch {
 
   /// Tries motions out, from a gentle one on.
   void search() {
-    if (!possible_ || !admits_slow_sweep()) return;
+    if (!possible_) return;
+    allow_slow_sweep();
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(NLOPT_LN_COBYLA, Point{}.size()),
                                                                       nlopt_destroy);
     nlopt_set_lower_bounds1(optimiser.get(), 0.0);
@@ -82,7 +83,8 @@ class MotionSearch {
     nlopt_optimize(optimiser.get(), start.data(), &best);
   }
 
-  double margin = 0.0;  ///< sizes of the first contender that the best motion could name within one as it was found
+  double margin = 0.0;  ///< sizes of the first contender that the best motion could tell within one as it was found
+  Visibility told{};    ///< the first contender by the best motion
   Scenario experiment;  ///< with the best motion
   MotionLimits asks{};  ///< what it asks of the drive
 
@@ -106,15 +108,14 @@ class MotionSearch {
     return m;
   }
 
-  /// The torque that a slow sweep through the whole range takes is allowed, and as much again for what is faster.
-  bool admits_slow_sweep() {
+  /// Where no torque is stated, what a slow sweep through the whole range takes is allowed, and as much again for what
+  /// is faster.
+  void allow_slow_sweep() {
+    if (question_.stated.limits && question_.stated.limits->torque) return;
     const ProbingMotion slow{range_.half(), 1.0 / told_.run.duration, 0.0, highest_frequency(question_.sizes.period)};
-    const auto recording = recorded(told_, slow);
-    if (!recording) return false;
-    const double takes = reached(*recording, told_.control->reference).torque;
-    if (question_.stated.limits && question_.stated.limits->torque) return takes <= range_.torque;
-    range_.torque = std::max(range_.torque, rules::torque_beyond * takes);
-    return true;
+    if (const auto recording = recorded(told_, slow))
+      range_.torque =
+          std::max(range_.torque, rules::torque_beyond * reached(*recording, told_.control->reference).torque);
   }
 
   /// What a scenario writes down when it follows a motion; nothing where it cannot.
@@ -147,28 +148,37 @@ class MotionSearch {
     t.beyond = {went.torque / range_.torque - 1.0, went.speed / range_.speed - 1.0,
                 (range_.low - went.low) / range_.half() - rules::beside_range,
                 (went.high - range_.high) / range_.half() - rules::beside_range};
-    const double found = margin_of(*recording);
+    const std::optional<Visibility> visible = shown(*recording);
+    const double found = visible ? margin_of(*visible) : 0.0;
     t.worth = std::log(std::max(least_margin, found));
     if (found <= margin || std::any_of(t.beyond.begin(), t.beyond.end(), [](double x) { return x > 0.0; })) return t;
     if (!recorded(run_, m)) return t;
     margin = found;
+    told = *visible;
     experiment = run_;
     asks = went;
     if (margin >= rules::ample_margin) nlopt_force_stop(optimiser_);
     return t;
   }
 
-  double margin_of(const Recording& recording) const {
+  /// What a recording can show of the first contender beside the others; nothing if none of it.
+  std::optional<Visibility> shown(const Recording& recording) const {
     const std::vector<Candidate>& contenders = question_.contenders;
     const Evaluation evaluation(told_, InnovationLayout({prepared(recording, 0)}), threads_);
     Hypothesis h = stated_hypothesis(told_.effects, question_.toleranced);
-    if (!evaluate(evaluation, h)) return 0.0;
+    if (!evaluate(evaluation, h)) return std::nullopt;
     adjust_noise(evaluation, h, 6);
     const std::vector<Visibility> seen =
         certificate(linear_system(evaluation, h, screen(evaluation, h, contenders)), h, contenders, question_.sizes);
-    if (seen.empty() || seen.front().effect != contenders.front().effect) return 0.0;
-    const double nameable = seen.front().nameable;
-    return contenders.front().is_limit ? nameable / question_.size : question_.size / nameable;
+    if (seen.empty() || seen.front().effect != contenders.front().effect || !seen.front().observable)
+      return std::nullopt;
+    return seen.front();
+  }
+
+  double margin_of(const Visibility& v) const {
+    const Candidate& first = question_.contenders.front();
+    const bool less_is_more = first.is_limit || first.coordinates[0].form == CoordinateForm::inverse;
+    return less_is_more ? v.resolved / question_.size : question_.size / v.resolved;
   }
 
   const Question& question_;
@@ -203,7 +213,9 @@ Recording simulated(const Scenario& scenario) {
 Experiment best_experiment(const Question& question, const MotionLimits& range, int threads) {
   Experiment best;
   double margin = 1.0;  // sizes that could be named
-  const std::string first = in_words(std::string(question.contenders.front().effect));
+  std::vector<std::string> others;
+  for (std::size_t k = 1; k < question.contenders.size(); ++k)
+    others.push_back(in_words(std::string(question.contenders[k].effect)));
   for (const double payload : {1.0, 2.0}) {
     if (margin >= rules::ample_margin) break;
     MotionSearch motions(question, range, payload, threads);
@@ -212,12 +224,16 @@ Experiment best_experiment(const Question& question, const MotionLimits& range, 
     margin = motions.margin;
     best.scenario = std::move(motions.experiment);
     best.scenario->control->disturbance.deviation = 0.0;
-    best.scenario->title = fmt::format("Experiment that tells {} from what looks like it", first);
-    best.reason = fmt::format(
-        "{}motion from {:.3g} to {:.3g} rad with up to {:.2g} rad/s and {:.2g} N m: {} {:.2g} times smaller could be "
-        "named",
-        payload == 1.0 ? "a " : "a second payload, twice the first, and a ", motions.asks.low, motions.asks.high,
-        motions.asks.speed, motions.asks.torque, first, margin);
+    best.scenario->title = fmt::format("Experiment that tells {} from what looks like it",
+                                       in_words(std::string(question.contenders.front().effect)));
+    const Visibility& v = motions.told;
+    const Axis axis = question.stated.axis;
+    const auto in = [axis](const char* rotary) { return units_on(axis, rotary); };
+    best.reason =
+        fmt::format("{}motion from {:.3g} to {:.3g} {} with up to {:.2g} {} and {:.2g} {}; {} could be told from {}",
+                    payload == 1.0 ? "a " : "a second payload, twice the first, and a ", motions.asks.low,
+                    motions.asks.high, in("rad"), motions.asks.speed, in("rad/s"), motions.asks.torque, in("N m"),
+                    phrase({v.effect, {{v.field, v.unit, v.nameable}}}, axis), joined(others, "and"));
   }
   if (!best.scenario) best.reason = "no motion that the drive may be asked for tells them apart";
   return best;

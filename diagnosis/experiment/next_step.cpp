@@ -82,9 +82,10 @@ void propose_next_step(Diagnosis& d, const Scenario& scenario, const std::vector
   const auto propose = [&](const std::vector<Candidate>& contenders) {
     if (settings.progress) settings.progress("looking for an experiment");
     const double resolution = recordings.front().data.gear_resolution;
-    const Question question{
-        scenario,   d.extended, contenders,     size_of(d, contenders.front().effect),
-        toleranced, sizes,      d.noise_torque, resolution > 0.0 ? 2.0 * std::numbers::pi / resolution : 0.0};
+    const Question question{scenario,       d.extended,
+                            contenders,     size_of(d, contenders.front().effect),
+                            toleranced,     sizes,
+                            d.noise_torque, resolution > 0.0 ? std::round(2.0 * std::numbers::pi / resolution) : 0.0};
     Experiment found =
         best_experiment(question, allowed_range(scenario, recordings, sizes.load_turns), settings.threads);
     d.experiment = std::move(found.scenario);
@@ -92,8 +93,9 @@ void propose_next_step(Diagnosis& d, const Scenario& scenario, const std::vector
     return d.experiment.has_value();
   };
   if (unexplained) {
+    const bool is_line = !d.remainders.empty() && d.remainders.front().frequency > 0.0;  // which no motion explains
     const std::vector<Candidate> contenders = with_effects(all, best_rejected(d, all));
-    if (contenders.size() > 1 && propose(contenders)) return;
+    if (!is_line && contenders.size() > 1 && propose(contenders)) return;
     if (!d.remainders.empty()) d.experiment_reason = advice(d.remainders.front());
     return;
   }

@@ -66,13 +66,13 @@ bool holds(const Evidence& e, const Candidate& candidate) {
   const bool gains = e.held_out > rules::least_held_out;
   const bool steady = gains && e.without_best > 0.0;
   const bool broad = e.clipped > rules::least_held_out && e.positive_share >= rules::positive_share;
-  // teeth that bounce throw single blocks about, by more than many causes are worth
-  if (e.beside_gap) return steady && broad;
   // stated numbers have gained most of it already: this one within its tolerance, or all of them far beyond theirs, as
   // far as it takes to do what the fault of a recording does
   const bool moves_back = e.of_tolerances > std::max(rules::least_bic, rules::mostly * e.delta_bic);
   if (candidate.toleranced || (candidate.of_recording && moves_back))
     return e.held_out > -std::max(rules::least_held_out, rules::held_out_loss * e.delta_bic);
+  // teeth that bounce throw single blocks about, by more than many causes are worth
+  if (e.beside_gap) return steady && broad;
   const bool has_steps = std::any_of(candidate.coordinates.begin(), candidate.coordinates.end(),
                                      [](const Coordinate& c) { return !has_slope(c); });
   return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules::least_bic);

@@ -120,6 +120,7 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
     v.nameable = std::max(v.nameable, mine.size * std::sqrt(rules::nameable_share / std::max(share, 1e-12)));
   else if (share < rules::nameable_share)
     v.nameable = never;
+  v.resolved = v.nameable;
   if (candidate.toleranced) {
     const double least_size = rules::least_tolerances * c.tolerance;
     v.detectable = std::max(v.detectable, least_size);
@@ -129,6 +130,7 @@ Visibility of_signature(const Signatures& signatures, const Signature& mine, con
   if (c.form == CoordinateForm::inverse) {
     v.detectable = 1.0 / v.detectable;
     v.nameable = 1.0 / v.nameable;
+    v.resolved = 1.0 / v.resolved;
   }
   return v;
 }
@@ -140,11 +142,11 @@ Visibility of_limit(const Signatures& signatures, std::size_t candidate, const s
   v.effect = c.effect;
   v.field = c.field;
   v.unit = field_of({}, c.effect, c.field).unit;
-  v.detectable = v.nameable = never;
+  v.detectable = v.nameable = v.resolved = never;
   v.observable = false;
   for (const Signature& s : signatures.list())
     if (s.candidate == candidate && signatures.length(s, nullptr) > rules::findable_length) {
-      v.detectable = v.nameable = v.observable ? std::max(v.detectable, s.size) : s.size;
+      v.detectable = v.nameable = v.resolved = v.observable ? std::max(v.detectable, s.size) : s.size;
       v.observable = true;
     }
   return v;
@@ -189,7 +191,7 @@ std::vector<Visibility> certificate(const LinearSystem& linear, const Hypothesis
     if (!n.needs_worm_encoder) continue;
     Visibility v;
     v.effect = n.effect;
-    v.detectable = v.nameable = never;
+    v.detectable = v.nameable = v.resolved = never;
     v.observable = false;
     list.push_back(v);
   }

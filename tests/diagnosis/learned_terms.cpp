@@ -91,6 +91,7 @@ TEST_CASE("a vibration, which could pass for noise of the torque, comes back wit
   CHECK(std::abs(shakes->frequency - drive.actuator.vibration_frequency) < 0.01);
   CHECK(error_ahead(d).after < 0.3 * error_ahead(d).before);
   CHECK(d.sentence.find(" Hz. It claims no cause and is in the extended scenario as vibration.") != std::string::npos);
+  CHECK(d.experiment_reason.starts_with("record once more with everything switched off that runs beside the drive"));
   check_it_runs(d.extended);
 }
 
@@ -104,6 +105,7 @@ TEST_CASE("a rough place of the gear comes back as friction over its angle", "[s
   const double there = map->table(drive.friction.spot_angle), beside = map->table(drive.friction.spot_angle - 1.0);
   CHECK(there - beside > 0.5 * drive.friction.spot);
   CHECK(error_ahead(d).after < 0.4 * error_ahead(d).before);
+  CHECK_FALSE(d.experiment_reason.empty());
   check_it_runs(d.extended);
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "catch.hpp"
+#include "description/toml/parse_scenario.hpp"
+#include "description/toml/write_scenario.hpp"
 #include "diagnosis/candidates/coordinates.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/recordings.hpp"
@@ -72,6 +74,7 @@ TEST_CASE("a second payload, or the proposed experiment, splits the class that o
   splits_the_class(diagnose(exact_arm(), {light, heavy}));
 
   REQUIRE(one.experiment);
+  CHECK_NOTHROW(parse_scenario(to_toml(*one.experiment), "experiment", {}, Purpose::run));
   Scenario made = *one.experiment;  // on the true drive, not on the one that was found
   made.effects = {};
   set_field(made.effects, planted);
