@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/rules/recordings.hpp"
 #include "statistics/robust.hpp"
 
@@ -62,7 +63,8 @@ class Path {
                                    : "no drive moves so fast; cut the recording there or mend its encoder"));
 }
 
-/// Readings that stand still beside samples at which the gear moved at a speed that nothing reaches so soon.
+/// Readings that stand still beside samples at which the gear moved at a speed that nothing reaches so soon, but an
+/// impact of teeth with a gap, on one side.
 void refuse_standing(const RecordedTable& table, const RecordedValues& angle, const std::vector<std::uint8_t>& valid,
                      const SampleLimits& limits) {
   const std::vector<double>& y = angle.values;
@@ -84,7 +86,7 @@ void refuse_standing(const RecordedTable& table, const RecordedValues& angle, co
     if (readings >= rules::standing_readings) {
       const double before = from < look || table.crosses_pause(from, look) ? 0.0 : speed(from - look, from - 1);
       const double after = to + look > y.size() || table.crosses_pause(to, look) ? 0.0 : speed(to, to + look - 1);
-      if (std::max(before, after) > sudden)
+      if (std::min(before, after) > sudden || std::max(before, after) > std::max(sudden, limits.impact_speed))
         reject(
             table.where(from),
             fmt::format("{} stands at {:.6g} from {:.4g} s to {:.4g} s and moves at {:.2g} {} just {}: the encoder {}",
@@ -138,6 +140,17 @@ void follow(const RecordedTable& table, RecordedValues& angle, std::size_t begin
 
 }  // namespace
 
+SampleLimits sample_limits(const Scenario& scenario, double period, const std::vector<double>& torque) {
+  const double peak = usual_peak(torque);
+  SampleLimits limits{period, largest_acceleration(scenario, peak), 1.0, 0.0};
+  if (const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh)) {
+    limits.ratio = mesh->i;
+    const double gap = rules::widest_gap * 2.0 * std::numbers::pi / mesh->i;
+    limits.impact_speed = std::sqrt(2.0 * gap * peak / (mesh->Jw * mesh->i));
+  }
+  return limits;
+}
+
 double resolution(const std::vector<double>& angles, const std::vector<std::uint8_t>& valid) {
   std::vector<double> sorted;
   for (std::size_t k = 0; k < angles.size(); ++k)
@@ -184,6 +197,7 @@ std::vector<std::string> leave_out_impossible(RecordedTable& table, const Sample
   }
   SampleLimits of_worm = limits;
   of_worm.largest_acceleration *= limits.ratio;
+  of_worm.impact_speed *= limits.ratio;
   for (const auto& [angle, own] : {std::pair{&table.angle, limits}, std::pair{&table.worm_angle, of_worm}}) {
     std::vector<double>& y = angle->values;
     if (y.empty()) continue;

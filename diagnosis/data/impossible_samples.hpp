@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "description/scenario.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 
 namespace wormdrive {
@@ -12,7 +13,11 @@ struct SampleLimits {
   double period;                ///< [s]
   double largest_acceleration;  ///< that the drive can have at the gear [rad/s^2]
   double ratio;                 ///< of the worm's angle to the gear's
+  double impact_speed;          ///< that a worm gives the gear at once when it has crossed a gap [rad/s]
 };
+
+/// Those of a scenario's drive, with the torque of a recording [N m].
+SampleLimits sample_limits(const Scenario& scenario, double period, const std::vector<double>& torque);
 
 /// Marks samples that no measurement can have given with 0 in `valid`, and puts what their neighbours suggest in their
 /// place: angles off the path of their neighbours, torques of another size than all others. One sentence for each group

@@ -26,9 +26,7 @@ Recording read_recording(const std::string& path, const Scenario& scenario) {
   recording.remarks = std::move(time.remarks);
   if (rounded) recording.remarks.insert(recording.remarks.begin(), *rounded);
   recording.valid = std::move(rows.there);
-  const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh);
-  const SampleLimits limits{time.period, largest_acceleration(scenario, usual_peak(table.torque.values)),
-                            mesh ? mesh->i : 1.0};
+  const SampleLimits limits = sample_limits(scenario, time.period, table.torque.values);
   for (std::string& remark : leave_out_impossible(table, limits, recording.valid))
     recording.remarks.push_back(std::move(remark));
   refuse_implausible_size(table, time.period, scenario);

@@ -50,6 +50,8 @@ inline constexpr std::size_t standing_readings = 10;
 inline constexpr std::size_t beside_standstill = 5;
 /// times what the drive can do | set | a start that is faster is the encoder's
 inline constexpr double impossible_start = 1.5;
+/// share of a tooth of a worm with one start | set | no gap is wider: the worm that crosses it gives the gear a speed
+inline constexpr double widest_gap = 0.08;
 /// steps of the encoder | derived | two readings at either end of a speed, each wrong by one
 inline constexpr double rounding_of_speed = 4.0;
 /// turns | set | a jump so near a whole number of turns is an angle counted within one

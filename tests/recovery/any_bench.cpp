@@ -171,6 +171,17 @@ TEST_CASE("one lost block refutes no cause and a few large errors withdraw no na
   are_named(1801, {47, 53}, medium_or_large);
 }
 
+TEST_CASE("a gear that a worm strikes after a rest is no encoder that was stuck", "[recovery]") {
+  Plan plan{.kind = Kind::single,
+            .conditions = conditions("realistic"),
+            .sizes = medium_or_large,
+            .effects = {"backlash"},
+            .cases = 6,
+            .seed = 2801};
+  plan.any_bench = true;
+  CHECK_NOTHROW(record(draw(plan).back()));
+}
+
 TEST_CASE("a stated number that is far off is told beside a gap, too", "[recovery][slow]") {
   // it was free before, and so gains nothing on held-out blocks once its tolerance goes
   are_named(2401, {1}, medium_or_large, Kind::stated_off);
