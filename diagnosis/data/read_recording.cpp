@@ -5,11 +5,9 @@
 #include "diagnosis/data/forgotten_load.hpp"
 #include "diagnosis/data/impossible_samples.hpp"
 #include "diagnosis/data/missing_rows.hpp"
-#include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/data/plausible_units.hpp"
 #include "diagnosis/data/recorded_table.hpp"
 #include "diagnosis/data/sample_times.hpp"
-#include "statistics/robust.hpp"
 
 namespace wormdrive {
 Recording read_recording(const std::string& path, const Scenario& scenario) {

@@ -44,7 +44,12 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
     const int k = index_of(with, c);
     if (k < 0) continue;
     const double x = with.values[static_cast<std::size_t>(k)];
-    if (c.tolerance > 0.0) e.tolerances = std::max(e.tolerances, std::abs(x - c.centre) / c.tolerance);
+    if (c.tolerance > 0.0) {
+      e.tolerances = std::max(e.tolerances, std::abs(x - c.centre) / c.tolerance);
+      if (const int before = index_of(without, c); before >= 0)
+        e.tolerances_without = std::max(
+            e.tolerances_without, std::abs(without.values[static_cast<std::size_t>(before)] - c.centre) / c.tolerance);
+    }
     // what has no slope is known to its scale at best; a size of less than two is none
     const double near = has_slope(c) ? 1e-6 * (c.high - c.low) : 2.0 * c.scale;
     e.at_bound = e.at_bound || (x <= c.low + near && !is_removed(with, candidate)) || x >= c.high - near;
@@ -69,6 +74,7 @@ bool holds(const Evidence& e, const Candidate& candidate) {
   // stated numbers have gained most of it already: this one within its tolerance, or all of them far beyond theirs, as
   // far as it takes to do what the fault of a recording does
   const bool moves_back = e.of_tolerances > std::max(rules::least_bic, rules::mostly * e.delta_bic);
+  if (candidate.toleranced && e.tolerances_without > rules::least_tolerances) return true;  // so do these as well
   if (candidate.toleranced || (candidate.of_recording && moves_back))
     return e.held_out > -std::max(rules::least_held_out, rules::held_out_loss * e.delta_bic);
   // teeth that bounce throw single blocks about, by more than many causes are worth

@@ -15,6 +15,7 @@ struct Evidence {
   double clipped{};              ///< the same with every block's gain clipped
   double positive_share{};       ///< of the ranks by size of the held-out blocks, those that gain [Wilcoxon 1945]
   double tolerances{};           ///< largest distance of a stated number from its value, in tolerances
+  double tolerances_without{};   ///< the same while its tolerance draws it back
   double everywhere_but_best{};  ///< gain of all data, fitted or not, without the block that gains most [nats]
   bool beside_gap = false;       ///< a gap between the teeth is in both models
   bool at_bound = false;         ///< a coordinate of the candidate came to rest at its bound

@@ -150,8 +150,10 @@ std::string every_field(const std::string& header, Axis axis) {
 
 /// Tables that any scenario of an axis may have beside those of its drive.
 std::string every_table(Axis axis) {
-  std::string text = every_field<InitialState<double>>("[initial]", axis) +
-                     every_field<Tolerances>("[tolerance]", axis) + every_field<ExperimentLimits>("[limits]", axis);
+  std::string limits = every_field<ExperimentLimits>("[limits]", axis);
+  limits.erase(limits.rfind('-'), 1);  // the highest angle is above the lowest
+  std::string text =
+      every_field<InitialState<double>>("[initial]", axis) + every_field<Tolerances>("[tolerance]", axis) + limits;
   const bool turns = axis == Axis::rotary;
   text += fmt::format("[effect.torque_map]\nscale = 2\nover = \"gear_angle\"\n{} = [0, 1, 2, 3]\n{} = [1, 2, 3, 2]\n",
                       turns ? "angles_deg" : "positions_m", turns ? "torques_Nm" : "forces_N");

@@ -113,9 +113,15 @@ TEST_CASE("friction that grows with the load predicts a servo better than its pu
     for (const std::string& name : servo_logs(gains[1 - k])) unseen.push_back(*servo_recording(name, sheet));
     const Diagnosis d = diagnose(sheet, seen, {.threads = 2});
     CAPTURE(gains[k], d.sentence);
-    CHECK(d.verdict == Verdict::unexplained);
-    CHECK(d.sentence.find(" The extended scenario holds friction under load") != std::string::npos);
-    CHECK(d.sentence.find(" no cause.") != std::string::npos);
+    if (k == 0) {
+      CHECK(d.verdict == Verdict::unexplained);
+      CHECK(d.sentence.find(" The extended scenario holds friction under load") != std::string::npos);
+      CHECK(d.sentence.find(" no cause.") != std::string::npos);
+    } else {
+      CHECK(d.verdict == Verdict::named);
+      REQUIRE(d.causes.size() == 1);
+      CHECK(d.causes[0].effect == "friction_under_load");
+    }
     const auto& friction = std::get<std::optional<FrictionUnderLoad<double>>>(d.extended.effects.list);
     REQUIRE(friction);
     CHECK(friction->share > 0.3);
@@ -125,7 +131,8 @@ TEST_CASE("friction that grows with the load predicts a servo better than its pu
     };
     const double ours = error_of(d.extended), theirs = error_of(published);
     CAPTURE(ours, theirs);
-    CHECK(ours < (k == 0 ? 0.9 : 0.93) * theirs);  // 0.89 and 0.93
+    // 0.89 and 0.943; 0.93 where interpolated rows had halved the encoder's step in two logs, and nothing was named
+    CHECK(ours < (k == 0 ? 0.9 : 0.95) * theirs);
   }
 }
 
