@@ -41,10 +41,10 @@ bool multiply_payload(Scenario& scenario, double factor) {
 class MotionSearch {
  public:
   MotionSearch(const Question& question, const MotionLimits& range, double payload, int threads)
-      : question_(question), range_(range), threads_(threads), run_(question.found), told_(question.stated) {
-    possible_ = multiply_payload(run_, payload) && multiply_payload(told_, payload);
+      : question_(question), range_(range), threads_(threads), run_(question.found), stated_(question.stated) {
+    possible_ = multiply_payload(run_, payload) && multiply_payload(stated_, payload);
     const Magnitudes& sizes = question.sizes;
-    for (Scenario* each : {&run_, &told_}) {
+    for (Scenario* each : {&run_, &stated_}) {
       each->initial.theta_g = std::clamp(each->initial.theta_g, range.low, range.high);
       each->initial.omega_g = 0.0;
       each->run.duration = std::min(sizes.duration, rules::most_of_experiment * sizes.period);
@@ -84,7 +84,7 @@ class MotionSearch {
   }
 
   double margin = 0.0;  ///< sizes of the first contender that the best motion could tell within one as it was found
-  Visibility told{};    ///< the first contender by the best motion
+  Visibility seen{};    ///< the first contender by the best motion
   Scenario experiment;  ///< with the best motion
   MotionLimits asks{};  ///< what it asks of the drive
 
@@ -100,7 +100,7 @@ class MotionSearch {
   ProbingMotion motion(const Point& u) const {
     const auto between = [](double low, double high, double share) { return low * std::pow(high / low, share); };
     ProbingMotion m{};
-    const double once = 1.0 / told_.run.duration, fastest = highest_frequency(question_.sizes.period);
+    const double once = 1.0 / stated_.run.duration, fastest = highest_frequency(question_.sizes.period);
     m.amplitude = range_.half() * between(0.05, 1.0, u[0]);
     m.frequency = between(once, std::max(once, 0.25 * fastest), u[1]);
     m.fast_amplitude = m.amplitude * between(1e-3, 0.1, u[2]);
@@ -112,10 +112,10 @@ class MotionSearch {
   /// is faster.
   void allow_slow_sweep() {
     if (question_.stated.limits && question_.stated.limits->torque) return;
-    const ProbingMotion slow{range_.half(), 1.0 / told_.run.duration, 0.0, highest_frequency(question_.sizes.period)};
-    if (const auto recording = recorded(told_, slow))
+    const ProbingMotion slow{range_.half(), 1.0 / stated_.run.duration, 0.0, highest_frequency(question_.sizes.period)};
+    if (const auto recording = recorded(stated_, slow))
       range_.torque =
-          std::max(range_.torque, rules::torque_beyond * reached(*recording, told_.control->reference).torque);
+          std::max(range_.torque, rules::torque_beyond * reached(*recording, stated_.control->reference).torque);
   }
 
   /// What a scenario writes down when it follows a motion; nothing where it cannot.
@@ -142,9 +142,9 @@ class MotionSearch {
     Trial t;
     const ProbingMotion m = motion(u);
     // signatures are those about what is stated
-    const std::optional<Recording> recording = recorded(told_, m);
+    const std::optional<Recording> recording = recorded(stated_, m);
     if (!recording) return t;
-    const MotionLimits went = reached(*recording, told_.control->reference);
+    const MotionLimits went = reached(*recording, stated_.control->reference);
     t.beyond = {went.torque / range_.torque - 1.0, went.speed / range_.speed - 1.0,
                 (range_.low - went.low) / range_.half() - rules::beside_range,
                 (went.high - range_.high) / range_.half() - rules::beside_range};
@@ -154,7 +154,7 @@ class MotionSearch {
     if (found <= margin || std::any_of(t.beyond.begin(), t.beyond.end(), [](double x) { return x > 0.0; })) return t;
     if (!recorded(run_, m)) return t;
     margin = found;
-    told = *visible;
+    seen = *visible;
     experiment = run_;
     asks = went;
     if (margin >= rules::ample_margin) nlopt_force_stop(optimiser_);
@@ -164,15 +164,14 @@ class MotionSearch {
   /// What a recording can show of the first contender beside the others; nothing if none of it.
   std::optional<Visibility> shown(const Recording& recording) const {
     const std::vector<Candidate>& contenders = question_.contenders;
-    const Evaluation evaluation(told_, InnovationLayout({prepared(recording, 0)}), threads_);
-    Hypothesis h = stated_hypothesis(told_.effects, question_.toleranced);
+    const Evaluation evaluation(stated_, InnovationLayout({prepared(recording, 0)}), threads_);
+    Hypothesis h = stated_hypothesis(stated_.effects, question_.toleranced);
     if (!evaluate(evaluation, h)) return std::nullopt;
     adjust_noise(evaluation, h, 6);
-    const std::vector<Visibility> seen =
+    const std::vector<Visibility> all =
         certificate(linear_system(evaluation, h, screen(evaluation, h, contenders)), h, contenders, question_.sizes);
-    if (seen.empty() || seen.front().effect != contenders.front().effect || !seen.front().observable)
-      return std::nullopt;
-    return seen.front();
+    if (all.empty() || all.front().effect != contenders.front().effect || !all.front().observable) return std::nullopt;
+    return all.front();
   }
 
   double margin_of(const Visibility& v) const {
@@ -184,7 +183,7 @@ class MotionSearch {
   const Question& question_;
   MotionLimits range_;
   int threads_;
-  Scenario run_, told_;  ///< the drive as it was found and as it is stated, with this payload
+  Scenario run_, stated_;  ///< the drive as it was found and as it is stated, with this payload
   bool possible_ = false;
   nlopt_opt optimiser_ = nullptr;
   Point last_point_{-1.0, -1.0, -1.0, -1.0};
@@ -217,7 +216,7 @@ Experiment best_experiment(const Question& question, const MotionLimits& range, 
   for (std::size_t k = 1; k < question.contenders.size(); ++k)
     others.push_back(in_words(std::string(question.contenders[k].effect)));
   for (const double payload : {1.0, 2.0}) {
-    if (margin >= rules::ample_margin) break;
+    if (range.low >= range.high || margin >= rules::ample_margin) break;
     MotionSearch motions(question, range, payload, threads);
     motions.search();
     if (motions.margin <= margin) continue;
@@ -226,7 +225,7 @@ Experiment best_experiment(const Question& question, const MotionLimits& range, 
     best.scenario->control->disturbance.deviation = 0.0;
     best.scenario->title = fmt::format("Experiment that tells {} from what looks like it",
                                        in_words(std::string(question.contenders.front().effect)));
-    const Visibility& v = motions.told;
+    const Visibility& v = motions.seen;
     const Axis axis = question.stated.axis;
     const auto in = [axis](const char* rotary) { return units_on(axis, rotary); };
     best.reason =
