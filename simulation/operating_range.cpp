@@ -6,6 +6,7 @@
 
 #include "description/build.hpp"
 #include "description/rejection.hpp"
+#include "description/tables.hpp"
 #include "events/simulation_failure.hpp"
 #include "simulation/run_scenario.hpp"
 
@@ -15,17 +16,9 @@ namespace {
 /// Sum of the amplitudes of all arms [N m].
 double arm_amplitude(const Scenario& scenario) {
   double amplitude = 0.0;
-  const auto take = [&](const auto& load) {
-    if constexpr (requires { load.torque_amplitude(); }) amplitude += std::abs(load.torque_amplitude());
-  };
-  std::visit(
-      [&](const auto& load) {
-        if constexpr (requires { load.terms; })
-          for (const auto& term : load.terms) std::visit(take, term);
-        else
-          take(load);
-      },
-      scenario.load);
+  for_each_table(scenario, [&](const TablePlace&, const auto& table) {
+    if constexpr (requires { table.torque_amplitude(); }) amplitude += std::abs(table.torque_amplitude());
+  });
   return amplitude;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -13,7 +12,6 @@
 #include "core/elastic/elastic_teeth.hpp"
 #include "description/rejection.hpp"
 #include "diagnosis/fitting/fit.hpp"
-#include "diagnosis/rules/recordings.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "diagnosis/verdict/certificate.hpp"
 #include "diagnosis/verdict/verdict.hpp"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
+#include <type_traits>
 
 #include "control/pid.hpp"
-#include "core/states/impact_on_stop.hpp"
 #include "description/build_control.hpp"
+#include "description/tables.hpp"
 #include "diagnosis/data/needed_torque.hpp"
 #include "diagnosis/rules/verdict.hpp"
 #include "statistics/robust.hpp"
@@ -22,22 +22,13 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// The way between all stops that a scenario states.
 MotionLimits between_stops(const Scenario& scenario) {
   MotionLimits way{infinite, infinite, -infinite, infinite};
-  const auto narrow = [&](const auto& stops) {
-    if (stops.low) way.low = std::max(way.low, *stops.low);
-    if (stops.high) way.high = std::min(way.high, *stops.high);
-  };
-  if (hard_stops(scenario.effects)) narrow(*hard_stops(scenario.effects));
-  const auto soft = [&](const auto& load) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(load)>, EndStops>) narrow(load);
-  };
-  std::visit(
-      [&](const auto& load) {
-        if constexpr (requires { load.terms; })
-          for (const auto& term : load.terms) std::visit(soft, term);
-        else
-          soft(load);
-      },
-      scenario.load);
+  for_each_table(scenario, [&](const TablePlace&, const auto& table) {
+    using Table = std::decay_t<decltype(table)>;
+    if constexpr (std::is_same_v<Table, EndStops> || std::is_same_v<Table, HardStops<double>>) {
+      if (table.low) way.low = std::max(way.low, *table.low);
+      if (table.high) way.high = std::min(way.high, *table.high);
+    }
+  });
   return way;
 }
 

@@ -93,7 +93,8 @@ TEST_CASE("limits that leave no motion leave no experiment") {
   const Experiment none = b.experiment(ExperimentLimits{.torque = 1e-3, .speed = 0.3, .low = -0.2, .high = 0.2});
   CHECK_FALSE(none.scenario);
   CHECK(none.reason == "no motion that the drive may be asked for tells them apart");
-  CHECK_FALSE(b.experiment(ExperimentLimits{.low = 3.0, .high = {}}).scenario);  // above all that the recordings and the load tell
+  CHECK_FALSE(b.experiment(ExperimentLimits{.low = 3.0, .high = {}})
+                  .scenario);  // above all that the recordings and the load tell
 }
 
 TEST_CASE("stops leave an experiment the way between them") {

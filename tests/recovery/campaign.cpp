@@ -70,7 +70,7 @@ void draw_bench(Case& drawn, truth::Generator& generator) {
   drawn.stated = truth::any_drive(generator);
   drawn.conditions.counts = drawn.stated.sensor.counts;
   drawn.period = 1.0 / rates[std::uniform_int_distribution<std::size_t>(0, std::size(rates) - 1)(generator)];
-  drawn.duration = 8.0 * std::pow(5.0, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
+  drawn.duration = over_decades(8.0, 40.0, generator);
   drawn.duration = std::round(drawn.duration / drawn.period) * drawn.period;
 }
 
@@ -116,6 +116,10 @@ Kind kind(std::string_view sought) {
     if (name(k) == sought) return k;
   throw std::invalid_argument("a campaign hides single, nothing, pair, cancelling, stated_off or outside, not " +
                               std::string(sought));
+}
+
+double over_decades(double low, double high, truth::Generator& generator) {
+  return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
 }
 
 std::vector<Case> draw(const Plan& plan) {
@@ -268,6 +272,26 @@ Bench record(const Case& drawn) {
   return {std::move(bench.drive), as_read(bench.recorded, data_sheet(drawn), drawn.seed)};
 }
 
+Outcome outcome(const Case& drawn, const Diagnose& diagnose, const std::function<void(truth::Recording&)>& logger) {
+  try {
+    Followed bench = followed(drawn);
+    if (logger) logger(bench.recorded);
+    const wormdrive::Scenario sheet = data_sheet(drawn);
+    const wormdrive::Recording recording = as_read(bench.recorded, sheet, drawn.seed);
+    const auto start = std::chrono::steady_clock::now();
+    const wormdrive::Diagnosis found = diagnose(sheet, {recording});
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    Outcome judged = judge(drawn, bench.drive, found);
+    judged.seconds = took.count();
+    return judged;
+  } catch (const std::exception& fault) {
+    Outcome failed;
+    failed.drawn = drawn;
+    failed.told = fault.what();
+    return failed;
+  }
+}
+
 std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnose, int threads,
                          const std::function<void(const Outcome&)>& listen) {
   std::vector<Outcome> outcomes(cases.size());
@@ -275,20 +299,9 @@ std::vector<Outcome> run(const std::vector<Case>& cases, const Diagnose& diagnos
   std::mutex one_at_a_time;
   const auto work = [&] {
     for (std::size_t k = next++; k < cases.size(); k = next++) {
-      Outcome& outcome = outcomes[k];
-      try {
-        const Bench bench = record(cases[k]);
-        const auto start = std::chrono::steady_clock::now();
-        const wormdrive::Diagnosis found = diagnose(data_sheet(cases[k]), {bench.recording});
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        outcome = judge(cases[k], bench.drive, found);
-        outcome.seconds = took.count();
-      } catch (const std::exception& fault) {
-        outcome.drawn = cases[k];
-        outcome.told = fault.what();
-      }
+      outcomes[k] = outcome(cases[k], diagnose);
       const std::lock_guard lock(one_at_a_time);
-      if (listen) listen(outcome);
+      if (listen) listen(outcomes[k]);
     }
   };
   std::vector<std::thread> crew;

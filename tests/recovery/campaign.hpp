@@ -72,6 +72,9 @@ struct Plan {
   bool any_bench = false;                 ///< drives, encoders, rates and durations are drawn, too
 };
 
+/// Between two limits, each decade as likely as another.
+double over_decades(double low, double high, truth::Generator& generator);
+
 /// The cases of a plan: effects in turn, sizes in turn, everything else drawn from the seed.
 std::vector<Case> draw(const Plan& plan);
 
@@ -165,6 +168,9 @@ const wormdrive::Visibility* visibility(const wormdrive::Diagnosis& found, std::
 
 /// Compares names and parameters; the drive is the truth.
 Outcome judge(const Case& drawn, const truth::Drive& drive, const wormdrive::Diagnosis& found);
+
+/// Records a case, with what a logger does to it, and diagnoses it; what goes wrong is told in the outcome.
+Outcome outcome(const Case& drawn, const Diagnose& diagnose, const std::function<void(truth::Recording&)>& logger = {});
 
 /// Records and diagnoses every case, on several threads; the outcomes stand in the order of the cases. `listen` is
 /// called after every case, by one thread at a time.

@@ -21,11 +21,8 @@ truth::EventSequence course_of(const wormdrive::Scenario& experiment) {
 
 /// A slow motion that leaves classes; the smaller and slower the larger ones.
 truth::EventSequence poor_course(truth::Generator& generator, double duration) {
-  const auto by_ratio = [&](double low, double high) {
-    return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
-  };
-  const double amplitude = by_ratio(0.1, 0.8);
-  return truth::slow_course(amplitude, by_ratio(0.06, 0.3), duration);
+  const double amplitude = over_decades(0.1, 0.8, generator);
+  return truth::slow_course(amplitude, over_decades(0.06, 0.3, generator), duration);
 }
 
 }  // namespace

@@ -13,10 +13,6 @@
 namespace recovery {
 namespace {
 
-double over_decades(double low, double high, truth::Generator& generator) {
-  return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(generator));
-}
-
 std::string kind_of(const Logging& l) {
   return l.missing == 0.0 ? "jitter" : l.jitter == 0.0 ? "rows missing" : "jitter, rows missing";
 }
@@ -36,24 +32,13 @@ Logged drawn_log(Case bench, std::size_t k) {
   return log;
 }
 
-Outcome outcome(const Case& bench, const Logging& logging, const Diagnose& diagnose) {
-  Case as_logged = bench;
-  as_logged.jitter = logging.jitter;
-  Followed followed_bench = followed(as_logged);
-  if (logging.missing > 0.0) {
+Outcome as_logged(Case bench, const Logging& logging, const Diagnose& diagnose) {
+  bench.jitter = logging.jitter;
+  return outcome(bench, diagnose, [&](truth::Recording& recorded) {
+    if (logging.missing == 0.0) return;
     truth::Generator generator(bench.seed + 3);
-    lose(followed_bench.recorded,
-         lost_rows(followed_bench.recorded.time.size(), logging.missing, logging.run, generator));
-  }
-  const wormdrive::Scenario sheet = data_sheet(bench);
-  try {
-    return judge(bench, followed_bench.drive, diagnose(sheet, {as_read(followed_bench.recorded, sheet, bench.seed)}));
-  } catch (const std::exception& fault) {
-    Outcome failed;
-    failed.drawn = bench;
-    failed.told = fault.what();
-    return failed;
-  }
+    lose(recorded, lost_rows(recorded.time.size(), logging.missing, logging.run, generator));
+  });
 }
 
 }  // namespace
@@ -72,8 +57,8 @@ std::vector<Logged> logs(const Plan& plan, const Diagnose& diagnose, int threads
   std::vector<Logged> all(with.size());
   wormdrive::parallel_for(all.size(), threads, [&](std::size_t k) {
     Logged& log = all[k] = drawn_log((k / 3) % 2 == 0 ? with[k] : without[k], k);
-    log.clean = outcome(log.bench, {}, diagnose);
-    log.uneven = outcome(log.bench, log.logging, diagnose);
+    log.clean = as_logged(log.bench, {}, diagnose);
+    log.uneven = as_logged(log.bench, log.logging, diagnose);
     std::cout << fmt::format("{:.5g} Hz, jitter {:.2g}, {:.2g} missing in runs of {}: {}\n  clean  {}\n  uneven {}\n",
                              1.0 / log.bench.period, log.logging.jitter, log.logging.missing, log.logging.run,
                              log.agree() ? "the same" : "DIFFERENT", line(log.clean), line(log.uneven))

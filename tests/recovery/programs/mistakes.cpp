@@ -27,7 +27,7 @@ double between(double low, double high, Generator& generator) {
 /// A factor over decades, not so near 1 that nobody minds.
 double factor(double low, double high, Generator& generator) {
   for (;;) {
-    const double f = low * std::pow(high / low, between(0.0, 1.0, generator));
+    const double f = over_decades(low, high, generator);
     if (f < 0.8 || f > 1.25) return f;
   }
 }
