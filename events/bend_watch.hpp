@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,19 @@ class BendWatch {
   /// Whether there is nothing to watch.
   bool none() const { return sides_.empty(); }
 
-  /// Begins where a segment starts: on which side of zero each quantity is just after it.
+  /// Begins where a segment starts. On which side of zero each quantity is just after it is found when it is asked for:
+  /// a leap across the segment does not.
   void begin(const Instant& now) {
-    if (!none()) find_sides(now);
+    if (none()) return;
+    begin_ = now;
+    knows_sides_ = false;
   }
   /// How long [s] the first step may be, infinity mostly: where a segment starts at a bend, rounding may have left it
   /// on the other side, and a series from there has the equations of that side. Asked for once.
-  double first_step() { return std::exchange(unsure_, never); }
+  double first_step() {
+    know_sides();
+    return std::exchange(unsure_, never);
+  }
 
   /// The first bend in [left, right], to which nobody has looked yet; at(x) is where the motion is at x, end that at
   /// right. x runs as time does.
@@ -44,6 +51,7 @@ class BendWatch {
   std::optional<double> first_between(const At& at, double left, double right, const Instant& end) {
     std::optional<double> first;
     if (none()) return first;
+    know_sides();
     const std::vector<Series<double, 1>> there = values(end);
     for (std::size_t k = 0; k < there.size(); ++k) {
       const auto fall = falling_crossing([&](double x) { return values(at(x))[k]; }, left, here_[k], right, there[k]);
@@ -54,13 +62,15 @@ class BendWatch {
   }
 
   /// The first bend within h [s] of a motion along which the quantities are power series of an order.
-  std::optional<double> first_within(const std::vector<Coefficients>& series, int order, double h,
-                                     RootSearch& search) const {
+  std::optional<double> first_within(const std::vector<Coefficients>& series, int order, double h, RootSearch& search) {
+    know_sides();
     std::optional<double> first;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
-      Coefficients b = series[k];
+      Coefficients c;
+      const std::span b(c.data(), static_cast<std::size_t>(order) + 1);
+      std::copy_n(series[k].begin(), b.size(), b.begin());
       turn(b, sides_[k]);
-      const auto fall = search.first_fall({b.data(), static_cast<std::size_t>(order) + 1}, first.value_or(h), true).at;
+      const auto fall = search.first_fall(b, first.value_or(h), true).at;
       if (fall && *fall < h) first = fall;
     }
     return first;
@@ -95,7 +105,9 @@ class BendWatch {
     double sign = 1.0, floor = 0.0;
   };
 
-  /// Not inline: few drives have bends, and all have segments.
+  void know_sides() {
+    if (!std::exchange(knows_sides_, true)) find_sides(begin_);
+  }
   [[gnu::noinline]] void find_sides(const Instant& now) {
     if constexpr (Foresees<System>) {
       if (find_by_far(now)) return;
@@ -159,7 +171,7 @@ class BendWatch {
   }
   /// Lets the coefficients of a quantity be positive where it began.
   template <class C>
-  static void turn(C& coefficients, const Side& side) {
+  static void turn(C&& coefficients, const Side& side) {
     for (double& c : coefficients) c *= side.sign;
     coefficients[0] += side.floor;
   }
@@ -183,6 +195,8 @@ class BendWatch {
   }
 
   const System& system_;
+  Instant begin_{};  ///< where the segment starts
+  bool knows_sides_ = true;
   std::vector<Side> sides_;
   std::vector<Series<double, 1>> here_;  ///< where the latest look was
   double unsure_ = never;                ///< for so long [s] rounding may hide the side

@@ -18,7 +18,7 @@ struct ActuatorLag {
 
   static constexpr auto fields() {
     return std::tuple{Field{&ActuatorLag::time, "time_constant", unit::second, bounds::positive,
-                            "time after which 63 % of a step have arrived"}};
+                            "time after which 63 % of a step has arrived"}};
   }
   /// Time constant of the lag [s].
   T lag() const { return time; }

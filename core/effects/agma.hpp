@@ -29,8 +29,8 @@ struct Agma {
   T scale{1};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&Agma::scale, "scale", unit::none, bounds::positive, "share of the standard's friction",
-                            Presence::optional}};
+    return std::tuple{Field{&Agma::scale, "scale", unit::none, bounds::positive,
+                            "factor on the friction of the standard", Presence::optional}};
   }
   /// The standard's coefficient of friction at a sliding speed v > 0 [m/s].
   static double standard(double v) { return fit_at(v).value(v / foot_per_minute); }

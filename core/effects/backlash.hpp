@@ -12,7 +12,7 @@ template <class T>
 struct Backlash {
   static constexpr std::string_view id = "backlash";
   static constexpr Place place = Place::mesh;
-  static constexpr std::string_view cause = "teeth are cut thinner than the spaces they run in, or have worn";
+  static constexpr std::string_view cause = "the teeth are thinner than the spaces they run in, as cut or worn";
   static constexpr std::string_view law = "no flank touches while |theta_g - theta_w/i| < gap/2";
   T gap{};
 

@@ -23,8 +23,8 @@ struct DcMotor {
   static constexpr std::string_view id = "dc_motor";
   static constexpr Place place = Place::actuator;
   static constexpr std::string_view cause =
-      "an amplifier gives a voltage or controls the current, and back-EMF, resistance and inductance of the winding "
-      "say what current flows";
+      "an amplifier gives a voltage or controls the current, and the winding's back-EMF, resistance and inductance "
+      "determine the current";
   static constexpr std::string_view law =
       "inductance I' = U - R I - torque_constant theta_w', tau_m = torque_constant I, with U = amplifier_gain u within "
       "+-supply_voltage and R = resistance (1 + temperature_coefficient h), where heat_capacity h' = R I^2 - "
@@ -54,7 +54,7 @@ struct DcMotor {
         Field{&P::torque_constant, "torque_constant", unit::newton_metre_per_ampere, bounds::positive,
               "torque per current, and back-EMF per speed of the worm"},
         Field{&P::inductance, "inductance", unit::henry, bounds::not_negative,
-              "of the winding; 0, if not stated: the current follows at once", o},
+              "of the winding; 0 if not stated, and then the current follows the voltage at once", o},
         Field{&P::supply_voltage, "supply_voltage", unit::volt, bounds::positive,
               "largest voltage in either direction; unlimited if not stated", o},
         Field{&P::amplifier_gain, "amplifier_gain", unit::volt_per_newton_metre, bounds::positive,
@@ -62,21 +62,21 @@ struct DcMotor {
               "standstill",
               o},
         Field{&P::current_bandwidth, "current_bandwidth", unit::hertz, bounds::positive,
-              "of a loop that brings the current to command / torque_constant; if not stated the amplifier gives a "
-              "voltage",
+              "of a loop that brings the current to command / torque_constant; needs inductance_H; without a loop the "
+              "amplifier gives a voltage",
               o},
         Field{&P::current_limit, "current_limit", unit::ampere, bounds::positive,
-              "largest current in either direction that the loop asks for, or the limiter of a voltage lets pass; "
-              "unlimited if not stated",
+              "largest current in either direction that the loop demands or that the limiter of a voltage amplifier "
+              "allows; unlimited if not stated",
               o},
         Field{&P::limiter_bandwidth, "limiter_bandwidth", unit::hertz, bounds::positive,
               "of an amplifier that gives a voltage: how fast it brings the current back to its limit", o},
         Field{&P::heat_capacity, "heat_capacity", unit::joule_per_kelvin, bounds::positive,
-              "of the winding and what is as warm as it; if not stated the winding stays as it is", o},
+              "of the winding and of what shares its temperature; if not stated the temperature stays constant", o},
         Field{&P::thermal_resistance, "thermal_resistance", unit::kelvin_per_watt, bounds::positive,
-              "from the winding to its surroundings; without it no heat leaves", o},
+              "from the winding to its surroundings; if not stated no heat leaves", o},
         Field{&P::temperature_coefficient, "temperature_coefficient", unit::per_kelvin, bounds::not_negative,
-              "rise of the resistance per temperature, 0.0039 of copper; 0, if not stated", o}};
+              "rise of the resistance per kelvin, 0.0039 for copper; 0 if not stated", o}};
   }
 
   // ---- its state ----------------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ template <class T>
 struct EncoderDelay {
   static constexpr std::string_view id = "encoder_delay";
   static constexpr Place place = Place::sensor;
-  static constexpr std::string_view cause = "the encoder's interface, or the filter behind it, hands the angle on late";
+  static constexpr std::string_view cause = "the encoder's interface, or a filter after it, delays the angle";
   static constexpr std::string_view law = "a sample at t sees theta_g(t - delay), before the start the angle there";
   T time{};
 

@@ -18,7 +18,7 @@ struct EncoderOffset {
 
   static constexpr auto fields() {
     return std::tuple{
-        Field{&EncoderOffset::angle, "angle", unit::radian, bounds::any, "what the encoder shows too much"}};
+        Field{&EncoderOffset::angle, "angle", unit::radian, bounds::any, "excess of the encoder's reading"}};
   }
   /// The angle that the sensor sees [rad].
   template <class S>

@@ -18,7 +18,7 @@ struct EncoderScale {
 
   static constexpr auto fields() {
     return std::tuple{Field{&EncoderScale::share, "share", unit::none, Bounds{.low = -1.0, .low_exclusive = true},
-                            "what the encoder shows too much, as a share of the gear angle"}};
+                            "excess of the encoder's reading, as a share of the gear angle"}};
   }
   /// The angle that the sensor sees [rad].
   template <class S>

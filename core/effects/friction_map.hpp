@@ -23,7 +23,7 @@ struct FrictionMap {
   static constexpr std::string_view id = "friction_map";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause =
-      "a friction that was measured, or that data show and no other effect explains";
+      "friction that was measured, or that data show and that no other effect explains";
   static constexpr std::string_view law =
       "mu (1 + scale table(v)), of shares, or scale table(v) in place of mu, of coefficients; v is abs(sliding speed), "
       "theta_g or t";
@@ -33,13 +33,13 @@ struct FrictionMap {
   CubicTable table;  ///< shares or coefficients over speeds [m/s], angles [rad] or times [s]
 
   static constexpr auto fields() {
-    return std::tuple{Field{&FrictionMap::scale, "scale", unit::none, bounds::any, "factor of all values of the table",
+    return std::tuple{Field{&FrictionMap::scale, "scale", unit::none, bounds::any, "factor on all values of the table",
                             Presence::optional}};
   }
   static constexpr auto choices() {
     return std::tuple{
         Choice{&FrictionMap::over, "over", std::array<std::string_view, 3>{"sliding_speed", "gear_angle", "time"},
-               "of what the friction is a function"},
+               "quantity on which the friction depends"},
         Choice{&FrictionMap::gives, "gives", std::array<std::string_view, 2>{"share", "coefficient"},
                "whether the table gives changes as shares of the mesh's friction, or coefficients in place of it"}};
   }

@@ -15,7 +15,8 @@ template <class T>
 struct FrictionUnderLoad {
   static constexpr std::string_view id = "friction_under_load";
   static constexpr Place place = Place::gear_shaft;
-  static constexpr std::string_view cause = "bearings and wheels behind the gear rub more the more load they carry";
+  static constexpr std::string_view cause =
+      "bearings and wheels behind the gear cause more friction, the more load they carry";
   static constexpr std::string_view law = "-share |tau_l| sgn(theta_g') on the gear; at rest it holds up to that";
   static constexpr std::string_view source =
       "P. Hamon, M. Gautier, P. Garrec, Dynamic identification of robots with a dry friction model depending on load "
@@ -24,7 +25,7 @@ struct FrictionUnderLoad {
 
   static constexpr auto fields() {
     return std::tuple{Field{&FrictionUnderLoad::share, "share", unit::none, bounds::not_negative,
-                            "friction torque while the gear turns, per torque of the load"}};
+                            "friction torque while the gear turns, per load torque"}};
   }
   /// Whether its torque bends where tau_l passes zero.
   bool bends_with_load() const { return !(share == T(0)); }

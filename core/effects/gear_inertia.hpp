@@ -13,13 +13,13 @@ struct GearInertia {
   static constexpr std::string_view id = "gear_inertia";
   static constexpr Place place = Place::gear_shaft;
   static constexpr std::string_view cause =
-      "a flange, a shaft or a payload on the gear shaft, or a gear other than stated";
+      "a flange, a shaft or a payload on the gear shaft, or another gear than the stated one";
   static constexpr std::string_view law = "Jg + inertia";
   T inertia{};
 
   static constexpr auto fields() {
     return std::tuple{Field{&GearInertia::inertia, "inertia", unit::kilogram_square_metre, bounds::any,
-                            "what the gear side has beside what the mesh states"}};
+                            "inertia of the gear side in addition to that stated for the mesh"}};
   }
   /// Inertia on the gear shaft [kg m^2].
   T gear_inertia() const { return inertia; }

@@ -18,7 +18,7 @@ template <class T>
 struct GearboxHeat {
   static constexpr std::string_view id = "gearbox_heat";
   static constexpr Place place = Place::mesh;
-  static constexpr std::string_view cause = "what friction takes warms the oil, which rubs less the warmer it is";
+  static constexpr std::string_view cause = "friction warms the oil, and warmer oil causes less friction";
   static constexpr std::string_view law =
       "mu exp(-friction_decay h) between the teeth and -churning exp(-churning_decay h) theta_w' on the worm, where "
       "heat_capacity h' = P - h/thermal_resistance with P the power that friction of mesh and bearings takes; "
@@ -35,15 +35,15 @@ struct GearboxHeat {
     using P = GearboxHeat;
     constexpr Presence o = Presence::optional;
     return std::tuple{Field{&P::friction_decay, "friction_decay", unit::per_kelvin, bounds::not_negative,
-                            "share by which friction between the teeth falls per temperature", o},
+                            "share by which the friction between the teeth falls per kelvin", o},
                       Field{&P::churning, "churning", unit::newton_metre_second_per_radian, bounds::not_negative,
-                            "viscous friction at the worm in oil that is as warm as its surroundings", o},
+                            "viscous friction at the worm while the oil has the temperature of the surroundings", o},
                       Field{&P::churning_decay, "churning_decay", unit::per_kelvin, bounds::not_negative,
-                            "share by which that falls per temperature, as the viscosity does", o},
+                            "share by which that friction falls per kelvin, as the viscosity does", o},
                       Field{&P::heat_capacity, "heat_capacity", unit::joule_per_kelvin, bounds::positive,
-                            "of the housing with gear, worm and oil; if not stated the temperature stays as it is", o},
+                            "of the housing with gear, worm and oil; if not stated the temperature stays constant", o},
                       Field{&P::thermal_resistance, "thermal_resistance", unit::kelvin_per_watt, bounds::positive,
-                            "from the housing to its surroundings; without it no heat leaves", o},
+                            "from the housing to its surroundings; if not stated no heat leaves", o},
                       Field{&P::starting_rise, "starting_rise", unit::kelvin, bounds::not_negative,
                             "temperature at the start, above that of the surroundings", o}};
   }

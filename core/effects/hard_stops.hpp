@@ -17,7 +17,7 @@ template <class T>
 struct HardStops {
   static constexpr std::string_view id = "hard_stops";
   static constexpr Place place = Place::gear_shaft;
-  static constexpr std::string_view cause = "the gear runs against stops at the ends of its way that do not yield";
+  static constexpr std::string_view cause = "the gear runs against rigid stops at the ends of its travel";
   static constexpr std::string_view law =
       "an impulse ends the motion at a stop, another one drives the gear back as far as the mesh passes it on, with "
       "restitution^2 of the energy that the stop has taken; at rest there it takes what pushes into it";
@@ -33,7 +33,7 @@ struct HardStops {
         Field{&P::low, "angle_low", unit::degrees, bounds::any, "lowest gear angle; state either or both", o},
         Field{&P::high, "angle_high", unit::degrees, bounds::any, "highest gear angle", o},
         Field{&P::restitution, "restitution", unit::none, bounds::between(0, 1),
-              "square root of the share of its energy that a stop gives back", o}};
+              "square root of the share of the energy that a stop returns", o}};
   }
   /// The stop ahead of a motion, if there is one.
   const std::optional<T>& ahead(Motion motion) const { return motion == Motion::forward ? high : low; }

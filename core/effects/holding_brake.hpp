@@ -16,7 +16,7 @@ template <class T>
 struct HoldingBrake {
   static constexpr std::string_view id = "holding_brake";
   static constexpr Place place = Place::worm_shaft;
-  static constexpr std::string_view cause = "a brake on the motor's shaft holds it wherever it has no current";
+  static constexpr std::string_view cause = "a brake on the motor shaft holds it whenever the brake has no current";
   static constexpr std::string_view law = "-torque sgn(theta_w') while it is closed; at rest it holds up to torque";
   T torque{};
   std::optional<T> opens{}, closes{};

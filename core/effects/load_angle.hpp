@@ -18,7 +18,7 @@ struct LoadAngle {
 
   static constexpr auto fields() {
     return std::tuple{
-        Field{&LoadAngle::shift, "angle", unit::degrees, bounds::any, "what the load sees beyond the gear angle"}};
+        Field{&LoadAngle::shift, "angle", unit::degrees, bounds::any, "angle of the load ahead of the gear angle"}};
   }
   /// The gear angle that the load sees [rad].
   template <class S>

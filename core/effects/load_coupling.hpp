@@ -38,11 +38,11 @@ struct LoadCoupling {
     using P = LoadCoupling;
     constexpr Presence o = Presence::optional;
     return std::tuple{Field{&P::inertia, "inertia", unit::kilogram_square_metre, bounds::positive,
-                            "of what turns behind the coupling, beside that of the load itself"},
+                            "of what turns behind the coupling, in addition to that of the load itself"},
                       Field{&P::stiffness, "stiffness", unit::newton_metre_per_radian, bounds::positive,
-                            "of the coupling; if not stated it does not twist", o},
+                            "of the coupling; if not stated it is rigid", o},
                       Field{&P::damping, "damping", unit::newton_metre_second_per_radian, bounds::not_negative,
-                            "of the coupling; 0, if not stated", o}};
+                            "of the coupling; 0 if not stated", o}};
   }
 
   // ---- its states ---------------------------------------------------------------------------------------------

@@ -34,13 +34,13 @@ struct LoadCrank {
   static constexpr auto fields() {
     using P = LoadCrank;
     return std::tuple{
-        Field{&P::mass, "mass", unit::kilogram, bounds::not_negative, "what goes to and fro"},
+        Field{&P::mass, "mass", unit::kilogram, bounds::not_negative, "reciprocating mass"},
         Field{&P::crank, "crank", unit::metre, bounds::positive, "radius of the crank"},
         Field{&P::rod, "rod", unit::metre, bounds::positive,
               "length of the connecting rod, at least 1.01 times the crank; without one the mass is in a slot",
               Presence::optional},
-        Field{&P::shift, "angle", unit::degrees, bounds::any,
-              "angle of the crank from its outer dead centre on, at theta_g = 0", Presence::optional}};
+        Field{&P::shift, "angle", unit::degrees, bounds::any, "crank angle from the outer dead centre at theta_g = 0",
+              Presence::optional}};
   }
 
   /// How many times as long as the crank a rod has to be: a shorter one stands within 8 degrees of across its way,

@@ -37,13 +37,13 @@ struct LoadFourBar {
   static constexpr auto fields() {
     using P = LoadFourBar;
     return std::tuple{Field{&P::inertia, "inertia", unit::kilogram_square_metre, bounds::not_negative,
-                            "of the rocker with all that swings with it, about its pivot"},
+                            "of the rocker and all that swings with it, about its pivot"},
                       Field{&P::crank, "crank", unit::metre, bounds::positive, "length of the crank on the gear"},
                       Field{&P::coupler, "coupler", unit::metre, bounds::positive, "length of the coupler"},
                       Field{&P::rocker, "rocker", unit::metre, bounds::positive, "length of the rocker"},
                       Field{&P::base, "base", unit::metre, bounds::positive, "from the gear's axis to the rocker's"},
                       Field{&P::shift, "angle", unit::degrees, bounds::any,
-                            "angle of the crank from the rocker's axis on, at theta_g = 0", Presence::optional}};
+                            "crank angle from the direction of the rocker's axis at theta_g = 0", Presence::optional}};
   }
 
   /// How far, as a share of the crank, coupler and rocker have to stay from one line, where the crank would jam.

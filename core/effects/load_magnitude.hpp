@@ -19,7 +19,7 @@ struct LoadMagnitude {
 
   static constexpr auto fields() {
     return std::tuple{Field{&LoadMagnitude::share, "share", unit::none, bounds::any,
-                            "what the load torque has too much, as a share of what is stated"}};
+                            "excess of the load torque, as a share of the stated one"}};
   }
   /// Load torque [N m] out of that without this effect.
   template <class S>

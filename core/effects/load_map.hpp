@@ -19,19 +19,19 @@ template <class T>
 struct LoadMap {
   static constexpr std::string_view id = "load_map";
   static constexpr Place place = Place::load;
-  static constexpr std::string_view cause = "a load that changes, or that data show otherwise than stated";
+  static constexpr std::string_view cause = "a load that changes, or that differs in the data from the stated one";
   static constexpr std::string_view law = "(1 + scale table(t)) tau_l or (1 + scale table(theta_g)) tau_l";
   LoadAxis over = LoadAxis::time;
   T scale{1.0};
   CubicTable table;  ///< shares over times [s] or angles [rad]
 
   static constexpr auto fields() {
-    return std::tuple{Field{&LoadMap::scale, "scale", unit::none, bounds::any, "factor of all shares of the table",
+    return std::tuple{Field{&LoadMap::scale, "scale", unit::none, bounds::any, "factor on all shares of the table",
                             Presence::optional}};
   }
   static constexpr auto choices() {
     return std::tuple{Choice{&LoadMap::over, "over", std::array<std::string_view, 2>{"time", "gear_angle"},
-                             "of what the load's change is a function"}};
+                             "quantity on which the change of the load depends"}};
   }
   TableColumns columns() const {
     constexpr ColumnName shares{"shares", unit::none}, share{"share", unit::none};

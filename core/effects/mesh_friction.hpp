@@ -20,7 +20,7 @@ struct MeshFriction {
 
   static constexpr auto fields() {
     return std::tuple{Field{&MeshFriction::change, "change", unit::none, bounds::any,
-                            "what the coefficient of friction has beside that of the mesh"}};
+                            "coefficient of friction in addition to that of the mesh"}};
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>

@@ -20,7 +20,7 @@ template <class T>
 struct MeshLuGre {
   static constexpr std::string_view id = "mesh_lugre";
   static constexpr Place place = Place::mesh;
-  static constexpr std::string_view cause = "the teeth give way a little before they slide, and spring back";
+  static constexpr std::string_view cause = "the teeth deflect a little before they slide, and spring back";
   static constexpr std::string_view law =
       "h + damping z' in the place of mu sgn(v) between teeth that slide with v, where the bristles carry h = "
       "stiffness "
@@ -35,11 +35,11 @@ struct MeshLuGre {
   T damping{0};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&MeshLuGre::stiffness, "stiffness", unit::per_metre, bounds::positive,
-                            "rise of the coefficient of friction over the way by which the teeth slide, just behind a "
-                            "reversal"},
-                      Field{&MeshLuGre::damping, "damping", unit::second_per_metre, bounds::not_negative,
-                            "rise of the coefficient over the speed with which the bristles bend", Presence::optional}};
+    return std::tuple{
+        Field{&MeshLuGre::stiffness, "stiffness", unit::per_metre, bounds::positive,
+              "rise of the coefficient of friction per sliding distance just after a reversal"},
+        Field{&MeshLuGre::damping, "damping", unit::second_per_metre, bounds::not_negative,
+              "rise of the coefficient of friction per speed at which the bristles bend", Presence::optional}};
   }
 
   // ---- its state ----------------------------------------------------------------------------------------------

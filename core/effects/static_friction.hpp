@@ -17,7 +17,7 @@ struct StaticFriction {
   static constexpr std::string_view id = "static_friction";
   static constexpr Place place = Place::mesh;
   static constexpr std::string_view cause =
-      "at rest the teeth press the lubricant out of the contact, the longer the more";
+      "at rest the teeth squeeze the lubricant out of the contact, more so with time";
   static constexpr std::string_view law =
       "at rest mu + rise (1 - exp(-rest/growth_time)), where rest is the time since the gear came to rest; mu + rise "
       "without a growth time";
@@ -27,10 +27,11 @@ struct StaticFriction {
   T growth_time{0};
 
   static constexpr auto fields() {
-    return std::tuple{Field{&StaticFriction::rise, "rise", unit::none, bounds::not_negative,
-                            "what the coefficient of friction at break-away has beside that of sliding"},
-                      Field{&StaticFriction::growth_time, "growth_time", unit::second, bounds::not_negative,
-                            "time at rest after which 63 % of the rise hold; 0 is at once", Presence::optional}};
+    return std::tuple{
+        Field{&StaticFriction::rise, "rise", unit::none, bounds::not_negative,
+              "coefficient of friction at break-away in addition to that of sliding"},
+        Field{&StaticFriction::growth_time, "growth_time", unit::second, bounds::not_negative,
+              "time at rest after which 63 % of the rise holds; with 0 all of it holds at once", Presence::optional}};
   }
   /// Coefficient of friction out of that without this effect.
   template <class S>

@@ -19,7 +19,7 @@ template <class T>
 struct Stribeck {
   static constexpr std::string_view id = "stribeck";
   static constexpr Place place = Place::mesh;
-  static constexpr std::string_view cause = "the lubricant parts the teeth the more the faster they slide";
+  static constexpr std::string_view cause = "the lubricant separates the teeth more, the faster they slide";
   static constexpr std::string_view law =
       "mu - drop (1 - e), e = exp(-x) or 1/(1 + x) with x = (|v|/speed)^exponent, over the sliding speed "
       "v = lw theta_w'/cos(lambda); mu is the value at rest";
@@ -34,7 +34,7 @@ struct Stribeck {
     return std::tuple{
         Field{&Stribeck::drop, "drop", unit::none, bounds::any, "friction at rest less friction at high speed"},
         Field{&Stribeck::speed, "speed", unit::metre_per_second, bounds::positive,
-              "sliding speed by which 63 % of the drop are reached, 50 % with tail = 1"},
+              "sliding speed at which 63 % of the drop is reached, or 50 % with tail = 1"},
         Field{&Stribeck::exponent, "exponent", unit::whole, bounds::between(1, 4),
               "shape of the fall, 1 pointed, 2 a bell", Presence::optional},
         Field{&Stribeck::tail, "tail", unit::whole, bounds::between(0, 1),

@@ -13,7 +13,7 @@ template <class T>
 struct ToothCompliance {
   static constexpr std::string_view id = "tooth_compliance";
   static constexpr Place place = Place::mesh;
-  static constexpr std::string_view cause = "teeth bend and flatten under load, and shafts and housing with them";
+  static constexpr std::string_view cause = "teeth bend and flatten under load, and so do shafts and housing";
   static constexpr std::string_view law =
       "Wn = stiffness d (1 + damping d') or stiffness d + min(stiffness d, damping d') at the penetration d of a flank";
   static constexpr std::string_view source =

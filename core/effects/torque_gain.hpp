@@ -20,7 +20,7 @@ struct TorqueGain {
 
   static constexpr auto fields() {
     return std::tuple{Field{&TorqueGain::share, "share", unit::none, Bounds{.low = -1.0, .low_exclusive = true},
-                            "what the motor gives too much, as a share of its command"}};
+                            "torque that the motor gives in excess of its command, as a share of the command"}};
   }
   /// Motor torque [N m] for a command.
   template <class S>

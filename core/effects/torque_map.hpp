@@ -21,7 +21,7 @@ template <class T>
 struct TorqueMap {
   static constexpr std::string_view id = "torque_map";
   static constexpr Place place = Place::worm_shaft;
-  static constexpr std::string_view cause = "a torque that data show and no other effect explains";
+  static constexpr std::string_view cause = "a torque that data show and that no other effect explains";
   static constexpr std::string_view law =
       "scale table(theta_w'), scale table(theta_g) or scale table(t), on the worm or on the gear";
   MapAxis over = MapAxis::worm_speed;
@@ -30,15 +30,15 @@ struct TorqueMap {
   MapShaft shaft = MapShaft::worm;
 
   static constexpr auto fields() {
-    return std::tuple{Field{&TorqueMap::scale, "scale", unit::none, bounds::any, "factor of all torques of the table",
+    return std::tuple{Field{&TorqueMap::scale, "scale", unit::none, bounds::any, "factor on all torques of the table",
                             Presence::optional}};
   }
   static constexpr auto choices() {
     return std::tuple{
         Choice{&TorqueMap::over, "over", std::array<std::string_view, 3>{"worm_speed", "gear_angle", "time"},
-               "of what the torque is a function"},
+               "quantity on which the torque depends"},
         Choice{&TorqueMap::shaft, "shaft", std::array<std::string_view, 2>{"worm", "gear"},
-               "on which the torque acts"}};
+               "shaft on which the torque acts"}};
   }
   TableColumns columns() const {
     constexpr ColumnName torques{"torques", unit::newton_metre}, torque{"torque", unit::newton_metre};

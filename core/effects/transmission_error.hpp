@@ -24,7 +24,7 @@ struct TransmissionError {
   static constexpr auto fields() {
     return std::tuple{
         Field{&TransmissionError::amplitude, "amplitude", unit::degrees, Bounds{-0.5, 0.5, true, true},
-              "largest advance of the worm, counted at the gear"},
+              "largest lead of the worm, as an angle at the gear"},
         Field{&TransmissionError::phase, "phase", unit::degrees, bounds::any, "phase at gear angle zero"}};
   }
   /// Smallest slope of the worm angle over the gear angle, per ratio i.

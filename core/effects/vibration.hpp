@@ -16,7 +16,7 @@ template <class T>
 struct Vibration {
   static constexpr std::string_view id = "vibration";
   static constexpr Place place = Place::worm_shaft;
-  static constexpr std::string_view cause = "a machine beside the drive, or the mains, shakes it";
+  static constexpr std::string_view cause = "a machine nearby, or the mains, shakes the drive";
   static constexpr std::string_view law = "amplitude sin(2 pi frequency t + phase), on the worm";
   T amplitude{};
   T frequency{};
@@ -25,7 +25,7 @@ struct Vibration {
   static constexpr auto fields() {
     return std::tuple{
         Field{&Vibration::amplitude, "amplitude", unit::newton_metre, bounds::any, "largest torque on the worm"},
-        Field{&Vibration::frequency, "frequency", unit::hertz, bounds::positive, "how often the torque comes back"},
+        Field{&Vibration::frequency, "frequency", unit::hertz, bounds::positive, "periods per second"},
         Field{&Vibration::phase, "phase", unit::degrees, bounds::any, "phase at t = 0"}};
   }
   double fastest_in_time() const { return 2.0 * std::numbers::pi * value_of(frequency); }

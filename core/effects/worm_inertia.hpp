@@ -13,13 +13,13 @@ struct WormInertia {
   static constexpr std::string_view id = "worm_inertia";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause =
-      "a brake, a coupling or an encoder on the worm shaft, or a rotor other than stated";
+      "a brake, a coupling or an encoder on the worm shaft, or another rotor than the stated one";
   static constexpr std::string_view law = "Jw + inertia";
   T inertia{};
 
   static constexpr auto fields() {
     return std::tuple{Field{&WormInertia::inertia, "inertia", unit::kilogram_square_metre, bounds::any,
-                            "what the worm side has beside what the mesh states"}};
+                            "inertia of the worm side in addition to that stated for the mesh"}};
   }
   /// Inertia on the worm shaft [kg m^2].
   T worm_inertia() const { return inertia; }

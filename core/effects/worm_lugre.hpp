@@ -22,7 +22,7 @@ struct WormLuGre {
   static constexpr std::string_view id = "worm_lugre";
   static constexpr Place place = Place::worm_shaft;
   static constexpr std::string_view cause =
-      "bearings and seals of the worm shaft give way a little before they slide, and spring back";
+      "bearings and seals of the worm shaft deflect a little before they slide, and spring back";
   static constexpr std::string_view law =
       "-(coulomb_torque h + damping z') on the worm, where z = coulomb_torque h/stiffness bends by "
       "z' = theta_w' - |theta_w'| coulomb_torque h/g and slides at g = coulomb_torque + (static_torque - "
@@ -40,15 +40,15 @@ struct WormLuGre {
     using P = WormLuGre;
     constexpr Presence o = Presence::optional;
     return std::tuple{Field{&P::coulomb_torque, "coulomb_torque", unit::newton_metre, bounds::positive,
-                            "friction torque of a worm that turns fast"},
+                            "friction torque at high speed"},
                       Field{&P::static_torque, "static_torque", unit::newton_metre, bounds::positive,
-                            "that of one that turns slowly; coulomb_torque, if not stated", o},
+                            "friction torque at low speed; coulomb_torque if not stated", o},
                       Field{&P::stribeck_speed, "stribeck_speed", unit::radian_per_second, bounds::positive,
-                            "speed of the worm by which 63 % of their difference are gone", o},
+                            "worm speed at which 63 % of the difference has gone", o},
                       Field{&P::stiffness, "stiffness", unit::newton_metre_per_radian, bounds::positive,
-                            "of the bristles; if not stated they do not bend", o},
+                            "of the bristles; if not stated they are rigid", o},
                       Field{&P::damping, "damping", unit::newton_metre_second_per_radian, bounds::not_negative,
-                            "of the bristles; 0, if not stated", o}};
+                            "of the bristles; 0 if not stated", o}};
   }
 
   // ---- its state ----------------------------------------------------------------------------------------------

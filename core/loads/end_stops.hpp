@@ -15,7 +15,7 @@ namespace wormdrive {
 struct EndStops {
   static constexpr std::string_view kind = "end_stops";
   static constexpr std::string_view meaning =
-      "elastic stops beyond a lowest and a highest angle, which push only; state either or both";
+      "elastic stops below a lowest and above a highest angle, which only push; state either or both";
   std::optional<double> low;   ///< [rad]
   std::optional<double> high;  ///< [rad]
   double stiffness{};          ///< [N m/rad]
@@ -24,12 +24,11 @@ struct EndStops {
   static constexpr auto fields() {
     using P = EndStops;
     return std::tuple{
-        Field{&P::low, "angle_low", unit::degrees, bounds::any, "gear angle below which one stop pushes",
+        Field{&P::low, "angle_low", unit::degrees, bounds::any, "gear angle below which the lower stop pushes",
               Presence::optional},
-        Field{&P::high, "angle_high", unit::degrees, bounds::any, "gear angle above which the other one pushes",
+        Field{&P::high, "angle_high", unit::degrees, bounds::any, "gear angle above which the upper stop pushes",
               Presence::optional},
-        Field{&P::stiffness, "stiffness", unit::newton_metre_per_radian, bounds::positive,
-              "torque per angle of penetration"},
+        Field{&P::stiffness, "stiffness", unit::newton_metre_per_radian, bounds::positive, "torque per penetration"},
         Field{&P::damping, "damping", unit::second_per_radian, bounds::not_negative,
               "law of Hunt and Crossley: share of the elastic torque that damping adds per speed", Presence::optional}};
   }
@@ -61,9 +60,9 @@ struct EndStops {
  private:
   template <class S>
   S push(const S& depth, const S& rate) const {
-    const S force = stiffness * (depth + depth * (damping * rate));
-    const bool meets = is_positive(depth), pushes = is_positive(force);
-    return only_where(meets && pushes, force);
+    const S damped = damping * rate;
+    const bool meets = is_positive(depth), follows = damping == 0.0 || is_positive(S(S(1.0) + damped));
+    return only_where(meets && follows, S(stiffness * (depth + depth * damped)));
   }
 };
 

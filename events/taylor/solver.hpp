@@ -79,7 +79,7 @@ class TaylorSolver {
   /// The formulas by which it leaps, and the tapes.
   const NominalFlow<System>& nominal() const { return nominal_; }
   TapedFlow<System>& taped() { return taped_; }
-  /// Counts leaps that were made elsewhere by the same formulas, and restarts before them.
+  /// Counts leaps, or steps, and restarts before them, which may have been made elsewhere by the same formulas.
   void count_leaps(long restarts, long leaps) {
     count_.restarts += restarts;
     count_.steps += leaps;
@@ -128,8 +128,7 @@ class TaylorSolver {
     }
     if (!held && !leap_by_tape(now, limit)) return false;
     leapt_ = held ? Leap::nominal : Leap::taped;
-    ++count_.steps;
-    ++count_.evaluations;
+    count_leaps(0, 1);
     end_ = now.t;
     return true;
   }
@@ -165,10 +164,10 @@ class TaylorSolver {
     leapt_ = Leap::none;
     const double h = std::min(limit - now.t, longest_step(now));
     expand(now, h);
-    ++count_.steps;
-    ++count_.evaluations;
+    count_leaps(0, 1);
     if (!std::isfinite(series_.omega[1]) || !std::isfinite(series_.omega[series_.order]))
       throw SolverFault("the acceleration is not a finite number");
+    const std::optional<double> bend = next_bend(now);
     std::array<std::size_t, System::guard_count> vanishing{};
     for (int g = 0; g < System::guard_count; ++g)
       if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(system_, nominal_, series_, now, g);
@@ -199,9 +198,7 @@ class TaylorSolver {
       length_ = brief ? std::min(*fall.at, length_) : end_ - now.t;
       fired_ = g;
     }
-    if (const auto bend = bends_.none()
-                              ? std::nullopt
-                              : bends_.first_within(bends(), series_.order, length_ + time_resolution(end_), search_)) {
+    if (bend && *bend < length_ + time_resolution(end_)) {
       // Of a bend and a guard that falls there the bend comes first: behind it the guard may be another one. What has
       // stepped behind it goes on by the equations of that side, also where the clock would not have seen it pass.
       end_ = std::min(std::max(now.t + *bend, brief ? now.t : std::nextafter(now.t, limit)), limit);
@@ -238,16 +235,26 @@ class TaylorSolver {
     return std::min({max_step_, looks, bends_.first_step()});
   }
   void expand(const Instant& now, double h) {
+    by_tape_ = false;
     if constexpr (NominalFlow<System>::known)
       if (nominal_.covers()) return nominal_.expand(now, h, accuracy_, series_);
+    by_tape_ = taped_covers_;
     if constexpr (TapedFlow<System>::known)
-      if (taped_covers_) return taped_.expand(now, h, accuracy_, series_);  // as where the leap was tried
+      if (by_tape_) return taped_.expand(now, h, accuracy_, series_);  // as where the leap was tried
     flow_.expand(system_, now, h, accuracy_, series_);
   }
-
+  /// The first bend within the series. Those by a tape end where its equations become others.
+  std::optional<double> next_bend(const Instant& now) {
+    std::optional<double> bend;
+    const double step = series_.step + time_resolution(now.t + series_.step);
+    if (!bends_.none()) bend = bends_.first_within(bends(), series_.order, step, search_);
+    if constexpr (TapedFlow<System>::known)
+      if (by_tape_) taped_.end_where_it_fails(now, bend, accuracy_, series_);
+    return bend;
+  }
   std::vector<Coefficients> bends() {
     if constexpr (TapedFlow<System>::known)
-      if (taped_covers_) return taped_.bends(series_.order);
+      if (by_tape_) return taped_.bends(series_.order);
     return flow_.bends();
   }
 
@@ -279,6 +286,7 @@ class TaylorSolver {
   double length_ = 0.0;        ///< ... and how far it goes, which may be less than time resolves [s]
   double waited_ = 0.0;        ///< how long the clock has stood [s]
   bool taped_covers_ = false;  ///< the moment at which the latest leap was tried
+  bool by_tape_ = false;       ///< series_ is
   enum class Leap { none, nominal, taped };
   Leap leapt_ = Leap::none;  ///< the step is a leap to there_; else series_ describes it
   Instant there_{};

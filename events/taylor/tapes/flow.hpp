@@ -125,8 +125,14 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
       e.step = std::min(e.step, end_of_section(series.section(k), series[series.code().arguments[k]], e));
     const std::span exponents(series.code().exponents, static_cast<std::size_t>(series.code().exponentials));
     e.step = end_of_rise(series, exponents, e.order, e.step, search_);
-    if (!LeapByTerms<double>(leap).keeps_sides(e.step, e.order + 1))
-      SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
+  }
+  /// Ends the step that was expanded last where its equations become others, unless that is at its first bend [s],
+  /// where it ends anyway.
+  void end_where_it_fails(const Instant& now, const std::optional<double>& bend, const TaylorAccuracy& accuracy,
+                          Motion& e) {
+    if (LeapByTerms<double>(*course_->leap).keeps_sides(e.step, e.order + 1)) return;
+    if (bend && keeps_sides_until(*bend - time_resolution(now.t + *bend), e)) return;
+    SeriesFlow<System>::end_where_it_fails(system_, now, accuracy, e);
   }
   /// The quantities at whose zeros the equations bend, along the motion that was expanded last.
   std::vector<Coefficients> bends(int order) const {
@@ -149,6 +155,21 @@ class TapedFlow<WormDrive<double, Load, with_states>> {
     course_ = &course;
     begin(now);
     return LeapByTerms<double>(*course.leap).holds();
+  }
+
+  /// Whether no comparison turns out otherwise before s, within the step.
+  bool keeps_sides_until(double s, const Motion& e) {
+    const TapeSeriesOf<double>& series = course_->leap->series();
+    const int last = e.order;
+    for (int k = 0; k < series.code().comparisons; ++k) {
+      const double* const c = series[series.code().decisions[k]];
+      const auto [value, side] = series.side(k);
+      Coefficients left{};  // until it turns out otherwise
+      for (int j = 0; j <= last; ++j) left[j] = side * (j == 0 ? c[0] - value : c[j]);
+      const auto turn = search_.first_root({left.data(), static_cast<std::size_t>(last) + 1}, e.step);
+      if (turn && *turn < s) return false;
+    }
+    return true;
   }
 
   void begin(const Instant& now) {
