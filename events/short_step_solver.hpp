@@ -37,6 +37,9 @@ class ShortStepSolver {
     return {motion, *flank};
   }
 
+  /// Forgets what settle() knows, as inputs have changed since.
+  void forget() { settled_.reset(); }
+
   /// Takes up a new state.
   void restart(const Instant& now) {
     ++count_.restarts;

@@ -51,7 +51,7 @@ class MotionSearch {
     }
   }
 
-  /// Tries motions out, from a gentle one on.
+  /// Tries motions out, from one on that stays within the speed.
   void search() {
     if (!possible_) return;
     allow_slow_sweep();
@@ -76,7 +76,9 @@ class MotionSearch {
         },
         this, nullptr);
     optimiser_ = optimiser.get();
-    Point start = gentle;
+    Point start = within_speed(with_fast_sines), other = within_speed(nearly_alone);
+    if (tried(other).worth > tried(start).worth) start = other;
+    if (margin >= rules::ample_margin) return;
     double best = 0.0;
     nlopt_optimize(optimiser.get(), start.data(), &best);
   }
@@ -93,13 +95,21 @@ class MotionSearch {
     std::array<double, 4> beyond{1.0, 1.0, 1.0, 1.0};  ///< torque, speed, angles; positive: it goes too far
   };
   static constexpr double least_margin = 1e-6;
-  static constexpr Point gentle{0.97, 0.03, 0.55, 0.6};
+  static constexpr Point with_fast_sines{0.97, 0.03, 0.55, 0.6}, nearly_alone{1.0, 0.0, 0.1, 0.6};
+  static constexpr double least_amplitude = 0.05;  ///< as a share of the range
+
+  /// The same motion with an amplitude, to which its speed is proportional, that the speed allows.
+  Point within_speed(Point u) {
+    const double beyond = tried(u).beyond[1];
+    if (beyond > 0.0) u[0] = std::max(0.0, u[0] + std::log(1.01 * (1.0 + beyond)) / std::log(least_amplitude));
+    return u;
+  }
 
   ProbingMotion motion(const Point& u) const {
     const auto between = [](double low, double high, double share) { return low * std::pow(high / low, share); };
     ProbingMotion m{};
     const double once = 1.0 / stated_.run.duration, fastest = highest_frequency(question_.sizes.period);
-    m.amplitude = range_.half() * between(0.05, 1.0, u[0]);
+    m.amplitude = range_.half() * between(least_amplitude, 1.0, u[0]);
     m.frequency = between(once, std::max(once, 0.25 * fastest), u[1]);
     m.fast_amplitude = m.amplitude * between(1e-3, 0.1, u[2]);
     m.fastest = between(std::min(4.0 * m.frequency, fastest), fastest, u[3]);
@@ -148,7 +158,7 @@ class MotionSearch {
                 (went.high - range_.high) / range_.half() - rules::beside_range};
     const std::optional<Visibility> visible = shown(*recording);
     const double found = visible ? margin_of(*visible) : 0.0;
-    t.worth = std::log(std::max(least_margin, found));
+    t.worth = std::log(std::max(least_margin, visible ? worth_of(*visible) : 0.0));
     if (found <= margin || std::any_of(t.beyond.begin(), t.beyond.end(), [](double x) { return x > 0.0; })) return t;
     if (!recorded(run_, m)) return t;
     margin = found;
@@ -176,6 +186,14 @@ class MotionSearch {
     const Candidate& first = question_.contenders.front();
     const bool less_is_more = first.is_limit || first.coordinates[0].form == CoordinateForm::inverse;
     return less_is_more ? v.resolved / question_.size : question_.size / v.resolved;
+  }
+
+  /// The same, or where the contenders are too alike to be told apart, how near they are to that: a search would not
+  /// know where to go if all such motions were worth nothing.
+  double worth_of(const Visibility& v) const {
+    if (std::isfinite(v.resolved) && v.resolved > 0.0) return margin_of(v);
+    const double share = 1.0 - v.likeness;
+    return std::min(1.0, share / rules::nameable_share);
   }
 
   const Question& question_;

@@ -52,18 +52,17 @@ void Evaluation::with_predictor(const RecordedDrive& drive, std::size_t recordin
   const auto gains = drive.faults.of<TimeScale>()  // no other fault has times of its own
                          ? std::make_shared<const std::vector<ObserverGains>>(observer_gains(noise, prepared))
                          : gains_of(recording, noise);
-  const auto with_model = [&]<class Model>(auto&& load) {
-    typename Model::Drive followed_drive(stated_mesh(scenario_), std::move(load), followed, {});
+  const auto follow = [&]<class Model>(auto&& followed_drive) {
     Predictor<Model> predictor(std::move(followed_drive), out, noise.impact, prepared, *gains, extra);
     use(predictor);
   };
   const LoadParameters& moved = moved_load(scenario_, prepared.data);
   if (is_followed_with_states(followed))
-    return with_model.template operator()<DriveWithStates>(make_load(sum_of(moved)));
+    return follow.template operator()<DriveWithStates>(make_drive<true>(scenario_, sum_of(moved), followed, {}));
   std::visit(
-      [&](const auto& parameters) {
-        using Load = decltype(make_load(parameters));
-        with_model.template operator()<DriveWithBacklash<Load>>(make_load(parameters));
+      [&](const auto& load) {
+        using Load = decltype(make_load(load));
+        follow.template operator()<DriveWithBacklash<Load>>(make_drive(scenario_, load, followed, {}));
       },
       moved);
 }
