@@ -40,7 +40,7 @@ inline constexpr double most_process_noise_of_steps = 1.0;
 inline constexpr double lost = 1e3;
 /// mode changes | derived | more within one sample are no mechanics
 inline constexpr int most_events_of_a_sample = 60;
-/// share | set | tolerance of a prediction with states of effects, whose differences have to show slopes
+/// share | set | tolerance of a prediction by power series, whose differences have to show slopes
 inline constexpr double predictor_tolerance = 1e-10;
 /// s | set | a shorter bounce of the teeth is contact
 inline constexpr double shortest_bounce = 5e-4;
