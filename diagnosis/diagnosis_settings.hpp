@@ -6,8 +6,8 @@
 
 namespace wormdrive {
 
-/// How well a stated number is known: the truth lies about it with this standard deviation. Such a number stays free in
-/// every fit, and is a cause only where it lies far outside.
+/// How well a stated parameter is known: the truth lies about it with this standard deviation. Such a number stays free
+/// in every fit, and is a cause only where it lies far outside.
 struct Tolerance {
   std::string effect;  ///< whose field says by how much the number is off: "mesh_friction"
   std::string field;   ///< "change"

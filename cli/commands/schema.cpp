@@ -128,7 +128,7 @@ Json tables(Axis axis) {
   root.with("load", load(axis)).with("effect", effects(axis));
   root.with("initial", SchemaTable(axis, "where the run starts").fields<InitialState<double>>().json());
   root.with("run", SchemaTable(axis, "duration and accuracy").fields<RunSettings>().json());
-  root.with("tolerance", SchemaTable(axis, "standard deviations of stated numbers").fields<Tolerances>().json());
+  root.with("tolerance", SchemaTable(axis, "standard deviations of stated parameters").fields<Tolerances>().json());
   root.with("limits", SchemaTable(axis, "how far an experiment may drive it").fields<ExperimentLimits>().json());
   root.with("data", recorded_names(axis));
   if (axis == Axis::rotary) {

@@ -96,7 +96,7 @@ Candidate tooth_compliance(const Magnitudes& m) {
   return s;
 }
 
-/// Values of a stated number at which a slip may have put it: a tenth to ten times, or any eighth of a turn.
+/// Values of a stated parameter at which a slip may have put it: a tenth to ten times, or any eighth of a turn.
 std::vector<double> far_values(const Coordinate& c) {
   std::vector<double> values;
   if (c.turns)

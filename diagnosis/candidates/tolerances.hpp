@@ -8,7 +8,7 @@
 
 namespace wormdrive {
 
-/// The stated numbers, each with its tolerance: that of the settings, else of the scenario. Those with a tolerance
+/// The stated parameters, each with its tolerance: that of the settings, else of the scenario. Those with a tolerance
 /// above 0 stay free in every fit; one that is exactly known is a candidate like any other effect. Throws
 /// std::invalid_argument for a tolerance of a field that the catalogue does not have.
 std::vector<Coordinate> toleranced_coordinates(const Scenario& scenario, const Magnitudes& sizes,

@@ -5,7 +5,7 @@
 namespace wormdrive {
 
 /// A candidate from one start with the columns of its signatures in a linear system; none for a candidate that only
-/// sets a stated number free.
+/// sets a stated parameter free.
 struct StartColumns {
   std::size_t candidate, start;
   std::vector<Eigen::Index> columns;

@@ -84,7 +84,7 @@ class Trial {
       signatures_.push_back(sensitivity(evaluation_, moved, k, 5.0 * derivative_step));
   }
 
-  /// What a stated number that has moved costs as long as it has its tolerance, as BIC.
+  /// What a stated parameter that has moved costs as long as it has its tolerance, as BIC.
   double lifted_tolerance() const { return 2.0 * (with_tolerances(0.0, h_) - with_tolerances(0.0, with_)); }
 
   /// What the coordinates that are free here and not in the hypothesis cost, as BIC.

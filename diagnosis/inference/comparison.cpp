@@ -71,8 +71,8 @@ bool holds(const Evidence& e, const Candidate& candidate) {
   const bool gains = e.held_out > rules::least_held_out;
   const bool steady = gains && e.without_best > 0.0;
   const bool broad = e.clipped > rules::least_held_out && e.positive_share >= rules::positive_share;
-  // stated numbers have gained most of it already: this one within its tolerance, or all of them far beyond theirs, as
-  // far as it takes to do what the fault of a recording does
+  // stated parameters have gained most of it already: this one within its tolerance, or all of them far beyond theirs,
+  // as far as it takes to do what the fault of a recording does
   const bool moves_back = e.of_tolerances > std::max(rules::least_bic, rules::mostly * e.delta_bic);
   if (candidate.toleranced && e.tolerances_without > rules::least_tolerances) return true;  // so do these as well
   if (candidate.toleranced || (candidate.of_recording && moves_back))

@@ -9,12 +9,12 @@ namespace wormdrive {
 /// How a model with a candidate compares with one without it.
 struct Evidence {
   double delta_bic{};
-  double of_tolerances{};        ///< what of it stated numbers give that move back towards their values
+  double of_tolerances{};        ///< what of it stated parameters give that move back towards their values
   double held_out{};             ///< gain of held-out data [nats]
   double without_best{};         ///< the same without the block that gains most
   double clipped{};              ///< the same with every block's gain clipped
   double positive_share{};       ///< of the ranks by size of the held-out blocks, those that gain [Wilcoxon 1945]
-  double tolerances{};           ///< largest distance of a stated number from its value, in tolerances
+  double tolerances{};           ///< largest distance of a stated parameter from its value, in tolerances
   double tolerances_without{};   ///< the same while its tolerance draws it back
   double everywhere_but_best{};  ///< gain of all data, fitted or not, without the block that gains most [nats]
   bool beside_gap = false;       ///< a gap between the teeth is in both models

@@ -73,7 +73,7 @@ void CauseSearch::eliminate(double enough) {
   }
 }
 
-/// A candidate that frees a stated number gives way to that number alone where this does nearly as well.
+/// A candidate that frees a stated parameter gives way to that number alone where this does nearly as well.
 void CauseSearch::simplify() {
   for (Found& found : s_.causes) {
     const Candidate& candidate = all_[found.candidate];
@@ -172,7 +172,7 @@ void CauseSearch::confirm_classes() {
     });
 }
 
-/// A stated number far beyond its tolerance is a cause, whatever else is one: the one first that gains most by being
+/// A stated parameter far beyond its tolerance is a cause, whatever else is one: the one first that gains most by being
 /// free of it.
 void CauseSearch::name_far_numbers() {
   const auto freed = [&](std::size_t number) {
@@ -209,7 +209,7 @@ void CauseSearch::name_far_numbers() {
   }
 }
 
-/// A stated number that a cause frees is a part of its law, and no cause beside it unless it has moved far.
+/// A stated parameter that a cause frees is a part of its law, and no cause beside it unless it has moved far.
 void CauseSearch::judge_freed_numbers() {
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const Candidate& number = all_[k];

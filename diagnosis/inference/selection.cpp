@@ -191,7 +191,7 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
 /// Long data find traces of what is of no account. A further cause has to lower the error ahead as well, or to gain
 /// more than all before it: how teeth bounce over a wide gap nobody can predict.
 bool CauseSearch::improves_prediction(const Tried& with) const {
-  // a stated number lowers it without being named, within its tolerance
+  // a stated parameter lowers it without being named, within its tolerance
   return s_.causes.empty() || all_[with.candidate].toleranced || with.evidence.delta_bic > s_.base.bic - s_.model.bic ||
          error_ahead(evaluation_, with.model, rules::reported_horizon) <
              (1.0 - rules::least_improvement) * error_ahead(evaluation_, s_.model, rules::reported_horizon);

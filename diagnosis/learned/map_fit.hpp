@@ -24,7 +24,7 @@ void put_on(RecordedDrive& drive, const LearnedMap& map);
 std::optional<LearnedMap> chosen_by_parts(const Evaluation& evaluation, const Hypothesis& h, const MapForm& form,
                                           const std::vector<double>& sorted, std::span<const std::size_t> counts);
 
-/// Adds a map to a hypothesis and fits its values and, by turns, the noise and the stated numbers beside it.
+/// Adds a map to a hypothesis and fits its values and, by turns, the noise and the stated parameters beside it.
 void fit_map(const Evaluation& evaluation, Hypothesis& h, LearnedMap& map);
 
 }  // namespace wormdrive

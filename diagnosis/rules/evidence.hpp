@@ -12,16 +12,16 @@ inline constexpr double least_bic = 20.0;
 inline constexpr double least_held_out = 3.0;
 /// medians | set | where a block's gain is cut, so that no single one decides
 inline constexpr double clip = 4.0;
-/// share of the blocks' ranks | set | so many have to gain where the gain counts clipped only: what says little, and one
-/// that says much, does not outvote the others
+/// share of the blocks' ranks | set | so many have to gain where the gain counts clipped only: what says little, and
+/// one that says much, does not outvote the others
 inline constexpr double positive_share = 0.7;
-/// BIC | standard | strong, of a stated number that is off: its tolerance has taken a part
+/// BIC | standard | strong, of a stated parameter that is off: its tolerance has taken a part
 inline constexpr double least_bic_toleranced = 5.0;
 /// standard deviations | standard | one false name in two thousand numbers that are stated rightly
 inline constexpr double least_tolerances = 3.5;
 /// share of the BIC's gain | derived | is most of it
 inline constexpr double mostly = 0.5;
-/// share of the BIC's gain | set | that held-out data may lose by a stated number: it was free before
+/// share of the BIC's gain | set | that held-out data may lose by a stated parameter: it was free before
 inline constexpr double held_out_loss = 0.05;
 /// share of the best evidence | set | candidates so near the best one form a class with it
 inline constexpr double equivalence_share = 0.03;
@@ -54,8 +54,8 @@ inline constexpr double most_own_curvature = 0.9;
 inline constexpr double least_promise = 0.5;
 /// candidates, starts | set | fitted in a round at most
 inline constexpr std::size_t most_fitted = 6, most_starts = 12;
-/// share of a sample | set | a torque that is late by less is not: to bring it forward mixes in a trace of the next one,
-/// which answers the very reading that is predicted, and so foretells that reading's noise
+/// share of a sample | set | a torque that is late by less is not: to bring it forward mixes in a trace of the next
+/// one, which answers the very reading that is predicted, and so foretells that reading's noise
 inline constexpr double least_late = 0.1;
 /// values | set | of a drift of clocks, fast and slow ones each, that are tried out as they are
 inline constexpr int most_far_clocks = 16;

@@ -73,7 +73,7 @@ class Signatures {
   }
 
  private:
-  /// Whether a stated number is free of its tolerance beside a candidate.
+  /// Whether a stated parameter is free of its tolerance beside a candidate.
   static bool belongs(const Candidate& s, const Coordinate& c) {
     return s.frees == c.effect ||
            std::any_of(s.coordinates.begin(), s.coordinates.end(), [&](const Coordinate& own) { return own.is(c); });

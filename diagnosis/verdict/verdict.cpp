@@ -34,7 +34,7 @@ std::string calibration_clause(const Diagnosis& d, const Hypothesis& h) {
   std::vector<std::string> moved;
   for (std::size_t k = 0; k < std::min(tolerances.size(), d.calibration.size()); ++k)
     if (tolerances[k] >= std::min(1.0, most)) moved.push_back(phrase(d.calibration[k], d.extended.axis));
-  return " once stated numbers move within their tolerances: " + joined(moved, "and") + ".";
+  return " once stated parameters move within their tolerances: " + joined(moved, "and") + ".";
 }
 
 std::string remainder_sentence(const Diagnosis& d, double torque) {

@@ -19,7 +19,7 @@ const PredictionError* reported_error(const Diagnosis& diagnosis);
 /// What no test of the residuals saw, for it took it for outliers, but the error ahead shows; nothing if that is noise.
 std::optional<Remainder> error_above_noise(const Diagnosis& diagnosis);
 
-/// Whether stated numbers that move within their tolerances lower the error ahead by more than is of no account.
+/// Whether stated parameters that move within their tolerances lower the error ahead by more than is of no account.
 bool calibration_matters(const Diagnosis& diagnosis);
 
 /// Whether a gap is among the causes: teeth that bounce from flank to flank, which no model follows far.

@@ -168,6 +168,8 @@ class TaylorSolver {
     if (!std::isfinite(series_.omega[1]) || !std::isfinite(series_.omega[series_.order]))
       throw SolverFault("the acceleration is not a finite number");
     const std::optional<double> bend = next_bend(now);
+    if constexpr (TapedFlow<System>::known)
+      if (by_tape_) taped_.end_where_it_fails(now, bend, accuracy_, series_);
     std::array<std::size_t, System::guard_count> vanishing{};
     for (int g = 0; g < System::guard_count; ++g)
       if (!armed_[g] && !series_.positive[g]) vanishing[g] = vanishing_at_start(system_, nominal_, series_, now, g);
@@ -243,14 +245,11 @@ class TaylorSolver {
       if (by_tape_) return taped_.expand(now, h, accuracy_, series_);  // as where the leap was tried
     flow_.expand(system_, now, h, accuracy_, series_);
   }
-  /// The first bend within the series. Those by a tape end where its equations become others.
+  /// The first bend within the series.
   std::optional<double> next_bend(const Instant& now) {
-    std::optional<double> bend;
+    if (bends_.none()) return std::nullopt;
     const double step = series_.step + time_resolution(now.t + series_.step);
-    if (!bends_.none()) bend = bends_.first_within(bends(), series_.order, step, search_);
-    if constexpr (TapedFlow<System>::known)
-      if (by_tape_) taped_.end_where_it_fails(now, bend, accuracy_, series_);
-    return bend;
+    return bends_.first_within(bends(), series_.order, step, search_);
   }
   std::vector<Coefficients> bends() {
     if constexpr (TapedFlow<System>::known)

@@ -66,7 +66,7 @@ TEST_CASE("friction at rest shows at single break-aways, and those that were fit
   CHECK(outcome(e, candidate("static_friction")) == refuted);
 }
 
-TEST_CASE("a stated number needs evidence beyond its tolerance, and must not make what was held out worse") {
+TEST_CASE("a stated parameter needs evidence beyond its tolerance, and must not make what was held out worse") {
   Evidence e = good();
   e.delta_bic = 6.0;
   e.held_out = e.without_best = e.clipped = -2.0;
@@ -86,7 +86,7 @@ TEST_CASE("a stated number needs evidence beyond its tolerance, and must not mak
   CHECK(outcome(e, candidate("gear_inertia", true)) == "no evidence beyond the stated tolerance");
 }
 
-TEST_CASE("a fault of the recording need not predict more than stated numbers do that are far off without it") {
+TEST_CASE("a fault of the recording need not predict more than stated parameters do that are far off without it") {
   Candidate fault = candidate("time_scale");
   fault.of_recording = true;
   Evidence e = good();
@@ -125,7 +125,7 @@ TEST_CASE("beside a gap a cause has to gain in most blocks, and not by one of th
   Evidence few = e;
   few.positive_share = 0.6;
   CHECK(outcome(few, s) == refuted);
-  // a stated number was free before, and has gained most of it there
+  // a stated parameter was free before, and has gained most of it there
   Evidence none = e;
   none.held_out = none.without_best = none.clipped = none.positive_share = 0.0;
   CHECK(outcome(none, s) == refuted);

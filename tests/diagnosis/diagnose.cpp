@@ -69,7 +69,7 @@ TEST_CASE("a recording of the drive as stated is adequate, and the certificate k
   CHECK_FALSE(visibility(d, "tooth_compliance").observable);
   CHECK(visibility(d, "worm_coulomb").detectable < 1e-3);
   CHECK(visibility(d, "worm_coulomb").detectable <= visibility(d, "worm_coulomb").nameable);
-  // a stated number is a cause only beyond its tolerance, 1 % of 0.25
+  // a stated parameter is a cause only beyond its tolerance, 1 % of 0.25
   CHECK(visibility(d, "mesh_friction").detectable >= 3.5 * 0.0025);
 }
 

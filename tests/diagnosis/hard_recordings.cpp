@@ -173,7 +173,7 @@ TEST_CASE("a spring is found though where it is slack shows only once it has a s
   CHECK(d.causes[0].effect == "load_spring");
 }
 
-TEST_CASE("friction that changes once per turn of the worm is named, stated numbers off within their tolerances too",
+TEST_CASE("friction that changes once per turn of the worm is named, stated parameters off within their tolerances too",
           "[.][long]") {
   named_exactly(hard(2611, {{"thread_friction", 0.06}}));
   const Diagnosis d = named_exactly(hard(2612, {{"thread_friction", 0.02}}, "realistic"));

@@ -41,7 +41,7 @@ double error(const Hypothesis& h, std::string_view effect, std::string_view fiel
 
 }  // namespace
 
-TEST_CASE("beside a gap a stated number is known no better than its tolerance") {
+TEST_CASE("beside a gap a stated parameter is known no better than its tolerance") {
   const Hypothesis gap = extended_by("backlash"), none = extended_by("worm_viscous");
   for (const Coordinate& c : gap.free) {
     if (c.tolerance <= 0.0) continue;

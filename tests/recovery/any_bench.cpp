@@ -182,12 +182,12 @@ TEST_CASE("a gear that a worm strikes after a rest is no encoder that was stuck"
   CHECK_NOTHROW(record(draw(plan).back()));
 }
 
-TEST_CASE("a stated number that is far off is told beside a gap, too", "[recovery][slow]") {
+TEST_CASE("a stated parameter that is far off is told beside a gap, too", "[recovery][slow]") {
   // it was free before, and so gains nothing on held-out blocks once its tolerance goes
   are_named(2401, {1}, medium_or_large, Kind::stated_off);
 }
 
-TEST_CASE("no stated number moves by more than its tolerances without being named", "[recovery][slow]") {
+TEST_CASE("no stated parameter moves by more than its tolerances without being named", "[recovery][slow]") {
   // six tolerances while they draw it back, but held-out blocks lose a little once they do not
   are_named(2101, {311}, medium_or_large);
 }

@@ -32,11 +32,11 @@ const T& one_of(const std::vector<T>& all, truth::Generator& generator) {
 }
 
 /// What the data sheet states, with the tolerance that goes with stated_errors.
-struct StatedNumber {
+struct StatedParameter {
   std::string_view effect;
   double tolerance;
 };
-std::vector<StatedNumber> stated_numbers(const truth::Sheet& stated) {
+std::vector<StatedParameter> stated_parameters(const truth::Sheet& stated) {
   const truth::Geometry& g = stated.geometry;
   const double share = stated_errors.share;
   return {{"mesh_friction", share * stated.friction},
@@ -48,10 +48,10 @@ std::vector<StatedNumber> stated_numbers(const truth::Sheet& stated) {
           {"gear_inertia", share * (g.gear_inertia + g.mass * g.arm * g.arm)}};
 }
 
-/// Whether an effect is a stated number, or leaves the same data as one.
+/// Whether an effect is a stated parameter, or leaves the same data as one.
 bool is_stated(const truth::Secret& secret) {
-  const auto all = stated_numbers({});
-  return std::any_of(all.begin(), all.end(), [&](const StatedNumber& n) { return same_or_twin(n.effect, secret); });
+  const auto all = stated_parameters({});
+  return std::any_of(all.begin(), all.end(), [&](const StatedParameter& n) { return same_or_twin(n.effect, secret); });
 }
 
 double signed_amount(const truth::Secret& secret, truth::Size size, const truth::Sheet& sheet,
@@ -155,7 +155,7 @@ std::vector<Case> draw(const Plan& plan) {
         const truth::Secret* effect = one_of(secrets, generator);
         while (is_stated(*effect)) effect = one_of(secrets, generator);
         hide(*effect, signed_amount(*effect, size, sheet, generator));
-        const StatedNumber number = one_of(stated_numbers(sheet), generator);
+        const StatedParameter number = one_of(stated_parameters(sheet), generator);
         const double off = number.tolerance * std::uniform_real_distribution(5.0, 20.0)(generator);
         hide(truth::secret(number.effect), std::bernoulli_distribution(0.5)(generator) ? -off : off);
         break;

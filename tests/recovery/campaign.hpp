@@ -36,7 +36,7 @@ enum class Kind {
   nothing,
   pair,
   cancelling,
-  stated_off,  ///< an effect, and a stated number that is off by 5 to 20 of its tolerances
+  stated_off,  ///< an effect, and a stated parameter that is off by 5 to 20 of its tolerances
   outside
 };
 Kind kind(std::string_view name);
@@ -117,7 +117,7 @@ using Diagnose =
 enum class Score {
   exact,     ///< the effects, no more and no less; of effects with the same data one of them, or the class of them
   in_class,  ///< ambiguous, and the truth is of the class
-  off,       ///< beside them, or where nothing was hidden, stated numbers that are off by far more than they may be
+  off,       ///< beside them, or where nothing was hidden, stated parameters that are off by far more than they may be
   partial,   ///< some of the effects, and nothing else
   extra,     ///< the truth and something beside
   silent,    ///< no name, though something was hidden
@@ -152,7 +152,7 @@ struct Outcome {
   std::size_t class_size = 1;
   std::vector<double> errors;      ///< of the named causes' parameters, as shares of the truth
   std::vector<double> deviations;  ///< of all their parameters, in standard errors
-  Coverage causes, calibrated;     ///< intervals of the causes; of stated numbers that moved beside the right ones
+  Coverage causes, calibrated;     ///< intervals of the causes; of stated parameters that moved beside the right ones
   double held_out = 0.0;           ///< 0.25 s prediction error after over the noise floor; 0: not told
   double improved = 0.0;           ///< the same over that of the stated drive; 0: not told
   double seconds = 0.0;

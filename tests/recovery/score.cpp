@@ -31,7 +31,7 @@ void each_known(const truth::Secret& secret, const truth::Drive& drive, const wo
       if (estimate.field == parameter.field) use(estimate, parameter.of(drive));
 }
 
-/// Whether a stated number is off by so many of its tolerances that naming it is no fault.
+/// Whether a stated parameter is off by so many of its tolerances that naming it is no fault.
 bool is_off(std::string_view named, const truth::Drive& drive, const wormdrive::Tolerances& stated) {
   constexpr double far = 2.5;
   const truth::Geometry& sheet = drive.sheet.geometry;

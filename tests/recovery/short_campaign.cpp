@@ -89,7 +89,7 @@ TEST_CASE("the score of a diagnosis is what it deserves") {
   CHECK(scored({"dwell"}, named, {"static_friction"}) == Score::exact);
 }
 
-TEST_CASE("to name a stated number that is off by far more than it may be is no fault") {
+TEST_CASE("to name a stated parameter that is off by far more than it may be is no fault") {
   truth::Drive drive;
   const auto score_of = [&](const std::vector<std::string>& hidden, const std::vector<std::string>& named) {
     Case drawn = hiding(hidden);

@@ -69,7 +69,7 @@ of 0.5 mN m and encoder noise of 3e-5 rad are always present.
 |---|---|
 | exact | exactly the hidden effects; nothing if nothing was hidden |
 | in class | a class of effects that the data cannot distinguish and that contains the hidden one |
-| off | in addition only stated numbers that are wrong by 2.5 tolerances or more |
+| off | in addition only stated parameters that are wrong by 2.5 tolerances or more |
 | partial | some of several hidden effects, nothing else |
 | extra | the hidden effects and another one |
 | silent | nothing, although something was hidden |
@@ -82,7 +82,7 @@ of 0.5 mN m and encoder noise of 3e-5 rad are always present.
 | `class` | mean size of the class |
 | `error` | median error of the named parameters, error of the nominal values included |
 | `covered` | share of the 95 % intervals of named parameters that contain the true value |
-| `calibrated` | the same of stated numbers that moved, where the answer is exact |
+| `calibrated` | the same of stated parameters that moved, where the answer is exact |
 | `held out` | median ratio of the prediction error 0.25 s ahead on held-out data to that of noise alone |
 
 )";
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   double scale = 1.0;
   app.add_option(
       "--hide", kind,
-      "what is hidden: single, nothing, pair, cancelling, stated_off (an effect beside a stated number that is far "
+      "what is hidden: single, nothing, pair, cancelling, stated_off (an effect beside a stated parameter that is far "
       "off) or outside (of the catalogue); or a study: thresholds (the "
       "smallest size that is named), unseen (motions that cannot show the effect), experiments (proposed ones), slips "
       "(in the data sheet), faults (of the recording), logs (that are uneven, beside clean ones of the same benches)");

@@ -11,7 +11,7 @@
 
 // What a scenario states and the data deny is said, whatever else is wrong with the drive.
 
-namespace wormdrive::test::diagnosis_stated_numbers {
+namespace wormdrive::test::diagnosis_stated_parameters {
 
 namespace {
 
@@ -32,7 +32,7 @@ Diagnosis diagnosed(const recovery::Case& drawn) {
 
 }  // namespace
 
-TEST_CASE("a stated number that is far off is named beside another cause", "[slow][cases]") {
+TEST_CASE("a stated parameter that is far off is named beside another cause", "[slow][cases]") {
   const auto stated = recovery::stated_errors;
   for (const auto& [effect, number] : some_of(
            std::vector{std::pair{Hidden{"worm_viscous", 4e-5}, Hidden{"load_angle", 10.0 * stated.angle}},
@@ -46,7 +46,7 @@ TEST_CASE("a stated number that is far off is named beside another cause", "[slo
   }
 }
 
-TEST_CASE("a stated number that exact data show far off is named, however little it moves beyond its tolerance",
+TEST_CASE("a stated parameter that exact data show far off is named, however little it moves beyond its tolerance",
           "[slow]") {
   const auto stated = recovery::stated_errors;
   const truth::Geometry g;
@@ -112,10 +112,10 @@ TEST_CASE("values that move within wide tolerances are told and written, with wh
   const Diagnosis d = diagnose(sheet, {recording}, {.threads = 2});
   CAPTURE(d.sentence);
   CHECK(d.verdict == Verdict::adequate);
-  CHECK(d.sentence.find("once stated numbers move within their tolerances: mesh friction: change ") !=
+  CHECK(d.sentence.find("once stated parameters move within their tolerances: mesh friction: change ") !=
         std::string::npos);
   CHECK(d.sentence.find("prediction error falls") != std::string::npos);
   CHECK(std::abs(field_of(d.extended.effects, "mesh_friction", "change").value / (0.2 * friction) - 1.0) < 0.02);
 }
 
-}  // namespace wormdrive::test::diagnosis_stated_numbers
+}  // namespace wormdrive::test::diagnosis_stated_parameters
