@@ -108,6 +108,7 @@ class BendWatch {
   void know_sides() {
     if (!std::exchange(knows_sides_, true)) find_sides(begin_);
   }
+  /// Not inline: few drives have bends, and a segment that is one leap does not ask.
   [[gnu::noinline]] void find_sides(const Instant& now) {
     if constexpr (Foresees<System>) {
       if (find_by_far(now)) return;

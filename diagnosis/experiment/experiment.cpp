@@ -76,8 +76,9 @@ class MotionSearch {
         },
         this, nullptr);
     optimiser_ = optimiser.get();
-    Point start = within_speed(with_fast_sines), other = within_speed(nearly_alone);
-    if (tried(other).worth > tried(start).worth) start = other;
+    Point start = within_speed(with_fast_sines);
+    const double worth = tried(start).worth;
+    if (const Point other = within_speed(nearly_alone); tried(other).worth > worth) start = other;
     if (margin >= rules::ample_margin) return;
     double best = 0.0;
     nlopt_optimize(optimiser.get(), start.data(), &best);

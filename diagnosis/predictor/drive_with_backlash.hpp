@@ -171,24 +171,23 @@ class DriveWithBacklash {
     return true;
   }
 
-  /// Where motion and inputs have a formula it costs a third of short steps.
-  bool goes_on_by_formula(const Instant& now) {
+  /// Asks the formulas of the nominal motion, which cost less than short steps; false where there are none.
+  template <class Ask>
+  bool by_formula(const Instant& now, const Ask& ask) {
     if constexpr (NominalFlow<Drive>::known) {
       if (!nominal_.covers() || now.mode.motion == Motion::stuck) return false;
       nominal_.begin(now);
-      if (!nominal_.goes_on(now)) return false;
-      solver_.forget();
-      return true;
+      return ask(nominal_);
     }
     return false;
   }
+  bool goes_on_by_formula(const Instant& now) {
+    const bool goes_on = by_formula(now, [&](auto& nominal) { return nominal.goes_on(now); });
+    if (goes_on) solver_.forget();
+    return goes_on;
+  }
   bool leaps(Instant& now, double stop) {
-    if constexpr (NominalFlow<Drive>::known) {
-      if (!nominal_.covers()) return false;
-      nominal_.begin(now);
-      return nominal_.leap(now, stop, accuracy_);
-    }
-    return false;
+    return by_formula(now, [&](auto& nominal) { return nominal.leap(now, stop, accuracy_); });
   }
 
   /// Rests until released. A torque that is held is constant, or approaches what is held as its lag decays: margins
