@@ -8,6 +8,8 @@
 
 #include "diagnosis/candidates/kinds.hpp"
 #include "diagnosis/candidates/stated_parts.hpp"
+#include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 
@@ -79,9 +81,13 @@ Candidate static_friction(const Magnitudes& m) {
   return s;
 }
 
-/// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes.
-Candidate backlash() {
-  Candidate s = finite("backlash", "gap", 5e-4, 0.0, 0.02, {3e-4, 5.5e-4, 1e-3, 1.8e-3, 3.3e-3, 6e-3});
+/// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes, up to the widest gap.
+Candidate backlash(const Magnitudes& m) {
+  const double widest = rules::widest_gap * m.angle_per_worm_turn;
+  std::vector<double> starts;
+  for (double gap = widest / rules::gap_step; gap > rules::least_gap * widest; gap /= std::pow(rules::gap_step, 3))
+    starts.insert(starts.begin(), gap);
+  Candidate s = finite("backlash", "gap", 0.04 * widest, 0.0, widest, starts);
   s.impacts = true;
   // how an impact goes on; loaded teeth yield by 2e-5 rad, which makes a gap seem wider
   s.coordinates[0].model_error = {.of_value = 0.05, .of_scale = 0.0, .size = 2e-5};
@@ -163,7 +169,7 @@ std::vector<Candidate> candidates(const Effects<double>& stated, const Magnitude
     all.push_back(static_friction(m));
     all.push_back(periodic("transmission_error", 5e-4, 0.02));
     if (!is_followed_with_states(stated)) {
-      all.push_back(backlash());
+      all.push_back(backlash(m));
       if (m.has_worm_encoder) all.push_back(tooth_compliance(m));
     }
     all.push_back(linear("gear_coulomb", "torque", 0.02 * gear_torque, 0.0, gear_torque));

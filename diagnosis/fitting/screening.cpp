@@ -19,6 +19,7 @@ class Trial {
       : evaluation_(evaluation), h_(h), candidate_(all[result.candidate]), result_(result), with_(h) {
     add_candidate(with_, all, result.candidate, result.start);
     with_ = not_evaluated(std::move(with_));
+    if (candidate_.impacts && !result_.is_far) find_start();
   }
 
   void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
@@ -54,11 +55,6 @@ class Trial {
       if (result_.model.objective < h_.objective - 1.0) break;
     }
     if (candidate_.finite && !candidate_.either_sign) keep_better(with_);
-    if (candidate_.impacts) {  // less wild with teeth that bounce little
-      Hypothesis soft = not_evaluated(with_);
-      soft.noise.impact.restitution = 0.4;
-      keep_better(std::move(soft));
-    }
     result_.gain = h_.bic - result_.model.bic;
   }
 
@@ -68,11 +64,26 @@ class Trial {
     return h;
   }
 
+  /// The best size of a section of sizes: a gap that is off by a third may promise nothing. Teeth that bounce little
+  /// leave the smoothest likelihood.
+  void find_start() {
+    with_.noise.impact.restitution = rules::smooth_restitution;
+    const Hypothesis middle = with_;
+    for (const double factor : {1.0 / rules::gap_step, 1.0, rules::gap_step}) {
+      Hypothesis trial = middle;
+      const Coordinate& c = trial.free[h_.free.size()];
+      double& gap = trial.values[h_.free.size()];
+      gap = std::clamp(factor * gap, c.low, c.high);
+      evaluate(evaluation_, trial);
+      if (trial.objective < with_.objective) with_ = std::move(trial);
+    }
+  }
+
   void collect_signatures() {
     const std::size_t old = h_.free.size();
     size_ = old;
     if (candidate_.finite) {
-      const bool moves = evaluate(evaluation_, with_);
+      const bool moves = !std::isinf(with_.objective) || evaluate(evaluation_, with_);
       signatures_.push_back(moves ? difference(evaluation_, h_, with_.innovations)
                                   : std::vector<double>(h_.innovations.size(), 0.0));
       return;

@@ -72,6 +72,12 @@ inline constexpr double least_from_other = 10.0;
 inline constexpr std::size_t most_pairs = 6;
 /// turns | set | of noise and model, each of which hides what the other one lacks
 inline constexpr int most_turns = 5, turns_alone = 2;
+/// factor | set | between the sizes of a gap that are tried out: a maximum was a quarter wide
+inline constexpr double gap_step = 1.2;
+/// share of the widest gap | set | narrower ones are found by the slopes of the narrowest start
+inline constexpr double least_gap = 0.008;
+/// restitution | set | with it the likelihood was smoothest over the size of a gap
+inline constexpr double smooth_restitution = 0.4;
 /// nats | set | another process noise, another gap and another round of a fit have to gain more
 inline constexpr double least_noise_gain = 0.05, least_gap_gain = 2.0, least_round_gain = 0.3;
 /// nats | derived | a draw stops where a step promises less: a twentieth of its standard deviation
