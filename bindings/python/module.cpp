@@ -1,7 +1,10 @@
 // The module _core of the Python package: scenarios, runs and their columns; wormdrive/__init__.py makes it handy.
 #include "bindings/python/module.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -39,6 +42,38 @@ py::list table(const std::vector<RunColumn<Source>>& columns, Axis axis, const s
     list.append(described(
         all[k], all[k].is_flag() ? own(column<std::int8_t>(columns[k], rows)) : own(column<double>(columns[k], rows))));
   return list;
+}
+
+/// A table that runs have.
+struct RunTable {
+  std::string_view name;
+  bool (*is_in)(const Scenario&);
+  py::list (*columns)(const RunResult&);
+};
+/// Every table of a run; a new one is an entry here and a property of Result in wormdrive/__init__.py.
+const std::array run_tables{
+    RunTable{"trajectory", [](const Scenario&) { return true; },
+             [](const RunResult& r) {
+               return table(trajectory_columns(r.contents()), r.scenario().axis, r.trajectory().rows);
+             }},
+    RunTable{"events", [](const Scenario&) { return true; },
+             [](const RunResult& r) {
+               return table(event_columns(r.contents()), r.scenario().axis, r.trajectory().events);
+             }},
+    RunTable{"controller", [](const Scenario& s) { return s.control.has_value(); },
+             [](const RunResult& r) { return table(controller_columns(), r.scenario().axis, r.samples()); }}};
+
+std::vector<std::string_view> names_of_tables(const Scenario& scenario) {
+  std::vector<std::string_view> names;
+  for (const RunTable& t : run_tables)
+    if (t.is_in(scenario)) names.push_back(t.name);
+  return names;
+}
+/// The columns of one of them.
+py::list table_named(const RunResult& r, std::string_view name) {
+  const auto* const found = std::ranges::find(run_tables, name, &RunTable::name);
+  if (found == run_tables.end()) throw py::key_error(std::string(name));
+  return found->columns(r);
 }
 
 py::dict as_dict(const std::vector<Quantity>& list) {
@@ -80,16 +115,8 @@ PYBIND11_MODULE(_core, m) {
   m.def("version", &build_description);
 
   py::class_<RunResult>(m, "Run")
-      .def("trajectory",
-           [](const RunResult& r) {
-             return table(trajectory_columns(r.contents()), r.scenario().axis, r.trajectory().rows);
-           })
-      .def("events",
-           [](const RunResult& r) {
-             return table(event_columns(r.contents()), r.scenario().axis, r.trajectory().events);
-           })
-      .def("controller", [](const RunResult& r) { return table(controller_columns(), r.scenario().axis, r.samples()); })
-      .def_property_readonly("controlled", [](const RunResult& r) { return r.scenario().control.has_value(); })
+      .def("tables", [](const RunResult& r) { return names_of_tables(r.scenario()); })
+      .def("table", &table_named)
       .def_property_readonly("title", [](const RunResult& r) { return r.scenario().title; })
       .def_property_readonly("toml", [](const RunResult& r) { return to_toml(r.scenario()); })
       .def_property_readonly("halted", &RunResult::halted)

@@ -100,7 +100,7 @@ class _KeptRun:
     """What a pickled run says of itself beside its tables."""
 
     def __init__(self, run: Union[_core.Run, _KeptRun]):
-        self.title, self.toml, self.controlled, self.halted = run.title, run.toml, run.controlled, run.halted
+        self.title, self.toml, self.halted = run.title, run.toml, run.halted
         self._metrics, self._statistics = run.metrics(), run.statistics()
 
     def metrics(self) -> dict[str, float]:
@@ -123,17 +123,18 @@ class Result:
 
     def __init__(self, run: _core.Run):
         self._run: Union[_core.Run, _KeptRun] = run
-        self._tables: dict[str, Optional[Table]] = {}
+        self._tables: dict[str, Table] = {}
 
     def __getstate__(self) -> dict[str, Any]:
-        for name in ("trajectory", "events", "controller"):
-            getattr(self, name)
+        if isinstance(self._run, _core.Run):
+            for name in self._run.tables():
+                self._table(name)
         return {"_tables": self._tables, "_run": _KeptRun(self._run)}
 
-    def _table(self, name: str, present: bool = True) -> Optional[Table]:
-        if name not in self._tables:
-            self._tables[name] = Table(getattr(self._run, name)()) if present else None
-        return self._tables[name]
+    def _table(self, name: str) -> Optional[Table]:
+        if name not in self._tables and isinstance(self._run, _core.Run) and name in self._run.tables():
+            self._tables[name] = Table(self._run.table(name))
+        return self._tables.get(name)
 
     @property
     def trajectory(self) -> Table:
@@ -145,7 +146,7 @@ class Result:
 
     @property
     def controller(self) -> Optional[Table]:
-        return self._table("controller", self._run.controlled)
+        return self._table("controller")
 
     @property
     def metrics(self) -> dict[str, float]:
