@@ -249,12 +249,15 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     for (const Tried& other : tried) {
       const Candidate& rival = all_[other.candidate];
       if (other.candidate == t.candidate || other.evidence.at_bound) continue;
-      // what has the number within it does as well by nature, but its other parameters do not earn their price
-      if (rival.frees == candidate.effect && other.evidence.delta_bic <= t.evidence.delta_bic - rules::as_good)
-        continue;
+      // what has the number within it does as well by nature: its other parameters have to earn their price, or to tell
+      // more of what was held out
+      const bool contains = rival.frees == candidate.effect;
+      const bool foretells = contains && accepted(other.evidence, rival) &&
+                             other.evidence.held_out > t.evidence.held_out + rules::least_held_out;
+      if (contains && !foretells && other.evidence.delta_bic <= t.evidence.delta_bic - rules::as_good) continue;
       // a delay that is stated and is not there shows as a torque that comes late by it
       if (rival.of_recording && is_removed(t.model, candidate)) continue;
-      if (t.evidence.delta_bic - other.evidence.delta_bic < equivalence_margin(best) ||
+      if (foretells || t.evidence.delta_bic - other.evidence.delta_bic < equivalence_margin(best) ||
           (indistinguishable_from(t.model, candidate, rival) && accepted(other.evidence, rival)))
         found.equals.push_back(other.candidate);
     }
