@@ -155,7 +155,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   const bool is_long = samples_of(recordings) > rules::most_searched;
   std::vector<Recording> to_search = is_long ? representative_pieces(recordings) : std::vector<Recording>{};
   std::vector<PreparedRecording> all_prepared = prepared_all(std::move(recordings), scenario);
-  const Magnitudes sizes = magnitudes(scenario, all_prepared);
+  Magnitudes sizes = magnitudes(scenario, all_prepared);
   const std::vector<Coordinate> stated = toleranced_coordinates(scenario, sizes, settings.tolerances);
   const std::vector<Candidate> all = everything(scenario, all_prepared, sizes, stated);
   auto searched = is_long ? prepared_all(std::move(to_search), scenario) : all_prepared;
@@ -170,6 +170,7 @@ Diagnosis diagnose(const Scenario& scenario, const std::vector<Recording>& given
   tell("working out what the data can show");
   d.certificate = certificate(found.linear, found.base, all, sizes);
   d.ranking = ranking(evaluation, found, all);
+  sizes.torque *= torque_per_recorded(found.model);  // what is left is a torque as the motor gave it
 
   tell("predicting ahead");
   const Hypothesis before = as_stated(evaluation, found.base);

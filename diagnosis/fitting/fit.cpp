@@ -7,6 +7,7 @@
 
 #include "diagnosis/fitting/prediction_error.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
+#include "diagnosis/predictor/noise_tails.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
@@ -95,17 +96,6 @@ void adjust_noise(const Evaluation& evaluation, Hypothesis& h, int depth) {
       if (any) break;
     }
 }
-
-namespace {
-
-/// Whether hardly any noise but rounding is seen while the drive moves, in any recording.
-bool mostly_rounding(const NoiseModel& noise) {
-  for (std::size_t g = 1; g < noise.groups.size(); g += 2)
-    if (noise.groups[g].freedom > rules::tail_freedom) return true;
-  return false;
-}
-
-}  // namespace
 
 Hypothesis with_least_noise(const Evaluation& evaluation, Hypothesis h, bool is_overstated) {
   const auto lower_while = [&](auto&& suffices) {

@@ -128,6 +128,12 @@ std::vector<double> sensitivity(const Evaluation& evaluation, const Hypothesis& 
   return std::vector<double>(h.innovations.size(), 0.0);
 }
 
+double torque_per_recorded(const Hypothesis& h) {
+  const RecordedDrive drive = extended(h);
+  const auto& gain = std::get<std::optional<TorqueGain<double>>>(drive.effects.list);
+  return gain ? 1.0 + gain->share : 1.0;
+}
+
 double inertia_on_worm(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording) {
   const Scenario& scenario = evaluation.scenario();
   const LoadParameters& load = moved_load(scenario, evaluation.layout().recordings[recording].data);

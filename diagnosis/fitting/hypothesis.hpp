@@ -59,6 +59,9 @@ std::vector<double> sensitivity(const Evaluation& evaluation, const Hypothesis& 
 std::vector<double> difference(const Evaluation& evaluation, const Hypothesis& h,
                                const std::vector<double>& innovations);
 
+/// Torque that the motor gives over the one that was recorded: the gain that a model has.
+double torque_per_recorded(const Hypothesis& h);
+
 /// Inertia that the motor moves in a recording, counted at the gear as a torque on the worm, Jw i + C(0) Jg [kg m^2].
 double inertia_on_worm(const Evaluation& evaluation, const Hypothesis& h, std::size_t recording);
 

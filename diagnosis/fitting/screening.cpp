@@ -6,6 +6,7 @@
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/rules/evidence.hpp"
+#include "diagnosis/rules/noise.hpp"
 #include "statistics/parallel.hpp"
 
 namespace wormdrive {
@@ -25,6 +26,8 @@ class Trial {
   void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
     if (result_.is_far) {  // so far off no slope at the hypothesis says anything
       evaluate(evaluation_, with_);
+      if (std::hypot(h_.noise.white, h_.noise.coloured) > rules::strong_process_noise)
+        restart_noise(evaluation_, with_);
       result_.model = with_;
       result_.gain = h_.bic - with_.bic;
       return;

@@ -5,6 +5,7 @@
 
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/stepwise.hpp"
+#include "diagnosis/inference/bounds.hpp"
 
 namespace wormdrive {
 
@@ -50,9 +51,8 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
         e.tolerances_without = std::max(
             e.tolerances_without, std::abs(without.values[static_cast<std::size_t>(before)] - c.centre) / c.tolerance);
     }
-    // what has no slope is known to its scale at best; a size of less than two is none
-    const double near = has_slope(c) ? 1e-6 * (c.high - c.low) : 2.0 * c.scale;
-    e.at_bound = e.at_bound || (x <= c.low + near && !is_removed(with, candidate)) || x >= c.high - near;
+    const int bound = bound_met(c, x);
+    e.at_bound = e.at_bound || bound > 0 || (bound < 0 && !is_removed(with, candidate));
   }
   return e;
 }

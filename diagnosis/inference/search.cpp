@@ -34,7 +34,9 @@ Selection searched_causes(const Evaluation& evaluation, const std::vector<Candid
       better = &found;
     }
   }
-  if (gap_of(better->model()) || noise_sizes(evaluation, better->model()).torque <= torque) better->try_pairs();
+  if (gap_of(better->model()) ||
+      noise_sizes(evaluation, better->model()).torque <= torque_per_recorded(better->model()) * torque)
+    better->try_pairs();
   return better->confirmed();
 }
 

@@ -9,6 +9,7 @@
 #include "diagnosis/fitting/gap_search.hpp"
 #include "diagnosis/fitting/laws.hpp"
 #include "diagnosis/fitting/prediction_error.hpp"
+#include "diagnosis/inference/bounds.hpp"
 #include "diagnosis/inference/intervals.hpp"
 #include "diagnosis/rules/evidence.hpp"
 #include "diagnosis/rules/noise.hpp"
@@ -148,6 +149,8 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
       fit(evaluation_, h, 4);
     }
   });
+  for (std::size_t k = 0; k < polished; ++k)
+    if (tried[k].model.bic < current.bic) leave_bounds(evaluation_, tried[k].model, all_[tried[k].candidate]);
   std::stable_sort(tried.begin(), tried.end(), by_bic);
   for (Tried& t : tried) t.evidence = compare(current, t.model, all_[t.candidate], evaluation_.layout());
   return tried;
@@ -250,9 +253,10 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
       const Candidate& rival = all_[other.candidate];
       if (other.candidate == t.candidate || other.evidence.at_bound) continue;
       // what has the number within it does as well by nature: its other parameters have to earn their price, or to tell
-      // more of what was held out
+      // more of what was fitted and of what was held out
       const bool contains = rival.frees == candidate.effect;
       const bool foretells = contains && accepted(other.evidence, rival) &&
+                             t.model.objective - other.model.objective > rules::least_held_out &&
                              other.evidence.held_out > t.evidence.held_out + rules::least_held_out;
       if (contains && !foretells && other.evidence.delta_bic <= t.evidence.delta_bic - rules::as_good) continue;
       // a delay that is stated and is not there shows as a torque that comes late by it

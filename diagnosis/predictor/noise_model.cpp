@@ -8,7 +8,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "statistics/student_t.hpp"
+#include "diagnosis/predictor/noise_tails.hpp"
 
 namespace wormdrive {
 
@@ -52,63 +52,6 @@ double robust_scale(std::vector<double>& sizes) {
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return *middle / 0.741;
-}
-
-/// Degrees of freedom with which errors within half a step of the encoder weigh nearly alike.
-double freedom_within_step(double scale, double resolution) {
-  constexpr double wide = (1.0 - rules::unequal_within_step) / rules::unequal_within_step;
-  const double half_step = 0.5 * resolution / scale;
-  return wide * half_step * half_step;
-}
-
-/// Of an innovation, with what it counts.
-struct Square {
-  double value, share;
-};
-
-double iterated_scale(const std::vector<Square>& squares, double scale, double nu, double least) {
-  double sum = 0.0, count = 0.0;
-  const double inverse = 1.0 / (scale * scale);
-  for (const Square& q : squares) {
-    sum += q.share * (nu + 1.0) * q.value / (nu + q.value * inverse);
-    count += q.share;
-  }
-  return std::max(least, std::sqrt(sum / count));
-}
-
-/// Student's t as a negative log likelihood, less what it is at zero with the usual degrees of freedom.
-class NegativeLogLikelihood {
- public:
-  explicit NegativeLogLikelihood(const NoiseGroup& g)
-      : level_(std::log(g.scale) +
-               (StudentT{g.freedom}.normalization() - StudentT{rules::tail_freedom}.normalization())),
-        power_(0.5 * (g.freedom + 1.0)),
-        inverse_(1.0 / (g.freedom * g.scale * g.scale)) {}
-  double operator()(double square) const { return level_ + power_ * std::log1p(square * inverse_); }
-  double operator()(const std::vector<Square>& squares) const {
-    return std::accumulate(squares.begin(), squares.end(), 0.0, [&](double sum, const Square& square) {
-      return sum + square.share * (*this)(square.value);
-    });
-  }
-
- private:
-  double level_, power_, inverse_;
-};
-
-/// Scale and tails of a group: the usual tails, or those of errors of rounding where there is hardly any other noise
-/// and the errors become more likely.
-void fit_scale_and_tails(NoiseGroup& group, const std::vector<Square>& squares, double least, double resolution,
-                         int rounds) {
-  for (int k = 0; k < rounds && (k == 0 || group.scale > least); ++k)
-    group.scale = iterated_scale(squares, group.scale, rules::tail_freedom, least);
-  group.freedom = rules::tail_freedom;
-  if (resolution * resolution / 12.0 < rules::mere_rounding * group.scale * group.scale) return;
-  NoiseGroup rounding = group;
-  for (int k = 0; k < rounds; ++k) {
-    rounding.freedom = freedom_within_step(rounding.scale, resolution);
-    rounding.scale = iterated_scale(squares, rounding.scale, rounding.freedom, least);
-  }
-  if (NegativeLogLikelihood(rounding)(squares) < NegativeLogLikelihood(group)(squares)) group = rounding;
 }
 
 /// Estimates the noise of one channel: of its standing and of its moving samples. It walks the samples again and again,

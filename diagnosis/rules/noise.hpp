@@ -34,6 +34,8 @@ inline constexpr double mere_rounding = 0.8;
 inline constexpr double of_process_noise = 1.92;
 /// scales of the noise | set | a process noise beyond these is none, or all there is
 inline constexpr double least_process_noise = 1e-5, most_process_noise = 3.0;
+/// scales of the noise | set | a process noise beyond this may stand for a motion that values far off would explain
+inline constexpr double strong_process_noise = 0.3;
 /// scales of the noise | derived | one that moved the angle within a sample by more would not let readings repeat
 inline constexpr double most_process_noise_of_steps = 1.0;
 /// rad | derived | so far off a prediction follows no motion, in steps that grow ever shorter

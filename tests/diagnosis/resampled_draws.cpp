@@ -61,6 +61,7 @@ TEST_CASE("draws of a law that bends stay where the data leave them", "[slow]") 
   Scenario drive = nominal_arm();
   std::get<std::optional<Stribeck<double>>>(drive.effects.list) = Stribeck<double>{.drop = 0.25, .speed = 0.04};
   const Diagnosis d = diagnose(nominal_arm(), {record(drive)}, {.draws = 40, .threads = 2});
+  INFO(d.sentence);
   const JointEstimate& u = d.uncertainty;
   REQUIRE(std::find(u.effects.begin(), u.effects.end(), "stribeck") != u.effects.end());
   for (std::size_t k = 0; k < u.numbers.size(); ++k) {

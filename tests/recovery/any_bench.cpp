@@ -197,6 +197,23 @@ TEST_CASE("a gear that a worm strikes after a rest is no encoder that was stuck"
   CHECK_NOTHROW(record(draw(plan).back()));
 }
 
+TEST_CASE("a torque constant of a tenth is found where noise is as large as the torque that was recorded",
+          "[recovery]") {
+  // what is left is a torque as the motor gave it, ten times the recorded one
+  std::vector<Case> cases =
+      short_ones({.kind = Kind::nothing, .conditions = conditions("realistic"), .cases = 200, .seed = 3703});
+  std::erase_if(cases, [](const Case& c) { return c.duration / c.period > 4000.0; });
+  REQUIRE(cases.size() > 2);
+  for (const Case& c : cases) {
+    Bench bench = record(c);
+    for (double& torque : bench.recording.motor_torque) torque *= 0.1;
+    const wormdrive::Diagnosis said = wormdrive::diagnose(data_sheet(c), {bench.recording}, {.threads = 2});
+    INFO(said.sentence);
+    REQUIRE(said.causes.size() == 1);
+    CHECK(said.causes[0].effect == "torque_gain");
+  }
+}
+
 TEST_CASE("a gap of any width is found", "[recovery][slow]") {
   // a likelihood of many maxima, each about a quarter wide: a fit that starts elsewhere sees nothing of a gap
   Plan plan{.kind = Kind::single,
