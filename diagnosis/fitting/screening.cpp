@@ -25,9 +25,7 @@ class Trial {
 
   void operator()(const WeightedColumns& weigh, const Eigen::MatrixXd& J, const Eigen::VectorXd& residual) {
     if (result_.is_far) {  // so far off no slope at the hypothesis says anything
-      evaluate(evaluation_, with_);
-      if (std::hypot(h_.noise.white, h_.noise.coloured) > rules::strong_process_noise)
-        restart_noise(evaluation_, with_);
+      predict(with_);
       result_.model = with_;
       result_.gain = h_.bic - with_.bic;
       return;
@@ -67,6 +65,12 @@ class Trial {
     return h;
   }
 
+  /// Predicts by a trial; with noise of its own where the hypothesis has so much that it stands for the motion.
+  void predict(Hypothesis& trial) const {
+    evaluate(evaluation_, trial);
+    if (std::hypot(h_.noise.white, h_.noise.coloured) > rules::strong_process_noise) restart_noise(evaluation_, trial);
+  }
+
   /// The best size of a section of sizes: a gap that is off by a third may promise nothing. Teeth that bounce little
   /// leave the smoothest likelihood.
   void find_start() {
@@ -77,7 +81,7 @@ class Trial {
       const Coordinate& c = trial.free[h_.free.size()];
       double& gap = trial.values[h_.free.size()];
       gap = std::clamp(factor * gap, c.low, c.high);
-      evaluate(evaluation_, trial);
+      predict(trial);
       if (trial.objective < with_.objective) with_ = std::move(trial);
     }
   }

@@ -235,6 +235,10 @@ TEST_CASE("a gap of any width is found", "[recovery][slow]") {
   }
 }
 
+TEST_CASE("a gap is found where noise stands for all that it does", "[recovery][slow]") {
+  are_named(3401, {269}, medium_or_large);
+}
+
 TEST_CASE("a stated parameter that is far off is told beside a gap, too", "[recovery][slow]") {
   // it was free before, and so gains nothing on held-out blocks once its tolerance goes
   are_named(2401, {1}, medium_or_large, Kind::stated_off);
