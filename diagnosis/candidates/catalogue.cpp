@@ -9,7 +9,6 @@
 #include "diagnosis/candidates/kinds.hpp"
 #include "diagnosis/candidates/stated_parts.hpp"
 #include "diagnosis/rules/evidence.hpp"
-#include "diagnosis/rules/recordings.hpp"
 
 namespace wormdrive {
 
@@ -83,11 +82,11 @@ Candidate static_friction(const Magnitudes& m) {
 
 /// Teeth that bounce leave a likelihood with many maxima: a fit starts at many sizes, up to the widest gap.
 Candidate backlash(const Magnitudes& m) {
-  const double widest = rules::widest_gap * m.angle_per_worm_turn;
   std::vector<double> starts;
-  for (double gap = widest / rules::gap_step; gap > rules::least_gap * widest; gap /= std::pow(rules::gap_step, 3))
+  for (double gap = m.widest_gap / rules::gap_step; gap > rules::least_gap * m.widest_gap;
+       gap /= std::pow(rules::gap_step, 3))
     starts.insert(starts.begin(), gap);
-  Candidate s = finite("backlash", "gap", 0.04 * widest, 0.0, widest, starts);
+  Candidate s = finite("backlash", "gap", 0.04 * m.widest_gap, 0.0, m.widest_gap, starts);
   s.impacts = true;
   // how an impact goes on; loaded teeth yield by 2e-5 rad, which makes a gap seem wider
   s.coordinates[0].model_error = {.of_value = 0.05, .of_scale = 0.0, .size = 2e-5};

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "description/build.hpp"
+#include "diagnosis/data/impossible_samples.hpp"
 #include "diagnosis/data/moved_load.hpp"
 
 namespace wormdrive {
@@ -63,7 +63,7 @@ Magnitudes magnitudes(const Scenario& scenario, const std::vector<PreparedRecord
   if (mesh.has_teeth) {
     m.stated_friction = mesh.mu;
     m.friction = std::max(mesh.mu, std::tan(mesh.lambda) * std::cos(mesh.phi_n));
-    m.angle_per_worm_turn = 2.0 * std::numbers::pi / mesh.i;
+    m.widest_gap = widest_gap(mesh.i);
     m.gear_arm = mesh.gear_arm(0.0);
     m.sliding_speed = mesh.sliding_speed(m.worm_speed);
     m.gear_inertia = total_gear_inertia(scenario);

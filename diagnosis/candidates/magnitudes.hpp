@@ -24,7 +24,7 @@ struct Magnitudes {
   double period{};                       ///< of the slowest sampling [s]
   double torque_memory{};                ///< after which a command tells half of another, in the fastest recording [s]
   bool has_teeth = true;
-  double angle_per_worm_turn{};   ///< of the gear [rad]; 0 without teeth
+  double widest_gap{};            ///< between the teeth, at the gear [rad]; 0 without teeth
   double gear_arm{};              ///< lever arm of the teeth's normal force on the gear [m]; 0 without teeth
   bool has_worm_encoder = false;  ///< in one of the recordings at least
   bool load_turns = false;        ///< the load's torque depends on the gear angle

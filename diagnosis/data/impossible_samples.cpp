@@ -140,13 +140,14 @@ void follow(const RecordedTable& table, RecordedValues& angle, std::size_t begin
 
 }  // namespace
 
+double widest_gap(double ratio) { return rules::widest_gap * 2.0 * std::numbers::pi / ratio; }
+
 SampleLimits sample_limits(const Scenario& scenario, double period, const std::vector<double>& torque) {
   const double peak = usual_peak(torque);
   SampleLimits limits{period, largest_acceleration(scenario, peak), 1.0, 0.0};
   if (const auto* const mesh = std::get_if<MeshParameters<double>>(&scenario.mesh)) {
     limits.ratio = mesh->i;
-    const double gap = rules::widest_gap * 2.0 * std::numbers::pi / mesh->i;
-    limits.impact_speed = std::sqrt(2.0 * gap * peak / (mesh->Jw * mesh->i));
+    limits.impact_speed = std::sqrt(2.0 * widest_gap(mesh->i) * peak / (mesh->Jw * mesh->i));
   }
   return limits;
 }

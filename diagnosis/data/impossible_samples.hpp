@@ -16,6 +16,9 @@ struct SampleLimits {
   double impact_speed;          ///< that a worm gives the gear at once when it has crossed a gap [rad/s]
 };
 
+/// The widest gap between the teeth of a drive, at the gear [rad]. ratio: of the worm's angle to the gear's.
+double widest_gap(double ratio);
+
 /// Those of a scenario's drive, with the torque of a recording [N m].
 SampleLimits sample_limits(const Scenario& scenario, double period, const std::vector<double>& torque);
 

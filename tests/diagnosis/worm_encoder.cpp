@@ -39,18 +39,6 @@ Bench bench(const char* effect, double amount, double zero = 0.0) {
           {sheet, InnovationLayout(std::move(prepared_one)), 1}};
 }
 
-/// A hypothesis with noise of its own.
-Hypothesis settled(const Bench& b, Hypothesis h) {
-  fit(b.evaluation, h, 10);
-  adjust_noise(b.evaluation, h, 6);
-  find_gap(b.evaluation, h);
-  restart_noise(b.evaluation, h);
-  adjust_noise(b.evaluation, h, 3);
-  refine_gap(b.evaluation, h);
-  fit(b.evaluation, h, 10);
-  return h;
-}
-
 /// The candidate of that name, fitted alone, from the start that promises most.
 Hypothesis fitted(const Bench& b, std::string_view effect) {
   Hypothesis nothing;
@@ -60,7 +48,15 @@ Hypothesis fitted(const Bench& b, std::string_view effect) {
   for (const Candidate& candidate : b.all)
     if (candidate.effect == effect) one.push_back(candidate);
   REQUIRE(one.size() == 1);
-  return settled(b, screen(b.evaluation, nothing, one).found.front().model);
+  Hypothesis h = screen(b.evaluation, nothing, one).found.front().model;
+  fit(b.evaluation, h, 10);
+  adjust_noise(b.evaluation, h, 6);
+  find_gap(b.evaluation, h);
+  restart_noise(b.evaluation, h);
+  adjust_noise(b.evaluation, h, 3);
+  refine_gap(b.evaluation, h);
+  fit(b.evaluation, h, 10);
+  return h;
 }
 
 double field(const Hypothesis& h, std::string_view effect, std::string_view name) {
