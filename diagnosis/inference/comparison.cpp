@@ -68,6 +68,7 @@ namespace {
 
 /// Whether what was held out bears a candidate out.
 bool holds(const Evidence& e, const Candidate& candidate) {
+  if (e.lower_error > rules::most_of_error) return true;
   const bool gains = e.held_out > rules::least_held_out;
   const bool steady = gains && e.without_best > 0.0;
   const bool broad = e.clipped > rules::least_held_out && e.positive_share >= rules::positive_share;
@@ -84,20 +85,30 @@ bool holds(const Evidence& e, const Candidate& candidate) {
   return steady || broad || ((has_steps || candidate.rare) && gains && e.everywhere_but_best > rules::least_bic);
 }
 
-/// The first rule that is broken, empty if none is.
-std::string broken_rule(const Evidence& e, const Candidate& candidate) {
+/// The first rule that is broken whatever was held out, empty if none is.
+std::string broken_before(const Evidence& e, const Candidate& candidate) {
   if (e.at_bound) return "its parameter stands at a bound";
   if (candidate.toleranced && e.delta_bic <= rules::least_bic_toleranced)
     return "no evidence beyond the stated tolerance";
   if (candidate.toleranced && e.tolerances <= rules::least_tolerances) return "within what its tolerance leaves open";
   if (!candidate.toleranced && e.delta_bic <= rules::least_bic)
     return e.delta_bic > 0.0 ? "too little evidence" : "no evidence";
-  return holds(e, candidate) ? "" : "does not predict the data that were held out";
+  return "";
+}
+
+/// The first rule that is broken, empty if none is.
+std::string broken_rule(const Evidence& e, const Candidate& candidate) {
+  const std::string rule = broken_before(e, candidate);
+  return rule.empty() && !holds(e, candidate) ? "does not predict the data that were held out" : rule;
 }
 
 }  // namespace
 
 bool accepted(const Evidence& evidence, const Candidate& candidate) { return broken_rule(evidence, candidate).empty(); }
+
+bool refuted(const Evidence& evidence, const Candidate& candidate) {
+  return broken_before(evidence, candidate).empty() && !holds(evidence, candidate);
+}
 
 bool indistinguishable_from(const Hypothesis& h, const Candidate& candidate, const Candidate& other) {
   if (candidate.limiting_case.empty() || candidate.limiting_case != other.effect) return false;

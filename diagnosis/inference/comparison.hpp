@@ -17,6 +17,7 @@ struct Evidence {
   double tolerances{};           ///< largest distance of a stated parameter from its value, in tolerances
   double tolerances_without{};   ///< the same while its tolerance draws it back
   double everywhere_but_best{};  ///< gain of all data, fitted or not, without the block that gains most [nats]
+  double lower_error{};          ///< share of the error ahead that goes, if this is to decide
   bool beside_gap = false;       ///< a gap between the teeth is in both models
   bool at_bound = false;         ///< a coordinate of the candidate came to rest at its bound
 };
@@ -28,6 +29,9 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
 bool is_removed(const Hypothesis& h, const Candidate& candidate);
 
 bool accepted(const Evidence& evidence, const Candidate& candidate);
+
+/// Whether nothing but the likelihood of what was held out speaks against a candidate.
+bool refuted(const Evidence& evidence, const Candidate& candidate);
 
 /// Candidates whose evidence is within reach of the best one's form a class with it.
 inline double equivalence_margin(double best) {

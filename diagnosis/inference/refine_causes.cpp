@@ -62,9 +62,7 @@ void CauseSearch::eliminate(double enough) {
       adjust_noise(evaluation_, without, 3);
       refine_gap(evaluation_, without);
       const Candidate& candidate = all_[s_.causes[k].candidate];
-      if (without.bic > enough ||
-          supported(compare(without, s_.model, candidate, evaluation_.layout()), s_.model, candidate))
-        continue;
+      if (without.bic > enough || supported(judged(without, s_.model, candidate), s_.model, candidate)) continue;
       s_.model = std::move(without);
       s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(k));
       again = true;
@@ -119,15 +117,13 @@ void CauseSearch::try_pairs() {
     if (now == std::vector{std::min(pairs[k].first, pairs[k].second), std::max(pairs[k].first, pairs[k].second)})
       continue;
     Candidate unstated;  // the pair as a whole is judged by the data that were held out
-    if (!fewer && !accepted(compare(s_.model, h, unstated, evaluation_.layout()), unstated)) continue;
+    if (!fewer && !accepted(judged(s_.model, h, unstated), unstated)) continue;
     std::array<Hypothesis, 2> half;
     parallel_for(half.size(), evaluation_.threads(), [&](std::size_t q) {
       half[q] = fit_causes({q == 0 ? pairs[k].first : pairs[k].second}, &h, 6);
       refine_gap(evaluation_, half[q]);
     });
-    if (!supported(compare(half[1], h, a, evaluation_.layout()), h, a) ||
-        !supported(compare(half[0], h, b, evaluation_.layout()), h, b))
-      continue;
+    if (!supported(judged(half[1], h, a), h, a) || !supported(judged(half[0], h, b), h, b)) continue;
     s_.model = h;
     s_.causes = {{pairs[k].first, {}}, {pairs[k].second, {}}};
   }
@@ -194,7 +190,7 @@ void CauseSearch::name_far_numbers() {
       Tried t{k, s_.model, {}};
       add_candidate(t.model, all_, k, 0);
       fit(evaluation_, t.model, 6);
-      t.evidence = compare(s_.model, t.model, all_[k], evaluation_.layout());
+      t.evidence = judged(s_.model, t.model, all_[k]);
       if (supported(t.evidence, t.model, all_[k])) tried.push_back(std::move(t));
     }
     const auto best = std::max_element(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {

@@ -152,7 +152,7 @@ std::vector<Tried> CauseSearch::try_candidates(const Start& start, const Start* 
   for (std::size_t k = 0; k < polished; ++k)
     if (tried[k].model.bic < current.bic) leave_bounds(evaluation_, tried[k].model, all_[tried[k].candidate]);
   std::stable_sort(tried.begin(), tried.end(), by_bic);
-  for (Tried& t : tried) t.evidence = compare(current, t.model, all_[t.candidate], evaluation_.layout());
+  for (Tried& t : tried) t.evidence = judged(current, t.model, all_[t.candidate]);
   return tried;
 }
 
@@ -188,7 +188,15 @@ void CauseSearch::compare_fairly(Tried& with, bool base_too) {
     s_.model = std::move(simpler);
     if (base_too) s_.base = s_.model;
   }
-  with.evidence = compare(s_.model, with.model, all_[with.candidate], evaluation_.layout());
+  with.evidence = judged(s_.model, with.model, all_[with.candidate]);
+}
+
+/// How two models compare. Where teeth bounce, one bounce that goes another way costs held-out data more nats than a
+/// cause is worth: what the error ahead says then is bounded.
+Evidence CauseSearch::judged(const Hypothesis& without, const Hypothesis& with, const Candidate& candidate) const {
+  Evidence e = compare(without, with, candidate, evaluation_.layout());
+  if (refuted(e, candidate)) e.lower_error = share_of_error(evaluation_, without, with, rules::reported_horizon);
+  return e;
 }
 
 /// Long data find traces of what is of no account. A further cause has to lower the error ahead as well, or to gain
@@ -229,7 +237,10 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     s_.beyond_bound = tried.front().candidate;
     return false;
   }
-  std::stable_partition(tried.begin(), tried.end(), [](const Tried& t) { return !t.evidence.at_bound; });
+  // a gap that is refuted may be borne out beside a cause that is missing, and leaves room for it
+  std::stable_partition(tried.begin(), tried.end(), [&](const Tried& t) {
+    return !t.evidence.at_bound && !(all_[t.candidate].impacts && refuted(t.evidence, all_[t.candidate]));
+  });
   const double best = tried.front().evidence.delta_bic;
   // Among equals the one with the fewest parameters comes first.
   auto first = tried.begin();

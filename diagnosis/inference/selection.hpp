@@ -69,6 +69,7 @@ class CauseSearch {
   std::vector<Tried> try_candidates(const Start& start, const Start* other);
   std::vector<Screened> worth_fitting(const std::vector<Screened>& found) const;
   std::vector<Tried> try_from(const Start& other, const Hypothesis& current) const;
+  Evidence judged(const Hypothesis& without, const Hypothesis& with, const Candidate& candidate) const;
   bool improves_prediction(const Tried& with) const;
   bool supported(const Evidence& evidence, const Hypothesis& with, const Candidate& candidate) const;
   bool take_best(std::vector<Tried>& tried, bool first_round);

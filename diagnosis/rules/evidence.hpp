@@ -21,6 +21,8 @@ inline constexpr double least_bic_toleranced = 5.0;
 inline constexpr double least_tolerances = 3.5;
 /// share of the BIC's gain | derived | is most of it
 inline constexpr double mostly = 0.5;
+/// share of the error ahead | derived | is most of it: what takes that away is borne out, whatever single blocks cost
+inline constexpr double most_of_error = 0.5;
 /// share of the BIC's gain | set | that held-out data may lose by a stated parameter: it was free before
 inline constexpr double held_out_loss = 0.05;
 /// share of the best evidence | set | candidates so near the best one form a class with it
