@@ -52,7 +52,10 @@ Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candid
             e.tolerances_without, std::abs(without.values[static_cast<std::size_t>(before)] - c.centre) / c.tolerance);
     }
     const int bound = bound_met(c, x);
-    e.at_bound = e.at_bound || bound > 0 || (bound < 0 && !is_removed(with, candidate));
+    if (bound == 0 || (bound < 0 && is_removed(with, candidate))) continue;
+    const bool is_limit = bound < 0 && !candidate.limiting_case.empty() && &c == &candidate.coordinates[1];
+    e.at_limit = is_limit && (e.at_limit || !e.at_bound);
+    e.at_bound = true;
   }
   return e;
 }

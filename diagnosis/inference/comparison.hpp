@@ -20,6 +20,7 @@ struct Evidence {
   double lower_error{};          ///< share of the error ahead that goes, if this is to decide
   bool beside_gap = false;       ///< a gap between the teeth is in both models
   bool at_bound = false;         ///< a coordinate of the candidate came to rest at its bound
+  bool at_limit = false;         ///< the only such one makes it its limiting case there
 };
 
 Evidence compare(const Hypothesis& without, const Hypothesis& with, const Candidate& candidate,

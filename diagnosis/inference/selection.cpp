@@ -226,26 +226,33 @@ bool CauseSearch::supported(const Evidence& evidence, const Hypothesis& with, co
 }
 
 bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
-  // What stands at a bound is not what its name says. One that far outdoes all others leaves no room for a smaller
-  // name.
+  // What stands at a bound is not what its name says, unless it is its limiting case there and this holds as well. One
+  // that far outdoes all others leaves no room for a smaller name.
+  const auto holds_as_limit = [&](const Tried& t) {
+    return t.evidence.at_limit && std::ranges::any_of(tried, [&](const Tried& other) {
+             const Candidate& limit = all_[other.candidate];
+             return limit.effect == all_[t.candidate].limiting_case && accepted(other.evidence, limit);
+           });
+  };
+  const auto stands_at_bound = [&](const Tried& t) { return t.evidence.at_bound && !holds_as_limit(t); };
   const Evidence& first_of_all = tried.front().evidence;
   double best_within = 0.0;
   for (const Tried& t : tried)
-    if (!t.evidence.at_bound) best_within = std::max(best_within, t.evidence.delta_bic);
-  if (first_of_all.at_bound && first_of_all.held_out > rules::least_held_out &&
+    if (!stands_at_bound(t)) best_within = std::max(best_within, t.evidence.delta_bic);
+  if (stands_at_bound(tried.front()) && first_of_all.held_out > rules::least_held_out &&
       first_of_all.delta_bic > rules::least_bic + rules::far_beyond * best_within) {
     s_.beyond_bound = tried.front().candidate;
     return false;
   }
   // a gap that is refuted may be borne out beside a cause that is missing, and leaves room for it
   std::stable_partition(tried.begin(), tried.end(), [&](const Tried& t) {
-    return !t.evidence.at_bound && !(all_[t.candidate].impacts && refuted(t.evidence, all_[t.candidate]));
+    return !stands_at_bound(t) && !(all_[t.candidate].impacts && refuted(t.evidence, all_[t.candidate]));
   });
   const double best = tried.front().evidence.delta_bic;
   // Among equals the one with the fewest parameters comes first.
   auto first = tried.begin();
   for (auto t = tried.begin(); t != tried.end(); ++t)
-    if (!t->evidence.at_bound && best - t->evidence.delta_bic < rules::as_good &&
+    if (!stands_at_bound(*t) && best - t->evidence.delta_bic < rules::as_good &&
         t->model.free.size() < first->model.free.size())
       first = t;
   std::rotate(tried.begin(), first, first + 1);
@@ -258,7 +265,9 @@ bool CauseSearch::take_best(std::vector<Tried>& tried, bool first_round) {
     if (first_round)
       for (Tried& kept : s_.tried)
         if (kept.candidate == t.candidate) kept.evidence = t.evidence;
-    if (!supported(t.evidence, t.model, candidate) || !improves_prediction(t)) continue;
+    Evidence evidence = t.evidence;
+    evidence.at_bound = stands_at_bound(t);
+    if (!supported(evidence, t.model, candidate) || !improves_prediction(t)) continue;
     Found found{t.candidate, {}};
     for (const Tried& other : tried) {
       const Candidate& rival = all_[other.candidate];
