@@ -52,9 +52,9 @@ class Signatures {
     std::vector<double> precision;
     for (std::size_t k = 0; k < base_.free.size(); ++k) {
       const Coordinate& c = base_.free[k];
-      if (belongs(all_[of.candidate], c)) continue;
+      if (is_own(all_[of.candidate], c)) continue;  // what it frees only draws near what it does
       others.push_back(static_cast<Eigen::Index>(k));
-      const bool freed = beside && belongs(all_[beside->candidate], c);
+      const bool freed = beside && (all_[beside->candidate].frees == c.effect || is_own(all_[beside->candidate], c));
       precision.push_back(freed ? 0.0 : std::pow(c.scale / c.tolerance, 2));
     }
     if (beside && !all_[beside->candidate].toleranced)
@@ -73,10 +73,8 @@ class Signatures {
   }
 
  private:
-  /// Whether a stated parameter is free of its tolerance beside a candidate.
-  static bool belongs(const Candidate& s, const Coordinate& c) {
-    return s.frees == c.effect ||
-           std::any_of(s.coordinates.begin(), s.coordinates.end(), [&](const Coordinate& own) { return own.is(c); });
+  static bool is_own(const Candidate& s, const Coordinate& c) {
+    return std::any_of(s.coordinates.begin(), s.coordinates.end(), [&](const Coordinate& own) { return own.is(c); });
   }
 
   const Eigen::MatrixXd& gram_;
