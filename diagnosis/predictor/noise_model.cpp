@@ -65,7 +65,7 @@ class NoiseOfChannel {
         recording_(layout.recordings[channel.recording]),
         e_(layout.of(channel, innovations)),
         whitens_(whitens) {
-    for_each_fitted([&](std::size_t, std::size_t g, const double*) { ++members_[g]; });
+    for_each_fitted([&](std::size_t, std::size_t g) { ++members_[g]; });
   }
 
   /// groups: of standing and of moving samples.
@@ -83,9 +83,15 @@ class NoiseOfChannel {
   }
 
  private:
-  /// visit(sample, group, means before it)
+  /// visit(sample, group)
   template <class Visit>
   void for_each_fitted(Visit&& visit) const {
+    for (std::size_t k = 0; k < e_.size(); ++k)
+      if (layout_.part[channel_.begin + k] == 1) visit(k, layout_.group[channel_.begin + k] & 1U);
+  }
+  /// visit(sample, group, means before it)
+  template <class Visit>
+  void for_each_with_means(Visit&& visit) const {
     Means z(recording_.data.period);
     for (std::size_t k = 0; k < e_.size(); ++k) {
       if (layout_.part[channel_.begin + k] == 1) visit(k, layout_.group[channel_.begin + k] & 1U, z.values().data());
@@ -100,7 +106,7 @@ class NoiseOfChannel {
   void fit_first_scales(std::span<NoiseGroup> groups) const {
     std::array<std::vector<double>, 2> sizes;
     std::array<std::size_t, 2> seen{};
-    for_each_fitted([&](std::size_t k, std::size_t g, const double*) {
+    for_each_fitted([&](std::size_t k, std::size_t g) {
       if (seen[g]++ % 5 == 0) sizes[g].push_back(std::abs(e_[k]));
     });
     for (const std::size_t g : {0, 1})
@@ -112,12 +118,12 @@ class NoiseOfChannel {
     std::array<Vector, 2> b{Vector::Zero(), Vector::Zero()};
     const auto inverse_square = [](const NoiseGroup& group) { return 1.0 / (group.scale * group.scale); };
     const std::array inverse{inverse_square(groups[0]), inverse_square(groups[1])};
-    for_each_fitted([&](std::size_t k, std::size_t g, const double* means) {
+    for_each_with_means([&](std::size_t k, std::size_t g, const double* means) {
       const Eigen::Map<const Vector> z(means);
       const double x = e_[k] - predicted(groups[g].weights, means), nu = groups[g].freedom;
       const double weight = share(k) * (nu + 1.0) / (nu + x * x * inverse[g]);
       b[g] += weight * e_[k] * z;
-      A[g] += (weight * z) * z.transpose();
+      A[g].triangularView<Eigen::Lower>() += (weight * z) * z.transpose();
     });
     for (const std::size_t g : {0, 1}) {
       if (!is_whitened(g)) continue;
@@ -130,7 +136,7 @@ class NoiseOfChannel {
   std::array<std::vector<Square>, 2> squares_left(std::span<const NoiseGroup> groups) const {
     std::array<std::vector<Square>, 2> left;
     for (const std::size_t g : {0, 1}) left[g].reserve(members_[g]);
-    for_each_fitted([&](std::size_t k, std::size_t g, const double* means) {
+    for_each_with_means([&](std::size_t k, std::size_t g, const double* means) {
       const double x = e_[k] - predicted(groups[g].weights, means);
       left[g].push_back({x * x, share(k)});
     });
