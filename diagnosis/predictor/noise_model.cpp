@@ -123,7 +123,7 @@ class NoiseOfChannel {
       const double x = e_[k] - predicted(groups[g].weights, means), nu = groups[g].freedom;
       const double weight = share(k) * (nu + 1.0) / (nu + x * x * inverse[g]);
       b[g] += weight * e_[k] * z;
-      A[g].triangularView<Eigen::Lower>() += (weight * z) * z.transpose();
+      A[g] += (weight * z) * z.transpose();
     });
     for (const std::size_t g : {0, 1}) {
       if (!is_whitened(g)) continue;
