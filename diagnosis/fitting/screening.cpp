@@ -51,10 +51,13 @@ class Trial {
       return;
     }
     result_.model = not_evaluated(with_);
+    const auto gains = [&] { return result_.model.objective < h_.objective - 1.0; };
     for (const double share : {1.0, 0.4}) {
       keep_better(moved(step, share));
-      if (result_.model.objective < h_.objective - 1.0) break;
+      if (gains()) break;
     }
+    // stated numbers that have given way for it lie along a valley, which bends
+    if (promises_all && !gains() && promised - price > rules::least_bic) fit(evaluation_, result_.model, 3);
     if (candidate_.finite && !candidate_.either_sign) keep_better(with_);
     result_.gain = h_.bic - result_.model.bic;
   }

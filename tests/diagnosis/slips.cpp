@@ -52,6 +52,29 @@ TEST_CASE("the inertia of a load that was forgotten is named, however large it i
   CHECK(std::abs(only_cause(bench, "gear_inertia") / forgotten - 1.0) < 0.03);
 }
 
+TEST_CASE(
+    "an inertia far from what is stated is named, though gain, load and worm inertia give way for it within theirs") {
+  recovery::Plan plan{.conditions = recovery::conditions("realistic"), .cases = 22, .seed = 4201};
+  plan.any_bench = true;
+  recovery::Case drawn = recovery::draw(plan)[21];  // ratio 11: without the inertia time scale does nearly as well
+  drawn.duration = 4.0;
+  const Recording recording = recovery::record(drawn).recording;
+  for (const double factor : {3.0, 6.0, 10.0}) {
+    Scenario sheet = recovery::data_sheet(drawn);
+    auto& mesh = std::get<MeshParameters<double>>(sheet.mesh);
+    auto& arm = std::get<GravityArm>(sheet.load);
+    const double all = mesh.Jg + arm.inertia();
+    arm.amplitude = arm.torque_amplitude();
+    arm.mass = arm.arm = {};
+    mesh.Jg = all / factor;
+    const Diagnosis d = diagnose(sheet, {recording}, {.threads = 2});
+    CAPTURE(factor, d.sentence);
+    REQUIRE(d.causes.size() == 1);
+    CHECK(d.causes[0].effect == "gear_inertia");
+    CHECK(std::abs(d.causes[0].parameters[0].value / (all - mesh.Jg) - 1.0) < 0.05);
+  }
+}
+
 TEST_CASE("an arm that stands at another angle than stated is named, wherever it stands", "[slow]") {
   Bench bench(32);
   std::mt19937_64 generator(32);
